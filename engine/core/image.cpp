@@ -1,0 +1,173 @@
+#include "engine/core/image.h"
+
+#include <fmt/format.h>
+#include <png.h>
+#include <tinyexr.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace ag {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Writes beside the target first, so that a fault never leaves half a file in its place.
+template <class F>
+Status writeWhole(const std::string& path, F&& write) {
+    const std::string temporary = path + ".part";
+    std::error_code error;
+    if (std::string fault = write(temporary); !fault.empty()) {
+        fs::remove(temporary, error);
+        return Error{fmt::format("cannot write {}: {}", path, fault)};
+    }
+    fs::rename(temporary, path, error);
+    if (!error) return Ok{};
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    return Error{fmt::format("cannot write {}: {}", path, error.message())};
+}
+
+Status savePfm(const Image& image, const std::string& path) {
+    static_assert(std::endian::native == std::endian::little);
+    return writeWhole(path, [&](const std::string& file) -> std::string {
+        std::ofstream out(file, std::ios::binary);
+        out << "PF\n" << image.width << ' ' << image.height << "\n-1.0\n";
+        for (int y = image.height - 1; y >= 0; --y)
+            out.write(reinterpret_cast<const char*>(&image.at(0, y)), std::streamsize(sizeof(glm::vec3)) * image.width);
+        out.flush();
+        return out ? "" : "the disk is full or the folder does not exist";
+    });
+}
+
+Status saveExr(const Image& image, const std::string& path) {
+    return writeWhole(path, [&](const std::string& file) -> std::string {
+        const char* message = nullptr;
+        const int result = SaveEXR(&image.pixels[0].x, image.width, image.height, 3, 0, file.c_str(), &message);
+        if (result == TINYEXR_SUCCESS) return "";
+        const std::string text = message ? message : "the disk is full or the folder does not exist";
+        if (message) FreeEXRErrorMessage(message);
+        return text;
+    });
+}
+
+Status savePng(const Image& image, const std::string& path) {
+    std::vector<uint8_t> bytes(image.pixels.size() * 3);
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            bytes[i * 3 + size_t(c)] = uint8_t(std::clamp(image.pixels[i][c], 0.0f, 1.0f) * 255.0f + 0.5f);
+    return writeWhole(path, [&](const std::string& file) -> std::string {
+        png_image png{};
+        png.version = PNG_IMAGE_VERSION;
+        png.width = png_uint_32(image.width);
+        png.height = png_uint_32(image.height);
+        png.format = PNG_FORMAT_RGB;
+        return png_image_write_to_file(&png, file.c_str(), 0, bytes.data(), 0, nullptr) ? "" : png.message;
+    });
+}
+
+Result<Image> loadPfm(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) return Error{path + " cannot be opened"};
+    std::string magic;
+    int width = 0, height = 0;
+    float scale = 0;
+    in >> magic >> width >> height >> scale;
+    constexpr int kMost = 1 << 15;
+    if (!in || magic != "PF" || width <= 0 || height <= 0 || width > kMost || height > kMost || !(scale < 0))
+        return Error{path + " is not a little-endian colour PFM image"};
+    in.get();
+    std::error_code error;
+    const uint64_t bytes = uint64_t(width) * uint64_t(height) * sizeof(glm::vec3);
+    if (fs::file_size(path, error) < bytes || error) return Error{path + " is shorter than its header says"};
+    Image image(width, height);
+    for (int y = height - 1; y >= 0; --y)
+        in.read(reinterpret_cast<char*>(&image.at(0, y)), std::streamsize(sizeof(glm::vec3)) * width);
+    if (!in) return Error{path + " is shorter than its header says"};
+    return image;
+}
+
+Result<Image> loadExr(const std::string& path) {
+    float* rgba = nullptr;
+    int width = 0, height = 0;
+    const char* message = nullptr;
+    if (LoadEXR(&rgba, &width, &height, path.c_str(), &message) != TINYEXR_SUCCESS) {
+        const std::string text = message ? message : "unreadable";
+        if (message) FreeEXRErrorMessage(message);
+        return Error{fmt::format("{} is not a readable EXR image: {}", path, text)};
+    }
+    Image image(width, height);
+    for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
+    free(rgba);
+    return image;
+}
+
+std::string extensionOf(const std::string& path) { return fs::path(path).extension().string(); }
+
+bool finite(const Image& image) {
+    return std::ranges::all_of(image.pixels, [](const glm::vec3& p) {
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+}
+
+}  // namespace
+
+Status saveImage(const Image& image, const std::string& path) {
+    if (image.pixels.empty()) return Error{"cannot write " + path + ": the image is empty"};
+    const std::string extension = extensionOf(path);
+    if (extension == ".exr") return saveExr(image, path);
+    if (extension == ".pfm") return savePfm(image, path);
+    if (extension == ".png") return savePng(image, path);
+    return Error{fmt::format("cannot write {}: the name must end in .exr, .pfm or .png", path)};
+}
+
+Result<Image> loadImage(const std::string& path) {
+    if (!fs::exists(path)) return Error{path + " does not exist"};
+    const std::string extension = extensionOf(path);
+    if (extension == ".exr") return loadExr(path);
+    if (extension == ".pfm") return loadPfm(path);
+    return Error{path + " is neither .exr nor .pfm"};
+}
+
+Result<ImageDifference> compareImages(const Image& truth, const Image& test) {
+    if (truth.width != test.width || truth.height != test.height)
+        return Error{fmt::format("sizes differ: {}x{} and {}x{}", truth.width, truth.height, test.width, test.height)};
+    if (!finite(truth) || !finite(test)) return Error{"an image holds values that are not finite"};
+    glm::dvec3 sumTruth(0), sumTest(0);
+    for (size_t i = 0; i < truth.pixels.size(); ++i) {
+        sumTruth += glm::dvec3(truth.pixels[i]);
+        sumTest += glm::dvec3(test.pixels[i]);
+    }
+    const double count = double(truth.pixels.size()) * 3;
+    const double mean = (sumTruth.x + sumTruth.y + sumTruth.z) / count;
+    const double meanTest = (sumTest.x + sumTest.y + sumTest.z) / count;
+    const double floor = 0.01 * std::max(mean, 1e-30);
+    double squares = 0, relativeSquares = 0;
+    std::vector<float> relative(truth.pixels.size());
+    for (size_t i = 0; i < truth.pixels.size(); ++i) {
+        double difference = 0, level = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double a = truth.pixels[i][c], d = double(test.pixels[i][c]) - a;
+            squares += d * d;
+            relativeSquares += d * d / (a * a + floor * floor * 100);
+            difference += std::abs(d);
+            level += std::abs(a);
+        }
+        relative[i] = float(difference / (level + 3 * floor));
+    }
+    const auto nth = relative.begin() + std::ptrdiff_t(0.99 * double(relative.size() - 1));
+    std::nth_element(relative.begin(), nth, relative.end());
+    ImageDifference result;
+    result.meanRatio = mean > 0 ? meanTest / mean : (meanTest == 0 ? 1 : INFINITY);
+    result.rmse = std::sqrt(squares / count);
+    result.relativeRmse = mean > 0 ? result.rmse / mean : (result.rmse == 0 ? 0 : INFINITY);
+    result.relMse = relativeSquares / count;
+    result.p99 = double(*nth);
+    return result;
+}
+
+}  // namespace ag

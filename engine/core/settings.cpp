@@ -1,0 +1,113 @@
+#include "engine/core/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace ag {
+namespace {
+
+std::string fullName(const Setting& s) { return s.info.group + "." + s.info.name; }
+
+std::optional<double> parseNumber(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<double> parseValue(const Setting& s, std::string_view text) {
+    if (std::holds_alternative<bool*>(s.value)) {
+        if (text == "on" || text == "true" || text == "1") return 1;
+        if (text == "off" || text == "false" || text == "0") return 0;
+        return std::nullopt;
+    }
+    if (s.info.choices.empty()) return parseNumber(text);
+    const auto found = std::ranges::find(s.info.choices, text);
+    if (found == s.info.choices.end()) return std::nullopt;
+    return double(found - s.info.choices.begin());
+}
+
+std::string allowed(const Setting& s) {
+    if (std::holds_alternative<bool*>(s.value)) return "on|off";
+    if (!s.info.choices.empty()) return fmt::format("{}", fmt::join(s.info.choices, "|"));
+    return fmt::format("{:g}..{:g}", s.info.min, s.info.max);
+}
+
+// Letters in common at the same places: enough to offer what was probably meant.
+size_t likeness(std::string_view a, std::string_view b) {
+    size_t same = 0;
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) same += a[i] == b[i];
+    return same;
+}
+
+}  // namespace
+
+double settingValue(const Setting& setting) {
+    return std::visit([](auto* v) { return double(*v); }, setting.value);
+}
+
+std::string settingText(const Setting& s, double value) {
+    if (std::holds_alternative<bool*>(s.value)) return value != 0 ? "on" : "off";
+    if (!s.info.choices.empty()) return s.info.choices[size_t(value)];
+    return fmt::format("{:g}", value);
+}
+
+void Settings::insert(SettingInfo info, std::variant<bool*, int32_t*, uint32_t*, float*> value) {
+    Setting setting{.info = std::move(info), .value = value};
+    setting.defaultValue = settingValue(setting);
+    for (const Setting& known : settings_) AG_CHECK_MSG(fullName(known) != fullName(setting), fullName(setting));
+    settings_.push_back(std::move(setting));
+}
+
+Status Settings::set(std::string_view assignment) {
+    const size_t equals = assignment.find('=');
+    if (equals == std::string_view::npos)
+        return Error{fmt::format("setting '{}' is not of the form group.name=value", assignment)};
+    const std::string_view name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+    const auto found = std::ranges::find_if(settings_, [&](const Setting& s) { return fullName(s) == name; });
+    if (found == settings_.end()) {
+        const auto near = std::ranges::max_element(
+            settings_, {}, [&](const Setting& s) { return likeness(fullName(s), name); });
+        return Error{near == settings_.end()
+                         ? fmt::format("there is no setting '{}'", name)
+                         : fmt::format("there is no setting '{}'; did you mean '{}'?", name, fullName(*near))};
+    }
+    const std::optional<double> value = parseValue(*found, text);
+    if (!value) return Error{fmt::format("setting {} takes {}, not '{}'", name, allowed(*found), text)};
+    const bool number = found->info.choices.empty() && !std::holds_alternative<bool*>(found->value);
+    const bool whole = !number || std::holds_alternative<float*>(found->value) || *value == std::floor(*value);
+    if (number && (*value < found->info.min || *value > found->info.max || !whole))
+        return Error{fmt::format("setting {} takes {}{}, not {}", name, whole ? "" : "a whole number in ",
+                                 allowed(*found), text)};
+    std::visit([&](auto* v) { *v = static_cast<std::remove_reference_t<decltype(*v)>>(*value); }, found->value);
+    return Ok{};
+}
+
+std::string Settings::table() const {
+    std::string out;
+    for (const Setting& s : settings_)
+        out += fmt::format("{:<38} {:<12} {:<32} {:<10} {}\n", fullName(s), settingText(s, s.defaultValue), allowed(s),
+                           s.info.unit, s.info.help);
+    return out;
+}
+
+nlohmann::json Settings::json() const {
+    nlohmann::json out;
+    for (const Setting& s : settings_) {
+        nlohmann::json& slot = out[s.info.group][s.info.name];
+        if (std::holds_alternative<bool*>(s.value))
+            slot = settingValue(s) != 0;
+        else if (!s.info.choices.empty())
+            slot = settingText(s, settingValue(s));
+        else
+            slot = settingValue(s);
+    }
+    return out;
+}
+
+}  // namespace ag

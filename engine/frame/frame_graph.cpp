@@ -1,0 +1,411 @@
+// Declaring a frame: resources, passes, uses. Nothing here touches the device.
+#include "engine/frame/frame_graph.h"
+
+#include <algorithm>
+
+#include "engine/frame/frame_graph_impl.h"
+
+namespace ag {
+
+FrameGraph::FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines) : impl_(new Impl) {
+    AG_CHECK_EQ(device == nullptr, pipelines == nullptr);
+    impl_->device = device;
+    impl_->pipelines = pipelines;
+    if (!device) return;
+    impl_->timer = std::make_unique<FrameTimer>(*device);
+    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                       .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                       .queueFamilyIndex = device->queueFamily()};
+    AG_VK(vkCreateCommandPool(device->handle(), &pool, nullptr, &impl_->ownPool));
+}
+
+FrameGraph::~FrameGraph() {
+    if (!impl_->device) return;
+    const VkDevice device = impl_->device->handle();
+    impl_->device->waitIdle();
+    for (VkDescriptorPool pool : impl_->pools) vkDestroyDescriptorPool(device, pool, nullptr);
+    for (VkSampler sampler : impl_->samplers) vkDestroySampler(device, sampler, nullptr);
+    vkDestroyCommandPool(device, impl_->ownPool, nullptr);
+    impl_->slots.clear();
+    impl_->device->collect();
+    for (AliasBucket& bucket : impl_->buckets)
+        if (bucket.range) impl_->device->memory().free(bucket.range);
+}
+
+void FrameGraph::beginFrame(const FrameGraphOptions& options) {
+    impl_->options = options;
+    ++impl_->frame;
+    impl_->resources.clear();
+    impl_->passes.clear();
+    impl_->uses.clear();
+    impl_->draws.clear();
+    impl_->data.clear();
+}
+
+namespace {
+
+bool same(const ImageInfo& a, const ImageInfo& b) {
+    return a.format == b.format && a.size == b.size && a.mips == b.mips && a.lifetime == b.lifetime;
+}
+
+bool same(const BufferInfo& a, const BufferInfo& b) {
+    return a.sizeBytes == b.sizeBytes && a.texelFormat == b.texelFormat && a.indirect == b.indirect;
+}
+
+}  // namespace
+
+uint32_t FrameGraph::Impl::declare(std::string_view name, bool isImage, const ImageInfo& image,
+                                   const BufferInfo& buffer, bool history) {
+    const uint64_t hash = hashText(name);
+    const auto [entry, added] = slotOfName.try_emplace(hash, uint32_t(slots.size()));
+    if (added) {
+        slots.emplace_back();
+        slots.back().nameHash = hash;
+        slots.back().name = name;
+    }
+    Slot& slot = slots[entry->second];
+    AG_CHECK_MSG(slot.lastFrame != frame, "resource declared twice in a frame: " + slot.name);
+    slot.lastFrame = frame;
+    const bool unchanged = !added && slot.isImage == isImage && slot.isHistory == history &&
+                           (isImage ? same(slot.image, image) : same(slot.buffer, buffer));
+    if (!unchanged) {
+        bucketsStale = bucketsStale || slot.bucket != ~0u || (isImage && image.lifetime == Lifetime::kScratch);
+        retireMemory(slot);
+        slot.isImage = isImage;
+        slot.isHistory = history;
+        slot.image = image;
+        slot.buffer = buffer;
+    }
+    Resource resource{.name = name, .isImage = isImage, .image = image, .buffer = buffer, .slot = entry->second};
+    resources.push_back(resource);
+    return uint32_t(resources.size() - 1);
+}
+
+uint32_t FrameGraph::Impl::import(Resource resource) {
+    AG_CHECK(resource.importVersion != 0);
+    resource.kind = ResourceKind::kImport;
+    resources.push_back(resource);
+    return uint32_t(resources.size() - 1);
+}
+
+ImageHandle FrameGraph::image(std::string_view name, const ImageInfo& info) {
+    return {impl_->declare(name, true, info, {}, false)};
+}
+
+BufferHandle FrameGraph::buffer(std::string_view name, const BufferInfo& info) {
+    return {impl_->declare(name, false, {}, info, false)};
+}
+
+HistoryImage FrameGraph::historyImage(std::string_view name, const ImageInfo& info) {
+    const uint32_t current = impl_->declare(name, true, info, {}, true);
+    Resource previous = impl_->resources[current];
+    previous.kind = ResourceKind::kHistoryPrevious;
+    impl_->resources.push_back(previous);
+    const Slot& slot = impl_->slots[previous.slot];
+    return {{current}, {current + 1}, slot.halves[slot.current].version != 0};
+}
+
+HistoryBuffer FrameGraph::historyBuffer(std::string_view name, const BufferInfo& info) {
+    const uint32_t current = impl_->declare(name, false, {}, info, true);
+    Resource previous = impl_->resources[current];
+    previous.kind = ResourceKind::kHistoryPrevious;
+    impl_->resources.push_back(previous);
+    const Slot& slot = impl_->slots[previous.slot];
+    return {{current}, {current + 1}, slot.halves[slot.current].version != 0};
+}
+
+void FrameGraph::resetHistory(std::string_view name) {
+    const auto found = impl_->slotOfName.find(hashText(name));
+    if (found == impl_->slotOfName.end()) return;
+    Slot& slot = impl_->slots[found->second];
+    for (Memory& half : slot.halves) {
+        half.version = 0;
+        half.needsZero = half.image || half.buffer;
+    }
+    slot.stepKey = 0;
+}
+
+ImageHandle FrameGraph::importImage(std::string_view name, const gpu::Image& image, uint64_t version,
+                                    VkImageLayout layout) {
+    const ImageInfo info{.format = image.desc().format, .size = image.desc().size, .mips = image.desc().mips};
+    return {impl_->import({.name = name,
+                           .isImage = true,
+                           .image = info,
+                           .importedImage = &image,
+                           .importVersion = version,
+                           .outputLayout = layout})};
+}
+
+BufferHandle FrameGraph::importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version) {
+    const BufferInfo info{.sizeBytes = buffer.sizeBytes(), .texelFormat = buffer.desc().texelFormat};
+    return {impl_->import({.name = name, .buffer = info, .importedBuffer = &buffer, .importVersion = version})};
+}
+
+ImageHandle FrameGraph::importImage(std::string_view name, const ImageInfo& info, uint64_t version) {
+    return {impl_->import({.name = name, .isImage = true, .image = info, .importVersion = version})};
+}
+
+BufferHandle FrameGraph::importBuffer(std::string_view name, const BufferInfo& info, uint64_t version) {
+    return {impl_->import({.name = name, .buffer = info, .importVersion = version})};
+}
+
+const ImageInfo& FrameGraph::info(ImageHandle image) const { return impl_->resources[image.index].image; }
+const BufferInfo& FrameGraph::info(BufferHandle buffer) const { return impl_->resources[buffer.index].buffer; }
+
+uint32_t FrameGraph::Impl::statsFor(std::string_view name) {
+    const auto [entry, added] = statsOfName.try_emplace(hashText(name), uint32_t(stats.size()));
+    if (added) stats.push_back({.nameHash = entry->first});
+    return entry->second;
+}
+
+Pass& FrameGraph::Impl::addPass(std::string_view name, PassKind kind) {
+    Pass pass;
+    pass.name = name;
+    pass.kind = kind;
+    pass.firstUse = uint32_t(uses.size());
+    pass.firstDraw = uint32_t(draws.size());
+    pass.stats = statsFor(name);
+    for (const Pass& other : passes) AG_CHECK_MSG(other.stats != pass.stats, "pass added twice: " + std::string(name));
+    passes.push_back(pass);
+    return passes.back();
+}
+
+void FrameGraph::Impl::addUse(const Use& use) {
+    AG_CHECK_LT(use.resource, resources.size());
+    AG_CHECK_MSG(!passes.empty(), "declare a pass first");
+    const Resource& resource = resources[use.resource];
+    AG_CHECK_MSG(!writes(use.kind) || resource.kind == ResourceKind::kOwned,
+                 std::string(resource.name) + " is read-only here");
+    uses.push_back(use);
+    ++passes.back().useCount;
+}
+
+PassBuilder FrameGraph::compute(std::string_view name, std::string_view shader) {
+    impl_->addPass(name, PassKind::kCompute).shader = shader;
+    return PassBuilder(*this);
+}
+
+PassBuilder FrameGraph::fullscreen(std::string_view name, std::string_view fragmentShader) {
+    Pass& pass = impl_->addPass(name, PassKind::kFullscreen);
+    pass.vertexShader = "common/fullscreen.vert";
+    pass.shader = fragmentShader;
+    return PassBuilder(*this);
+}
+
+PassBuilder FrameGraph::raster(std::string_view name, std::string_view vertexShader, std::string_view fragmentShader,
+                               gpu::VertexLayout layout) {
+    Pass& pass = impl_->addPass(name, PassKind::kRaster);
+    pass.vertexShader = vertexShader;
+    pass.shader = fragmentShader;
+    pass.raster.vertexLayout = layout;
+    return PassBuilder(*this);
+}
+
+void FrameGraph::fill(std::string_view name, BufferHandle buffer, uint32_t word) {
+    impl_->addPass(name, PassKind::kFill).fillWord = word;
+    impl_->addUse({.resource = buffer.index, .kind = UseKind::kTransferWrite});
+}
+
+void FrameGraph::upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes) {
+    AG_CHECK_LE(bytes.size(), size_t(65536));
+    AG_CHECK_EQ(bytes.size() % 4, size_t(0));
+    Pass& pass = impl_->addPass(name, PassKind::kUpload);
+    pass.dataOffset = uint32_t(impl_->data.size());
+    pass.dataSize = uint32_t(bytes.size());
+    impl_->data.insert(impl_->data.end(), bytes.begin(), bytes.end());
+    impl_->addUse({.resource = buffer.index, .kind = UseKind::kTransferWrite});
+}
+
+void FrameGraph::copyImage(std::string_view name, ImageHandle from, ImageHandle to) {
+    impl_->addPass(name, PassKind::kCopyImage);
+    impl_->addUse({.resource = from.index, .kind = UseKind::kTransferRead});
+    impl_->addUse({.resource = to.index, .kind = UseKind::kTransferWrite});
+}
+
+void FrameGraph::output(ImageHandle image, VkImageLayout layout) {
+    Resource& resource = impl_->resources[image.index];
+    resource.isOutput = true;
+    resource.outputLayout = layout;
+}
+
+void FrameGraph::output(BufferHandle buffer) { impl_->resources[buffer.index].isOutput = true; }
+
+// --- PassBuilder ---
+
+namespace {
+
+bool isCompute(const Pass& pass) { return pass.kind == PassKind::kCompute; }
+
+}  // namespace
+
+#define AG_PASS (graph_->impl_->passes.back())
+
+PassBuilder& PassBuilder::read(std::string_view name, BufferHandle buffer) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
+    graph_->impl_->addUse({.resource = buffer.index, .kind = kind, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::read(std::string_view name, ImageHandle image) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
+    graph_->impl_->addUse({.resource = image.index, .kind = kind, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::write(std::string_view name, BufferHandle buffer) {
+    graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kComputeWrite, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::write(std::string_view name, ImageHandle image, uint32_t mip) {
+    // One mip of several: the others keep what they hold, so the image as a whole is read and written.
+    const bool whole = graph_->info(image).mips == 1;
+    graph_->impl_->addUse({.resource = image.index,
+                           .kind = whole ? UseKind::kComputeWrite : UseKind::kComputeReadWrite,
+                           .name = name,
+                           .mip = mip,
+                           .wholeImage = false});
+    return *this;
+}
+
+PassBuilder& PassBuilder::readWrite(std::string_view name, BufferHandle buffer) {
+    graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kComputeReadWrite, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::readWrite(std::string_view name, ImageHandle image) {
+    graph_->impl_->addUse(
+        {.resource = image.index, .kind = UseKind::kComputeReadWrite, .name = name, .wholeImage = false});
+    return *this;
+}
+
+PassBuilder& PassBuilder::readPrevious(std::string_view name, const HistoryBuffer& history) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
+    graph_->impl_->addUse({.resource = history.previous.index, .kind = kind, .name = name, .previous = true});
+    return *this;
+}
+
+PassBuilder& PassBuilder::samplePrevious(std::string_view name, const HistoryImage& history, Sampler sampler) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeSample : UseKind::kRasterSample;
+    graph_->impl_->addUse(
+        {.resource = history.previous.index, .kind = kind, .name = name, .sampler = sampler, .previous = true});
+    return *this;
+}
+
+PassBuilder& PassBuilder::sample(std::string_view name, ImageHandle image, Sampler sampler) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeSample : UseKind::kRasterSample;
+    graph_->impl_->addUse({.resource = image.index, .kind = kind, .name = name, .sampler = sampler});
+    return *this;
+}
+
+PassBuilder& PassBuilder::color(ImageHandle image) {
+    gpu::RasterState& raster = AG_PASS.raster;
+    AG_CHECK_LT(raster.colorCount, gpu::kMaxColorTargets);
+    raster.colorFormats[raster.colorCount++] = graph_->info(image).format;
+    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kColorLoad});
+    return *this;
+}
+
+PassBuilder& PassBuilder::colorClear(ImageHandle image, glm::vec4 clear) {
+    color(image);
+    Use& use = graph_->impl_->uses.back();
+    use.kind = UseKind::kColorClear;
+    use.clear = clear;
+    return *this;
+}
+
+PassBuilder& PassBuilder::depth(ImageHandle image) {
+    gpu::RasterState& raster = AG_PASS.raster;
+    raster.depthFormat = graph_->info(image).format;
+    raster.depthTest = raster.depthWrite = true;
+    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kDepthLoad});
+    return *this;
+}
+
+PassBuilder& PassBuilder::depthClear(ImageHandle image, float clear) {
+    depth(image);
+    Use& use = graph_->impl_->uses.back();
+    use.kind = UseKind::kDepthClear;
+    use.clear.x = clear;
+    return *this;
+}
+
+PassBuilder& PassBuilder::depthTestOnly(ImageHandle image) {
+    gpu::RasterState& raster = AG_PASS.raster;
+    raster.depthFormat = graph_->info(image).format;
+    raster.depthTest = true;
+    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kDepthTest});
+    return *this;
+}
+
+PassBuilder& PassBuilder::blend(gpu::BlendMode mode) {
+    AG_PASS.raster.blend = mode;
+    return *this;
+}
+
+PassBuilder& PassBuilder::depthBiasSlope(float slope) {
+    AG_PASS.raster.depthBiasSlope = slope;
+    return *this;
+}
+
+PassBuilder& PassBuilder::pushBytes(std::span<const std::byte> bytes) {
+    AG_CHECK_LE(bytes.size(), AG_PASS.push.size());
+    std::memcpy(AG_PASS.push.data(), bytes.data(), bytes.size());
+    AG_PASS.pushSizeBytes = uint32_t(bytes.size());
+    return *this;
+}
+
+PassBuilder& PassBuilder::spec(uint32_t id, uint32_t value) {
+    AG_CHECK_LT(AG_PASS.specCount, gpu::kMaxSpecConstants);
+    AG_PASS.spec[AG_PASS.specCount++] = {id, value};
+    return *this;
+}
+
+PassBuilder& PassBuilder::step(uint64_t value) { return key(combineHash(1, value)); }
+
+PassBuilder& PassBuilder::key(uint64_t value) {
+    AG_PASS.extraKey = combineHash(AG_PASS.extraKey, value);
+    return *this;
+}
+
+PassBuilder& PassBuilder::dispatchThreads(uint32_t x, uint32_t y, uint32_t z) {
+    AG_PASS.dispatch = {x, y, z};
+    AG_PASS.threads = true;
+    return *this;
+}
+
+PassBuilder& PassBuilder::dispatchGroups(uint32_t x, uint32_t y, uint32_t z) {
+    AG_PASS.dispatch = {x, y, z};
+    return *this;
+}
+
+PassBuilder& PassBuilder::dispatchIndirect(BufferHandle arguments, uint64_t offsetBytes) {
+    AG_PASS.dispatchIndirect = true;
+    AG_PASS.indirectOffset = offsetBytes;
+    graph_->impl_->addUse({.resource = arguments.index, .kind = UseKind::kIndirect});
+    return *this;
+}
+
+PassBuilder& PassBuilder::geometry(const Geometry& geometry) {
+    AG_PASS.geometry = geometry;
+    return *this;
+}
+
+PassBuilder& PassBuilder::draw(const RasterDraw& draw) {
+    FrameGraph::Impl& impl = *graph_->impl_;
+    impl.draws.push_back(draw);
+    ++AG_PASS.drawCount;
+    const auto uses = impl.usesOf(AG_PASS);
+    const bool known = std::ranges::any_of(
+        uses, [&](const Use& u) { return u.resource == draw.commands.index && u.kind == UseKind::kIndirect; });
+    // A draw with a version of its own range stands for the buffer's contents in the key.
+    if (!known)
+        impl.addUse({.resource = draw.commands.index,
+                     .kind = UseKind::kIndirect,
+                     .keyed = draw.commandsVersion == 0});
+    return *this;
+}
+
+#undef AG_PASS
+
+}  // namespace ag

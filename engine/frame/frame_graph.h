@@ -1,0 +1,258 @@
+// The GPU half of "a frame is a build": passes in program order that say what they read and write.
+//
+// From the declarations the graph derives barriers and image layouts, the memory of transients, and what runs:
+//  - Every resource has a content version. An import's version comes from outside; the version of a pass's
+//    output is a hash of the pass's key (its inputs' versions, push data, draws, pipeline) — as in a build
+//    with content keys, and therefore the same from frame to frame when nothing changed.
+//  - Backwards from the outputs of the frame: a pass runs if a running pass (or the outside) needs something it
+//    writes and the memory does not hold that version already. Otherwise it is `skipped` (contents are current) or
+//    `dropped` (nobody needs them).
+//  - A history resource is two halves. A pass that writes `current` and reads `previous` is keyed without
+//    `previous`; it steps only when the rest of its key changed (or its .step() did). Then the halves swap and the
+//    output's version is hash(key, version of previous).
+//
+// Nothing reorders. One queue. A steady frame allocates nothing on the heap: names must be string literals or
+// outlive the graph, and lists keep their capacity from frame to frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "engine/gpu/pipeline.h"
+
+namespace ag {
+
+namespace gpu {
+class Buffer;
+class Device;
+class Image;
+}  // namespace gpu
+
+struct ImageHandle {
+    uint32_t index = ~0u;
+    explicit operator bool() const { return index != ~0u; }
+    bool operator==(const ImageHandle&) const = default;
+};
+
+struct BufferHandle {
+    uint32_t index = ~0u;
+    explicit operator bool() const { return index != ~0u; }
+    bool operator==(const BufferHandle&) const = default;
+};
+
+// kKept contents survive the frame, so that an unchanged pass can be skipped. kScratch images share memory where
+// their uses do not overlap: contents are made again whenever a running pass needs them.
+enum class Lifetime : uint32_t { kKept, kScratch };
+
+struct ImageInfo {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    glm::uvec2 size{1};
+    uint32_t mips = 1;
+    Lifetime lifetime = Lifetime::kKept;
+};
+
+struct BufferInfo {
+    uint64_t sizeBytes = 0;
+    VkFormat texelFormat = VK_FORMAT_UNDEFINED;  // set it to read the buffer as a texel buffer
+    bool indirect = false;
+};
+
+struct HistoryBuffer {
+    BufferHandle current, previous;
+    bool valid = false;  // false: `previous` was never written (first frame, resized, reset): it holds zeroes
+};
+struct HistoryImage {
+    ImageHandle current, previous;
+    bool valid = false;
+};
+
+enum class Sampler : uint32_t { kNearestClamp, kLinearClamp, kLinearRepeat, kTrilinearRepeat };
+
+// One indexed indirect draw range within a raster pass.
+struct RasterDraw {
+    std::array<gpu::SpecConstant, 4> spec{};  // the variant: added to the pass's own constants
+    uint32_t specCount = 0;
+    gpu::CullMode cull = gpu::CullMode::kBack;
+    glm::uvec4 viewport{0};           // x, y, width, height in pixels; all zero: the whole target
+    std::array<std::byte, 128> push{};
+    uint32_t pushSizeBytes = 0;
+    BufferHandle commands;            // VkDrawIndexedIndirectCommand records
+    uint64_t commandsOffsetBytes = 0;
+    uint32_t commandCount = 0;
+    uint64_t commandsVersion = 0;     // version of just this range (0: that of the whole buffer)
+};
+
+// Where a raster pass takes its triangles from.
+struct Geometry {
+    const gpu::Buffer* positions = nullptr;   // vec3
+    const gpu::Buffer* attributes = nullptr;  // vec3 normal, vec4 tangent, vec2 uv; may be null
+    const gpu::Buffer* indices = nullptr;     // uint32
+    uint64_t version = 0;
+};
+
+class FrameGraph;
+
+// Fluent declaration of the pass last added; valid until the next pass is added.
+class PassBuilder {
+  public:
+    // Bound under their GLSL names. A buffer read binds as SSBO, uniform buffer or texel buffer, whichever the
+    // shader declares. Reading, writing and kind are checked against reflection when the pipeline is made.
+    PassBuilder& read(std::string_view name, BufferHandle buffer);
+    PassBuilder& read(std::string_view name, ImageHandle image);  // storage image
+    PassBuilder& write(std::string_view name, BufferHandle buffer);
+    PassBuilder& write(std::string_view name, ImageHandle image, uint32_t mip = 0);
+    PassBuilder& readWrite(std::string_view name, BufferHandle buffer);
+    PassBuilder& readWrite(std::string_view name, ImageHandle image);
+    // The previous half of a history: read, but not part of the key (see the file's head).
+    PassBuilder& readPrevious(std::string_view name, const HistoryBuffer& history);
+    PassBuilder& samplePrevious(std::string_view name, const HistoryImage& history, Sampler sampler);
+    PassBuilder& sample(std::string_view name, ImageHandle image, Sampler sampler = Sampler::kNearestClamp);
+
+    // Attachments, in order of fragment locations. Without a clear value the old contents are loaded.
+    PassBuilder& color(ImageHandle image);
+    PassBuilder& colorClear(ImageHandle image, glm::vec4 clear);
+    PassBuilder& depth(ImageHandle image);
+    PassBuilder& depthClear(ImageHandle image, float clear = 0.0f);  // reversed depth: far is 0
+    PassBuilder& depthTestOnly(ImageHandle image);
+    PassBuilder& blend(gpu::BlendMode mode);
+    PassBuilder& depthBiasSlope(float slope);
+
+    template <class T>
+    PassBuilder& push(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 128);
+        return pushBytes(std::as_bytes(std::span(&value, 1)));
+    }
+    PassBuilder& pushBytes(std::span<const std::byte> bytes);
+    PassBuilder& spec(uint32_t id, uint32_t value);
+    // For passes with history: a number that advances while the pass is to go on stepping with equal inputs.
+    PassBuilder& step(uint64_t value);
+    // Anything else the result depends on that the graph cannot see.
+    PassBuilder& key(uint64_t value);
+
+    // Exactly one of these for a compute pass.
+    PassBuilder& dispatchThreads(uint32_t x, uint32_t y = 1, uint32_t z = 1);
+    PassBuilder& dispatchGroups(uint32_t x, uint32_t y = 1, uint32_t z = 1);
+    PassBuilder& dispatchIndirect(BufferHandle arguments, uint64_t offsetBytes = 0);
+    // Raster passes.
+    PassBuilder& geometry(const Geometry& geometry);
+    PassBuilder& draw(const RasterDraw& draw);
+
+  private:
+    friend class FrameGraph;
+    explicit PassBuilder(FrameGraph& graph) : graph_(&graph) {}
+    FrameGraph* graph_;
+};
+
+enum class PassOutcome : uint8_t { kRan, kSkipped, kDropped };
+
+struct PassReport {
+    std::string_view name;
+    PassOutcome outcome = PassOutcome::kDropped;
+    double gpuMs = 0;   // of the last frame whose timestamps arrived, 0 if it did not run then
+    double cpuMs = 0;   // process CPU time, only in TimingMode::kProcessCpu
+    uint64_t runCount = 0;  // since the graph was made
+};
+
+enum class TimingMode {
+    kTimestamps,  // barrier, timestamp, barrier round every pass
+    kProcessCpu,  // submit and wait per pass, process CPU time around it: the true cost on a CPU device
+    kOff,
+};
+
+// What the graph tells its recorder to do, in order; the null recorder of the tests just keeps these.
+struct BarrierRecord {
+    std::string_view resource;
+    VkPipelineStageFlags2 srcStages, dstStages;
+    VkAccessFlags2 srcAccess, dstAccess;
+    VkImageLayout oldLayout, newLayout;  // UNDEFINED twice for buffers
+};
+struct PassRecord {
+    std::string_view name;
+    std::vector<BarrierRecord> barriers;  // before the pass
+};
+
+struct FrameGraphOptions {
+    bool skip = true;    // engine.skip: false runs every needed pass; images are the same bit for bit
+    bool alias = true;   // scratch resources share memory
+    TimingMode timing = TimingMode::kTimestamps;
+};
+
+class FrameGraph {
+  public:
+    // Null device and library: nothing is recorded or allocated; barriers, placement and skips are still computed
+    // (pipelines then count by shader name).
+    FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines);
+    ~FrameGraph();
+    FrameGraph(const FrameGraph&) = delete;
+    FrameGraph& operator=(const FrameGraph&) = delete;
+
+    // --- Declaring a frame ---
+    void beginFrame(const FrameGraphOptions& options);
+
+    // Names are unique within a frame and identify the resource from frame to frame; a changed info makes it anew.
+    ImageHandle image(std::string_view name, const ImageInfo& info);
+    BufferHandle buffer(std::string_view name, const BufferInfo& info);
+    HistoryImage historyImage(std::string_view name, const ImageInfo& info);
+    HistoryBuffer historyBuffer(std::string_view name, const BufferInfo& info);
+    void resetHistory(std::string_view name);  // e.g. camera cut: `valid` is false in the next frame declared
+
+    // Imports: read-only, owned outside, contents identified by `version` (never 0). `layout` is what the image
+    // is in and stays in.
+    ImageHandle importImage(std::string_view name, const gpu::Image& image, uint64_t version,
+                            VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    BufferHandle importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version);
+    // Null-device variants for tests.
+    ImageHandle importImage(std::string_view name, const ImageInfo& info, uint64_t version);
+    BufferHandle importBuffer(std::string_view name, const BufferInfo& info, uint64_t version);
+
+    const ImageInfo& info(ImageHandle image) const;
+    const BufferInfo& info(BufferHandle buffer) const;
+
+    // --- Passes; `name` is "technique.step" ---
+    PassBuilder compute(std::string_view name, std::string_view shader);
+    PassBuilder fullscreen(std::string_view name, std::string_view fragmentShader);
+    PassBuilder raster(std::string_view name, std::string_view vertexShader, std::string_view fragmentShader,
+                       gpu::VertexLayout layout);
+    void fill(std::string_view name, BufferHandle buffer, uint32_t word);
+    // Host data (at most 64 KiB, copied now) into a buffer; keyed by its bytes.
+    void upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes);
+    void copyImage(std::string_view name, ImageHandle from, ImageHandle to);  // blit with nearest filter if sizes differ
+
+    // What the frame is for: must be current when it ends. An output image is left in `layout`.
+    void output(ImageHandle image, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    void output(BufferHandle buffer);
+
+    // --- Running it ---
+    // Decides what runs and records it. `commands` null: decide only (null recorder). With
+    // TimingMode::kProcessCpu the graph submits by itself and leaves `commands` empty.
+    void execute(VkCommandBuffer commands);
+    // Physical resources behind handles of the frame last executed.
+    const gpu::Image& physical(ImageHandle image) const;
+    const gpu::Buffer& physical(BufferHandle buffer) const;
+    VkImageLayout layoutAfterFrame(ImageHandle image) const;
+    // By name, null if the frame had none: for --view and captures.
+    ImageHandle findImage(std::string_view name) const;
+    BufferHandle findBuffer(std::string_view name) const;
+    std::vector<std::string_view> resourceNames() const;
+
+    // --- What happened ---
+    std::span<const PassReport> report() const;       // in order, of the frame last executed
+    std::span<const PassRecord> nullRecords() const;  // null device only
+    uint64_t transientBytes() const;                  // device memory behind the graph's resources
+    std::string graphviz() const;
+
+  private:
+    friend class PassBuilder;
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ag

@@ -1,0 +1,214 @@
+// The frame graph's inside: what a frame declares, what lasts from frame to frame. Shared by the files beside it only.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <unordered_map>
+
+#include "engine/core/check.h"
+#include "engine/core/hash.h"
+#include "engine/frame/access.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/frame/frame_timer.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/resources.h"
+
+namespace ag {
+
+// What is known of the device's accesses to one piece of memory, also across frames.
+struct SyncState {
+    VkPipelineStageFlags2 writeStages = 0;
+    VkAccessFlags2 writeAccess = 0;
+    VkPipelineStageFlags2 readStages = 0;     // since that write
+    VkPipelineStageFlags2 visibleStages = 0;  // where that write can be seen
+    VkAccessFlags2 visibleAccess = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+// One image or buffer with what it holds.
+struct Memory {
+    std::unique_ptr<gpu::Image> image;
+    std::unique_ptr<gpu::Buffer> buffer;
+    SyncState sync;
+    uint64_t version = 0;    // of the contents; 0: nothing
+    bool needsZero = false;  // histories start as zeroes
+};
+
+// Memory that scratch images share.
+struct AliasBucket {
+    gpu::MemoryRange range;
+    VkMemoryRequirements requirements{};
+    uint32_t lastUser = ~0u;        // slot whose image was used last
+    uint32_t busyUntil = 0;         // while placing: the last pass that uses it
+    std::vector<uint32_t> slots;
+};
+
+// What a name stands for from frame to frame. Histories have two halves, others use the first.
+struct Slot {
+    uint64_t nameHash = 0;
+    std::string name;
+    bool isImage = false, isHistory = false;
+    ImageInfo image;
+    BufferInfo buffer;
+    std::array<Memory, 2> halves;
+    uint32_t current = 0;      // half that holds the newest contents
+    uint64_t stepKey = 0;      // of the step that made them
+    uint64_t lastFrame = 0;    // declared last in
+    uint32_t bucket = ~0u;     // of a scratch image
+    bool fresh = true;         // has no device objects for its info yet
+};
+
+enum class ResourceKind : uint8_t { kOwned, kHistoryPrevious, kImport };
+
+// A resource as this frame declares it.
+struct Resource {
+    std::string_view name;
+    ResourceKind kind = ResourceKind::kOwned;
+    bool isImage = false;
+    ImageInfo image;
+    BufferInfo buffer;
+    uint32_t slot = ~0u;  // of owned resources
+    uint32_t half = 0;    // which of the slot's memories, decided while planning
+    const gpu::Image* importedImage = nullptr;
+    const gpu::Buffer* importedBuffer = nullptr;
+    uint64_t importVersion = 0;
+    bool isOutput = false;
+    VkImageLayout outputLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    // Planning
+    uint64_t version = 0;      // at the current point of the walk
+    bool needed = false;       // the version at the current point is needed by something that runs
+    bool wanted = false;       // or is by something reachable from the outputs
+    bool clobbered = false;    // a running pass writes it
+    uint32_t firstPass = ~0u, lastPass = 0;
+};
+
+struct Use {
+    uint32_t resource = 0;
+    UseKind kind = UseKind::kComputeRead;
+    std::string_view name;  // binding; empty for attachments and the like
+    Sampler sampler = Sampler::kNearestClamp;
+    uint32_t mip = 0;
+    bool wholeImage = true;
+    bool previous = false;      // half of a history: not part of the step's key
+    bool keyed = true;          // false: its version reaches the key another way
+    glm::vec4 clear{0};
+    uint64_t versionAfter = 0;  // of a write
+};
+
+enum class PassKind : uint8_t { kCompute, kFullscreen, kRaster, kFill, kUpload, kCopyImage };
+
+struct Pass {
+    std::string_view name, shader, vertexShader;
+    PassKind kind = PassKind::kCompute;
+    uint32_t firstUse = 0, useCount = 0;
+    uint32_t firstDraw = 0, drawCount = 0;
+    gpu::RasterState raster;
+    std::array<gpu::SpecConstant, gpu::kMaxSpecConstants> spec{};
+    uint32_t specCount = 0;
+    std::array<std::byte, 128> push{};
+    uint32_t pushSizeBytes = 0;
+    uint64_t extraKey = 0;
+    bool threads = false;  // the dispatch counts threads, not groups
+    glm::uvec3 dispatch{0};
+    bool dispatchIndirect = false;
+    uint64_t indirectOffset = 0;
+    Geometry geometry;
+    uint32_t fillWord = 0;
+    uint32_t dataOffset = 0, dataSize = 0;  // upload bytes
+    // Planning
+    const gpu::Pipeline* pipeline = nullptr;
+    uint64_t pipelineKey = 0;
+    bool runs = false, wanted = false;
+    uint32_t stats = 0;
+};
+
+struct PassStats {
+    uint64_t nameHash = 0;
+    double gpuMs = 0, cpuMs = 0;
+    uint64_t runCount = 0;
+    uint64_t checkedPipeline = 0;  // bindings were checked against it
+};
+
+struct FrameGraph::Impl {
+    gpu::Device* device = nullptr;
+    gpu::PipelineLibrary* pipelines = nullptr;
+    FrameGraphOptions options;
+    uint64_t frame = 0;
+
+    // This frame
+    std::vector<Resource> resources;
+    std::vector<Pass> passes;
+    std::vector<Use> uses;
+    std::vector<RasterDraw> draws;
+    std::vector<std::byte> data;
+    std::vector<PassReport> report;
+    std::vector<PassRecord> records;
+    std::vector<uint64_t> stepKeys;  // scratch, by slot
+
+    // From frame to frame
+    std::vector<Slot> slots;
+    std::unordered_map<uint64_t, uint32_t> slotOfName;
+    std::vector<PassStats> stats;
+    std::unordered_map<uint64_t, uint32_t> statsOfName;
+    std::vector<AliasBucket> buckets;
+    bool bucketsStale = false;
+    std::array<VkSampler, 4> samplers{};
+    std::unordered_map<uint64_t, VkDescriptorSet> sets;
+    std::vector<VkDescriptorPool> pools;
+    std::unique_ptr<FrameTimer> timer;
+    VkCommandPool ownPool = VK_NULL_HANDLE;  // TimingMode::kProcessCpu
+    std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
+    std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
+
+    // Declaring (frame_graph.cpp)
+    uint32_t declare(std::string_view name, bool isImage, const ImageInfo& image, const BufferInfo& buffer,
+                     bool history);
+    uint32_t import(Resource resource);
+    Pass& addPass(std::string_view name, PassKind kind);
+    void addUse(const Use& use);
+    uint32_t statsFor(std::string_view name);
+
+    // Planning (frame_graph_plan.cpp)
+    void plan();
+    void resolvePipelines();
+    uint64_t passKey(const Pass& pass, bool withPrevious) const;
+    void walkVersions(bool withPrevious);
+    void chooseHalves();
+    void markWanted();
+    bool markRunning();
+    void commitHistories();
+    Memory* memoryOf(Resource& resource);
+    uint64_t heldVersion(Resource& resource);
+    bool available(Resource& resource, uint64_t version);
+
+    // Device objects (frame_graph_resources.cpp)
+    void createResources();
+    void placeScratch();
+    void retireMemory(Slot& slot);
+    void retireUnused();
+    void zeroNewHistories(VkCommandBuffer commands);
+    VkDescriptorSet descriptorSet(const Pass& pass, const gpu::Pipeline& pipeline);
+    void checkBindings(const Pass& pass, const gpu::Pipeline& pipeline);
+    const gpu::Image& imageOf(const Resource& resource) const;
+    const gpu::Buffer& bufferOf(const Resource& resource) const;
+
+    // Recording (frame_graph_execute.cpp)
+    void synchronize(VkCommandBuffer commands, const Pass& pass, PassRecord* record);
+    void synchronizeOutputs(VkCommandBuffer commands);
+    void addBarrier(Resource& resource, const Access& access, bool discard, PassRecord* record);
+    void flushBarriers(VkCommandBuffer commands);
+    void recordPass(VkCommandBuffer commands, const Pass& pass);
+    void recordCompute(VkCommandBuffer commands, const Pass& pass);
+    void recordRaster(VkCommandBuffer commands, const Pass& pass);
+    void recordTransfer(VkCommandBuffer commands, const Pass& pass);
+    gpu::PipelineRequest requestFor(const Pass& pass, const RasterDraw* draw) const;
+    void finishPass(const Pass& pass);
+
+    std::span<Use> usesOf(const Pass& pass) { return {uses.data() + pass.firstUse, pass.useCount}; }
+    std::span<const Use> usesOf(const Pass& pass) const { return {uses.data() + pass.firstUse, pass.useCount}; }
+    std::span<const RasterDraw> drawsOf(const Pass& pass) const {
+        return {draws.data() + pass.firstDraw, pass.drawCount};
+    }
+};
+
+}  // namespace ag

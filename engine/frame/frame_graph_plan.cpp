@@ -1,0 +1,214 @@
+// Planning a frame: content versions forward, needs backward.
+#include <algorithm>
+
+#include "engine/frame/frame_graph_impl.h"
+
+namespace ag {
+namespace {
+
+uint64_t hashDraw(uint64_t key, const RasterDraw& draw) {
+    for (uint32_t i = 0; i < draw.specCount; ++i)
+        key = combineHash(combineHash(key, draw.spec[i].id), draw.spec[i].value);
+    key = combineHash(key, uint64_t(draw.cull));
+    key = hashValue(draw.viewport, key);
+    key = hashBytes({draw.push.data(), draw.pushSizeBytes}, key);
+    key = combineHash(key, draw.commandCount);
+    return combineHash(key, draw.commandsVersion ? draw.commandsVersion : draw.commandsOffsetBytes);
+}
+
+uint64_t pipelineNameKey(const Pass& pass) {
+    uint64_t key = hashText(pass.shader, hashText(pass.vertexShader));
+    for (uint32_t i = 0; i < pass.specCount; ++i)
+        key = combineHash(combineHash(key, pass.spec[i].id), pass.spec[i].value);
+    return key;
+}
+
+}  // namespace
+
+gpu::PipelineRequest FrameGraph::Impl::requestFor(const Pass& pass, const RasterDraw* draw) const {
+    gpu::PipelineRequest request;
+    request.raster = pass.raster;
+    request.spec = pass.spec;
+    request.specCount = pass.specCount;
+    if (pass.kind == PassKind::kCompute) {
+        request.computeShader = pass.shader;
+        return request;
+    }
+    request.vertexShader = pass.vertexShader;
+    request.fragmentShader = pass.shader;
+    if (!draw) return request;
+    request.raster.cull = draw->cull;
+    for (uint32_t i = 0; i < draw->specCount; ++i) {
+        AG_CHECK_LT(request.specCount, gpu::kMaxSpecConstants);
+        request.spec[request.specCount++] = draw->spec[i];
+    }
+    return request;
+}
+
+// The pass's pipeline, or for draws in variants that of the first one: all share bindings and layout.
+void FrameGraph::Impl::resolvePipelines() {
+    for (Pass& pass : passes) {
+        pass.pipelineKey = pipelineNameKey(pass);
+        const bool shader = pass.kind == PassKind::kCompute || pass.kind == PassKind::kFullscreen ||
+                            (pass.kind == PassKind::kRaster && pass.drawCount > 0);
+        if (!device || !shader) continue;
+        const RasterDraw* draw = pass.kind == PassKind::kRaster ? &draws[pass.firstDraw] : nullptr;
+        pass.pipeline = &pipelines->get(requestFor(pass, draw));
+        pass.pipelineKey = pass.pipeline->id;
+        PassStats& known = stats[pass.stats];
+        if (known.checkedPipeline == pass.pipeline->id) continue;
+        checkBindings(pass, *pass.pipeline);
+        known.checkedPipeline = pass.pipeline->id;
+    }
+}
+
+uint64_t FrameGraph::Impl::passKey(const Pass& pass, bool withPrevious) const {
+    uint64_t key = combineHash(stats[pass.stats].nameHash, pass.pipelineKey);
+    key = hashBytes({pass.push.data(), pass.pushSizeBytes}, key);
+    key = combineHash(combineHash(key, pass.extraKey), pass.fillWord);
+    key = hashValue(pass.dispatch, key);
+    key = combineHash(combineHash(key, pass.indirectOffset), pass.geometry.version);
+    if (pass.dataSize > 0) key = hashBytes({data.data() + pass.dataOffset, pass.dataSize}, key);
+    for (const RasterDraw& draw : drawsOf(pass)) key = hashDraw(key, draw);
+    for (const Use& use : usesOf(pass)) {
+        if (writes(use.kind)) key = hashValue(use.clear, combineHash(key, use.mip));
+        if (readsOld(use.kind) && use.keyed && (withPrevious || !use.previous))
+            key = combineHash(key, resources[use.resource].version);
+    }
+    return key;
+}
+
+// Forward over the passes: what each resource will hold after each of them. Without `previous` for the keys by which
+// histories decide whether to step, with it for the versions proper.
+void FrameGraph::Impl::walkVersions(bool withPrevious) {
+    for (Resource& r : resources) {
+        r.version = r.importVersion;
+        if (r.kind == ResourceKind::kHistoryPrevious && withPrevious)
+            r.version = slots[r.slot].halves[r.half].version;
+    }
+    if (!withPrevious) stepKeys.assign(slots.size(), 0);
+    for (Pass& pass : passes) {
+        const uint64_t key = passKey(pass, withPrevious);
+        uint32_t index = 0;
+        for (Use& use : usesOf(pass)) {
+            Resource& r = resources[use.resource];
+            const bool history = r.slot != ~0u && slots[r.slot].isHistory;
+            if (!withPrevious && history && (use.previous || writes(use.kind)))
+                stepKeys[r.slot] = combineHash(stepKeys[r.slot], key);
+            ++index;
+            if (!writes(use.kind)) continue;
+            use.versionAfter = combineHash(key, index) | 1;  // never 0
+            r.version = use.versionAfter;
+        }
+    }
+}
+
+// A history steps when anything it is made from changed: the halves then change places.
+void FrameGraph::Impl::chooseHalves() {
+    for (Resource& r : resources) {
+        if (r.slot == ~0u || !slots[r.slot].isHistory) continue;
+        const Slot& slot = slots[r.slot];
+        const bool steps = stepKeys[r.slot] != slot.stepKey;
+        const uint32_t current = steps ? 1 - slot.current : slot.current;
+        r.half = r.kind == ResourceKind::kHistoryPrevious ? 1 - current : current;
+    }
+}
+
+Memory* FrameGraph::Impl::memoryOf(Resource& r) {
+    return r.kind == ResourceKind::kImport ? nullptr : &slots[r.slot].halves[r.half];
+}
+
+uint64_t FrameGraph::Impl::heldVersion(Resource& r) {
+    const Memory* memory = memoryOf(r);
+    return memory ? memory->version : r.importVersion;
+}
+
+bool FrameGraph::Impl::available(Resource& r, uint64_t version) {
+    if (r.kind != ResourceKind::kOwned) return true;
+    if (r.clobbered || heldVersion(r) != version) return false;
+    if (!options.alias || slots[r.slot].bucket == ~0u) return true;
+    // Scratch: gone as soon as any sharer is written in this frame.
+    const AliasBucket& bucket = buckets[slots[r.slot].bucket];
+    return std::ranges::none_of(resources, [&](const Resource& other) {
+        return other.clobbered && other.slot != ~0u && slots[other.slot].bucket == slots[r.slot].bucket;
+    }) && (bucket.lastUser == ~0u || bucket.lastUser == r.slot);
+}
+
+void FrameGraph::Impl::markWanted() {
+    for (Resource& r : resources) {
+        r.wanted = r.isOutput;
+        r.clobbered = false;
+    }
+    for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
+        pass->wanted = pass->runs = false;
+        for (const Use& use : usesOf(*pass)) pass->wanted |= writes(use.kind) && resources[use.resource].wanted;
+        if (!pass->wanted) continue;
+        for (const Use& use : usesOf(*pass))
+            if (writes(use.kind) && !readsOld(use.kind)) resources[use.resource].wanted = false;
+        for (const Use& use : usesOf(*pass))
+            if (readsOld(use.kind)) resources[use.resource].wanted = true;
+    }
+}
+
+// One walk backward; true if it found more to run. Running only ever grows, so repeating it ends: a pass that runs
+// overwrites its outputs, which may take away what a later pass counted on.
+bool FrameGraph::Impl::markRunning() {
+    bool changed = false;
+    for (Resource& r : resources) r.needed = r.isOutput;
+    for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
+        bool run = pass->runs || (!options.skip && pass->wanted);
+        for (const Use& use : usesOf(*pass)) {
+            Resource& r = resources[use.resource];
+            if (writes(use.kind) && r.needed) run = run || !available(r, use.versionAfter);
+        }
+        changed = changed || run != pass->runs;
+        pass->runs = run;
+        for (const Use& use : usesOf(*pass)) {
+            Resource& r = resources[use.resource];
+            if (!writes(use.kind)) continue;
+            changed = changed || (run && !r.clobbered);
+            r.clobbered = r.clobbered || run;
+            // What stands before this write is needed only if the write builds on it.
+            r.needed = run ? readsOld(use.kind) : false;
+        }
+        if (!run) continue;
+        for (const Use& use : usesOf(*pass))
+            if (readsOld(use.kind)) resources[use.resource].needed = true;
+    }
+    return changed;
+}
+
+void FrameGraph::Impl::plan() {
+    resolvePipelines();
+    walkVersions(false);
+    chooseHalves();
+    walkVersions(true);
+    for (uint32_t p = 0; p < passes.size(); ++p) {
+        for (const Use& use : usesOf(passes[p])) {
+            Resource& r = resources[use.resource];
+            r.firstPass = std::min(r.firstPass, p);
+            r.lastPass = p;
+        }
+    }
+    for (Resource& r : resources)
+        if (r.isOutput) r.lastPass = uint32_t(passes.size());
+    placeScratch();
+    markWanted();
+    while (markRunning()) {
+    }
+}
+
+// Histories whose writers ran have stepped.
+void FrameGraph::Impl::commitHistories() {
+    for (const Pass& pass : passes) {
+        if (!pass.runs) continue;
+        for (const Use& use : usesOf(pass)) {
+            const Resource& r = resources[use.resource];
+            if (!writes(use.kind) || r.slot == ~0u || !slots[r.slot].isHistory) continue;
+            slots[r.slot].current = r.half;
+            slots[r.slot].stepKey = stepKeys[r.slot];
+        }
+    }
+}
+
+}  // namespace ag

@@ -1,0 +1,75 @@
+// What the graph can say of itself after a frame.
+#include <fmt/format.h>
+
+#include "engine/frame/frame_graph_impl.h"
+
+namespace ag {
+
+const gpu::Image& FrameGraph::physical(ImageHandle image) const {
+    return impl_->imageOf(impl_->resources[image.index]);
+}
+
+const gpu::Buffer& FrameGraph::physical(BufferHandle buffer) const {
+    return impl_->bufferOf(impl_->resources[buffer.index]);
+}
+
+VkImageLayout FrameGraph::layoutAfterFrame(ImageHandle image) const {
+    const Resource& r = impl_->resources[image.index];
+    return r.kind == ResourceKind::kImport ? r.outputLayout : impl_->slots[r.slot].halves[r.half].sync.layout;
+}
+
+ImageHandle FrameGraph::findImage(std::string_view name) const {
+    for (uint32_t i = 0; i < impl_->resources.size(); ++i)
+        if (impl_->resources[i].isImage && impl_->resources[i].name == name) return {i};
+    return {};
+}
+
+BufferHandle FrameGraph::findBuffer(std::string_view name) const {
+    for (uint32_t i = 0; i < impl_->resources.size(); ++i)
+        if (!impl_->resources[i].isImage && impl_->resources[i].name == name) return {i};
+    return {};
+}
+
+std::vector<std::string_view> FrameGraph::resourceNames() const {
+    std::vector<std::string_view> names;
+    for (const Resource& r : impl_->resources)
+        if (r.kind != ResourceKind::kHistoryPrevious) names.push_back(r.name);
+    return names;
+}
+
+std::span<const PassReport> FrameGraph::report() const { return impl_->report; }
+std::span<const PassRecord> FrameGraph::nullRecords() const { return impl_->records; }
+
+uint64_t FrameGraph::transientBytes() const {
+    uint64_t bytes = 0;
+    for (const AliasBucket& bucket : impl_->buckets) bytes += bucket.range.sizeBytes;
+    for (const Slot& slot : impl_->slots) {
+        for (const Memory& half : slot.halves) {
+            if (half.buffer) bytes += half.buffer->sizeBytes();
+            if (!half.image || slot.bucket != ~0u) continue;
+            const gpu::ImageDesc& desc = half.image->desc();
+            for (uint32_t mip = 0; mip < desc.mips; ++mip)
+                bytes += uint64_t(std::max(desc.size.x >> mip, 1u)) * std::max(desc.size.y >> mip, 1u) *
+                         gpu::texelSizeBytes(desc.format);
+        }
+    }
+    return bytes;
+}
+
+std::string FrameGraph::graphviz() const {
+    std::string out = "digraph frame {\n  rankdir=LR;\n  node [shape=box, fontname=sans];\n";
+    for (size_t p = 0; p < impl_->passes.size(); ++p) {
+        const Pass& pass = impl_->passes[p];
+        const char* color = pass.runs ? "palegreen" : pass.wanted ? "lightgrey" : "white";
+        out += fmt::format("  p{} [label=\"{}\", style=filled, fillcolor={}];\n", p, pass.name, color);
+        for (const Use& use : impl_->usesOf(pass)) {
+            if (writes(use.kind)) out += fmt::format("  p{} -> r{};\n", p, use.resource);
+            if (readsOld(use.kind)) out += fmt::format("  r{} -> p{};\n", use.resource, p);
+        }
+    }
+    for (size_t r = 0; r < impl_->resources.size(); ++r)
+        out += fmt::format("  r{} [label=\"{}\", shape=ellipse];\n", r, impl_->resources[r].name);
+    return out + "}\n";
+}
+
+}  // namespace ag

@@ -1,0 +1,65 @@
+#include "engine/frame/frame_timer.h"
+
+#include <utility>
+
+#include "engine/gpu/device.h"
+
+namespace ag {
+
+FrameTimer::FrameTimer(gpu::Device& device) : device_(device), periodNs_(device.info().timestampPeriodNs) {
+    for (Ring& ring : rings_) {
+        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                         .queryCount = 2 * kMaxPasses};
+        AG_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &ring.pool));
+        vkResetQueryPool(device.handle(), ring.pool, 0, 2 * kMaxPasses);
+        ring.tags.reserve(kMaxPasses);
+    }
+    values_.resize(2 * kMaxPasses);
+}
+
+FrameTimer::~FrameTimer() {
+    for (Ring& ring : rings_) vkDestroyQueryPool(device_.handle(), ring.pool, nullptr);
+}
+
+bool FrameTimer::readBack(Ring& ring) {
+    if (ring.tags.empty()) return false;
+    const uint32_t count = 2 * uint32_t(ring.tags.size());
+    return vkGetQueryPoolResults(device_.handle(), ring.pool, 0, count, count * 8, values_.data(), 8,
+                                 VK_QUERY_RESULT_64_BIT) == VK_SUCCESS;
+}
+
+void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
+    vkCmdResetQueryPool(commands, ring.pool, 0, 2 * kMaxPasses);
+    ring.tags.clear();
+    active_ = next_;
+    next_ = (next_ + 1) % rings_.size();
+}
+
+void FrameTimer::stamp(VkCommandBuffer commands, uint32_t query) {
+    const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                               .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
+    vkCmdPipelineBarrier2(commands, &info);
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, rings_[active_].pool, query);
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {
+    Ring& ring = rings_[active_];
+    open_ = periodNs_ != 0 && ring.tags.size() < kMaxPasses;
+    if (!open_) return;
+    stamp(commands, 2 * uint32_t(ring.tags.size()));
+    ring.tags.push_back(tag);
+}
+
+void FrameTimer::end(VkCommandBuffer commands) {
+    if (!std::exchange(open_, false)) return;
+    stamp(commands, 2 * uint32_t(rings_[active_].tags.size()) - 1);
+}
+
+}  // namespace ag

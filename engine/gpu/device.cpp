@@ -1,0 +1,324 @@
+#include "engine/gpu/device.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <vulkan/vk_enum_string_helper.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/core/log.h"
+#include "engine/gpu/device_choice.h"
+
+namespace ag::gpu {
+namespace {
+
+std::atomic<int> gValidationMessages{0};  // of the process: messages also arrive while a device is destroyed
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                         VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
+    if (severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT) {
+        ++gValidationMessages;
+        spdlog::error("validation: {}", data->pMessage);
+    }
+    return VK_FALSE;
+}
+
+bool hasLayer(const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    for (const VkLayerProperties& layer : layers)
+        if (std::strcmp(layer.layerName, name) == 0) return true;
+    return false;
+}
+
+bool hasInstanceExtension(const char* name) {
+    uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    for (const VkExtensionProperties& extension : extensions)
+        if (std::strcmp(extension.extensionName, name) == 0) return true;
+    return false;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(const void* next) {
+    return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+            .pNext = next,
+            .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+            .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+            .pfnUserCallback = onMessage};
+}
+
+std::filesystem::path cacheFile() {
+    if (const char* dir = std::getenv("AFTERGLOW_CACHE_DIR")) return std::filesystem::path(dir) / "pipelines";
+    if (const char* dir = std::getenv("XDG_CACHE_HOME")) return std::filesystem::path(dir) / "afterglow/pipelines";
+    if (const char* home = std::getenv("HOME")) return std::filesystem::path(home) / ".cache/afterglow/pipelines";
+    return {};
+}
+
+std::vector<char> readFile(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+struct Device::Impl {
+    struct Retired {
+        uint64_t value;
+        std::function<void()> destroy;
+    };
+    VkInstance instance = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    DeviceChoice choice;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    VkSemaphore timeline = VK_NULL_HANDLE;
+    VkCommandPool oncePool = VK_NULL_HANDLE;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+    std::unique_ptr<MemoryAllocator> memory;
+    uint64_t submitted = 0;
+    std::deque<Retired> retired;
+    int messagesBefore = 0;
+    bool debugNames = false;
+
+    Status createInstance(const DeviceOptions& options);
+    Status createDevice(const DeviceOptions& options);
+    void createPipelineCache();
+    void savePipelineCache() const;
+};
+
+Status Device::Impl::createInstance(const DeviceOptions& options) {
+    if (volkInitialize() != VK_SUCCESS) return Error{"no Vulkan loader found (Debian package libvulkan1)"};
+    static constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
+    if (options.validation && !hasLayer(kLayer))
+        return Error{"validation was asked for, but its layer is missing (Debian package vulkan-validationlayers)"};
+    std::vector<const char*> extensions;
+    if (options.window) {
+        uint32_t count = 0;
+        const char** needed = glfwGetRequiredInstanceExtensions(&count);
+        if (!needed) return Error{"the window system has no Vulkan surface support"};
+        extensions.assign(needed, needed + count);
+    }
+    debugNames = hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (debugNames) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+
+    const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeaturesEXT validation{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                             .enabledValidationFeatureCount = 1,
+                                             .pEnabledValidationFeatures = &synchronization};
+    const VkDebugUtilsMessengerCreateInfoEXT messenging = messengerInfo(&validation);
+    const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                        .pApplicationName = "Afterglow",
+                                        .pEngineName = "Afterglow",
+                                        .apiVersion = VK_API_VERSION_1_3};
+    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pNext = options.validation ? &messenging : nullptr,
+                                    .pApplicationInfo = &application,
+                                    .enabledLayerCount = options.validation ? 1u : 0u,
+                                    .ppEnabledLayerNames = &kLayer,
+                                    .enabledExtensionCount = uint32_t(extensions.size()),
+                                    .ppEnabledExtensionNames = extensions.data()};
+    if (const VkResult result = vkCreateInstance(&info, nullptr, &instance); result != VK_SUCCESS)
+        return Error{std::string("cannot create a Vulkan instance: ") + string_VkResult(result)};
+    volkLoadInstanceOnly(instance);
+    if (options.validation) {
+        const VkDebugUtilsMessengerCreateInfoEXT own = messengerInfo(nullptr);
+        AG_VK(vkCreateDebugUtilsMessengerEXT(instance, &own, nullptr, &messenger));
+    }
+    return Ok{};
+}
+
+Status Device::Impl::createDevice(const DeviceOptions& options) {
+    if (options.window && glfwCreateWindowSurface(instance, options.window, nullptr, &surface) != VK_SUCCESS)
+        return Error{"cannot create a surface for the window"};
+    auto chosen = chooseDevice(instance, surface, options.deviceName);
+    if (!chosen) return chosen.error();
+    choice = std::move(*chosen);
+    auto opened = openDevice(choice, options.window != nullptr);
+    if (!opened) return opened.error();
+    device = *opened;
+    volkLoadDevice(device);
+    vkGetDeviceQueue(device, choice.queueFamily, 0, &queue);
+    const VkSemaphoreTypeCreateInfo type{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
+                                         .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
+    const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
+    AG_VK(vkCreateSemaphore(device, &semaphore, nullptr, &timeline));
+    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                       .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                       .queueFamilyIndex = choice.queueFamily};
+    AG_VK(vkCreateCommandPool(device, &pool, nullptr, &oncePool));
+    memory = std::make_unique<MemoryAllocator>(choice.physical, device);
+    createPipelineCache();
+    return Ok{};
+}
+
+void Device::Impl::createPipelineCache() {
+    const std::vector<char> data = readFile(cacheFile());  // the driver checks the header itself
+    VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
+                                   .initialDataSize = data.size(),
+                                   .pInitialData = data.data()};
+    AG_VK(vkCreatePipelineCache(device, &info, nullptr, &pipelineCache));
+}
+
+void Device::Impl::savePipelineCache() const {
+    size_t size = 0;
+    vkGetPipelineCacheData(device, pipelineCache, &size, nullptr);
+    std::vector<char> data(size);
+    if (size == 0 || vkGetPipelineCacheData(device, pipelineCache, &size, data.data()) != VK_SUCCESS) return;
+    const std::filesystem::path path = cacheFile();
+    if (path.empty() || readFile(path) == data) return;
+    std::error_code ignored;  // a cache that cannot be written is only slower
+    std::filesystem::create_directories(path.parent_path(), ignored);
+    const std::filesystem::path temporary = path.string() + ".new";
+    if (std::ofstream out(temporary, std::ios::binary); !out.write(data.data(), std::streamsize(size))) return;
+    std::filesystem::rename(temporary, path, ignored);
+}
+
+Device::Device() : impl_(std::make_unique<Impl>()) {}
+
+Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
+    std::unique_ptr<Device> device(new Device);
+    device->impl_->messagesBefore = gValidationMessages;
+    if (Status made = device->impl_->createInstance(options); !made) return made.error();
+    if (Status made = device->impl_->createDevice(options); !made) return made.error();
+    return device;
+}
+
+Device::~Device() {
+    Impl& d = *impl_;
+    if (d.device) {
+        waitIdle();
+        collect();
+        d.savePipelineCache();
+        vkDestroyPipelineCache(d.device, d.pipelineCache, nullptr);
+        vkDestroyCommandPool(d.device, d.oncePool, nullptr);
+        vkDestroySemaphore(d.device, d.timeline, nullptr);
+        d.memory.reset();
+        vkDestroyDevice(d.device, nullptr);
+    }
+    if (d.surface) vkDestroySurfaceKHR(d.instance, d.surface, nullptr);
+    if (d.messenger) vkDestroyDebugUtilsMessengerEXT(d.instance, d.messenger, nullptr);
+    if (d.instance) vkDestroyInstance(d.instance, nullptr);
+}
+
+VkInstance Device::instance() const { return impl_->instance; }
+VkPhysicalDevice Device::physical() const { return impl_->choice.physical; }
+VkDevice Device::handle() const { return impl_->device; }
+VkQueue Device::queue() const { return impl_->queue; }
+uint32_t Device::queueFamily() const { return impl_->choice.queueFamily; }
+VkSurfaceKHR Device::surface() const { return impl_->surface; }
+VkPipelineCache Device::pipelineCache() const { return impl_->pipelineCache; }
+const DeviceInfo& Device::info() const { return impl_->choice.info; }
+MemoryAllocator& Device::memory() { return *impl_->memory; }
+
+uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore waitBinary, VkSemaphore signalBinary) {
+    const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                           .commandBuffer = commands};
+    const VkSemaphoreSubmitInfo wait{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                     .semaphore = waitBinary,
+                                     .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+    const VkSemaphoreSubmitInfo signals[] = {{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                              .semaphore = impl_->timeline,
+                                              .value = ++impl_->submitted,
+                                              .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT},
+                                             {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+                                              .semaphore = signalBinary,
+                                              .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT}};
+    const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                             .waitSemaphoreInfoCount = waitBinary ? 1u : 0u,
+                             .pWaitSemaphoreInfos = &wait,
+                             .commandBufferInfoCount = commands ? 1u : 0u,
+                             .pCommandBufferInfos = &buffer,
+                             .signalSemaphoreInfoCount = signalBinary ? 2u : 1u,
+                             .pSignalSemaphoreInfos = signals};
+    AG_VK(vkQueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE));
+    return impl_->submitted;
+}
+
+uint64_t Device::completedValue() const {
+    uint64_t value = 0;
+    AG_VK(vkGetSemaphoreCounterValue(impl_->device, impl_->timeline, &value));
+    return value;
+}
+
+uint64_t Device::submittedValue() const { return impl_->submitted; }
+
+void Device::waitFor(uint64_t timelineValue) {
+    const VkSemaphoreWaitInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
+                                   .semaphoreCount = 1,
+                                   .pSemaphores = &impl_->timeline,
+                                   .pValues = &timelineValue};
+    AG_VK(vkWaitSemaphores(impl_->device, &info, UINT64_MAX));
+}
+
+void Device::waitIdle() { AG_VK(vkDeviceWaitIdle(impl_->device)); }
+
+void Device::retire(std::function<void()> destroy) {
+    impl_->retired.push_back({impl_->submitted, std::move(destroy)});
+}
+
+void Device::collect() {
+    if (impl_->retired.empty()) return;
+    const uint64_t done = completedValue();
+    while (!impl_->retired.empty() && impl_->retired.front().value <= done) {
+        const std::function<void()> destroy = std::move(impl_->retired.front().destroy);
+        impl_->retired.pop_front();
+        destroy();
+    }
+}
+
+void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
+    const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                           .commandPool = impl_->oncePool,
+                                           .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                           .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    AG_VK(vkAllocateCommandBuffers(impl_->device, &info, &commands));
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    AG_VK(vkBeginCommandBuffer(commands, &begin));
+    record(commands);
+    // What was written becomes visible to the host: waiting alone does not make it so.
+    const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                  .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                  .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                  .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                  .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
+    vkCmdPipelineBarrier2(commands, &dependency);
+    AG_VK(vkEndCommandBuffer(commands));
+    waitFor(submit(commands));
+    vkFreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
+}
+
+int Device::validationMessageCount() const { return gValidationMessages - impl_->messagesBefore; }
+int totalValidationMessages() { return gValidationMessages; }
+
+void Device::setDebugName(VkObjectType type, uint64_t handle, const std::string& name) {
+    if (!impl_->debugNames || name.empty()) return;
+    const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                             .objectType = type,
+                                             .objectHandle = handle,
+                                             .pObjectName = name.c_str()};
+    vkSetDebugUtilsObjectNameEXT(impl_->device, &info);
+}
+
+void checkVk(VkResult result, const char* call) {
+    if (result >= 0) return;  // success codes such as VK_INCOMPLETE are the caller's business
+    spdlog::critical("{} failed: {}", call, string_VkResult(result));
+    std::abort();
+}
+
+}  // namespace ag::gpu

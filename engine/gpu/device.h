@@ -1,0 +1,90 @@
+// One Vulkan 1.3 device with one queue (graphics, compute, transfer). Loaded through volk.
+// Required features: dynamicRendering, synchronization2, timelineSemaphore, scalarBlockLayout,
+// hostQueryReset, multiDrawIndirect, drawIndirectFirstInstance; subgroup shuffle, ballot and arithmetic in compute. bufferDeviceAddress stays off so that RenderDoc can capture on lavapipe.
+#pragma once
+
+#include <volk.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gpu/memory.h"
+
+struct GLFWwindow;
+
+namespace ag::gpu {
+
+struct DeviceOptions {
+    bool validation = false;      // core and synchronization validation; messages are counted
+    GLFWwindow* window = nullptr; // null: headless, no surface or swapchain extension
+    std::string deviceName;       // part of a device name to prefer; empty: discrete, integrated, then CPU
+};
+
+struct DeviceInfo {
+    std::string name;             // "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driver;           // driver name and version
+    uint32_t apiVersion = 0;
+    uint32_t subgroupSize = 0;
+    float timestampPeriodNs = 0;  // 0: no timestamps
+    bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
+    VkPhysicalDeviceLimits limits{};
+    std::vector<std::string> enabled;    // feature and extension names switched on
+    std::vector<std::string> missing;    // "name: what is done without it"
+};
+
+class Device {
+  public:
+    static Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    VkInstance instance() const;
+    VkPhysicalDevice physical() const;
+    VkDevice handle() const;
+    VkQueue queue() const;
+    uint32_t queueFamily() const;
+    VkSurfaceKHR surface() const;  // null when headless
+    VkPipelineCache pipelineCache() const;
+    const DeviceInfo& info() const;
+
+    MemoryAllocator& memory();
+
+    // The one timeline of submitted work: submit() signals the next value and returns it.
+    // `waitBinary`/`signalBinary`: swapchain semaphores, may be null.
+    uint64_t submit(VkCommandBuffer commands, VkSemaphore waitBinary = VK_NULL_HANDLE,
+                    VkSemaphore signalBinary = VK_NULL_HANDLE);
+    uint64_t completedValue() const;
+    uint64_t submittedValue() const;
+    void waitFor(uint64_t timelineValue);  // fatal on device loss
+    void waitIdle();
+
+    // Runs `destroy` once all work submitted so far has finished (checked in collect()).
+    void retire(std::function<void()> destroy);
+    void collect();
+
+    // Records with `record`, submits and waits: for loading and tests.
+    void runOnce(const std::function<void(VkCommandBuffer)>& record);
+
+    // Warnings and errors of the validation layers so far (also those while creating the device).
+    int validationMessageCount() const;
+    void setDebugName(VkObjectType type, uint64_t handle, const std::string& name);
+
+  private:
+    Device();
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// Validation messages of all devices ever made in this process, also those reported while one is destroyed.
+int totalValidationMessages();
+
+// Fatal with the call's text and the result's name: a Vulkan call that fails is not recoverable here.
+void checkVk(VkResult result, const char* call);
+#define AG_VK(call) ::ag::gpu::checkVk((call), #call)
+
+}  // namespace ag::gpu

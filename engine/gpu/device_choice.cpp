@@ -1,0 +1,151 @@
+#include "engine/gpu/device_choice.h"
+
+#include <array>
+#include <cstring>
+#include <optional>
+
+namespace ag::gpu {
+namespace {
+
+// Vulkan's feature structs, chained. Kept together so that asking and enabling use one list.
+struct Features {
+    VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    Features() {
+        core.pNext = &v12;
+        v12.pNext = &v13;
+    }
+    Features(const Features&) = delete;
+    Features& operator=(const Features&) = delete;
+};
+
+struct RequiredFeature {
+    const char* name;
+    VkBool32& (*field)(Features&);
+};
+
+#define AG_FEATURE(part, member) \
+    RequiredFeature { #member, [](Features& f) -> VkBool32& { return f.part.member; } }
+
+const std::array kRequired = {AG_FEATURE(core.features, multiDrawIndirect),
+                              AG_FEATURE(core.features, drawIndirectFirstInstance),
+                              AG_FEATURE(v12, timelineSemaphore),
+                              AG_FEATURE(v12, scalarBlockLayout),
+                              AG_FEATURE(v12, hostQueryReset),
+                              AG_FEATURE(v13, dynamicRendering),
+                              AG_FEATURE(v13, synchronization2),
+                              AG_FEATURE(v13, maintenance4)};
+
+std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical, VkSurfaceKHR surface) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    for (uint32_t i = 0; i < count; ++i) {
+        constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+        VkBool32 presents = surface == VK_NULL_HANDLE;
+        if (surface) vkGetPhysicalDeviceSurfaceSupportKHR(physical, i, surface, &presents);
+        if ((families[i].queueFlags & kNeeded) == kNeeded && presents) return i;
+    }
+    return std::nullopt;
+}
+
+DeviceInfo describe(VkPhysicalDevice physical) {
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
+                                            .pNext = &subgroup};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    DeviceInfo info;
+    info.name = properties.properties.deviceName;
+    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.apiVersion = properties.properties.apiVersion;
+    info.subgroupSize = subgroup.subgroupSize;
+    info.limits = properties.properties.limits;
+    info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info.timestampPeriodNs = info.limits.timestampComputeAndGraphics ? info.limits.timestampPeriod : 0;
+    constexpr VkSubgroupFeatureFlags kSubgroup = VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
+                                                 VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    const bool has = (subgroup.supportedOperations & kSubgroup) == kSubgroup &&
+                     (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
+    (has ? info.enabled : info.missing).push_back("subgroup shuffle, ballot and arithmetic");
+    return info;
+}
+
+// Fills enabled and missing with the required features.
+void listFeatures(VkPhysicalDevice physical, DeviceInfo& info) {
+    if (info.apiVersion < VK_API_VERSION_1_3) {
+        info.missing.push_back("Vulkan 1.3");
+        return;
+    }
+    Features has;
+    vkGetPhysicalDeviceFeatures2(physical, &has.core);
+    for (const RequiredFeature& feature : kRequired)
+        (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
+}
+
+int score(VkPhysicalDevice physical, const DeviceInfo& info, const std::string& preferredName) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    int points = 1;
+    if (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU) points = 3;
+    if (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU) points = 2;
+    if (!preferredName.empty() && info.name.find(preferredName) != std::string::npos) points += 10;
+    return points;
+}
+
+}  // namespace
+
+Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName) {
+    uint32_t count = 0;
+    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    std::vector<VkPhysicalDevice> devices(count);
+    vkEnumeratePhysicalDevices(instance, &count, devices.data());
+    DeviceChoice best;
+    int bestScore = 0;
+    std::string lacks;
+    for (VkPhysicalDevice physical : devices) {
+        DeviceChoice choice{.physical = physical, .info = describe(physical)};
+        listFeatures(physical, choice.info);
+        const auto family = findQueueFamily(physical, surface);
+        if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");
+        if (!choice.info.missing.empty()) {
+            lacks += " " + choice.info.name + " lacks " + choice.info.missing.front() + ";";
+            continue;
+        }
+        choice.queueFamily = *family;
+        if (const int points = score(physical, choice.info, preferredName); points > bestScore) {
+            bestScore = points;
+            best = std::move(choice);
+        }
+    }
+    if (bestScore > 0) return best;
+    if (devices.empty())
+        return Error{"no Vulkan device found (on Debian, mesa-vulkan-drivers brings a software device)"};
+    return Error{"no usable Vulkan 1.3 device:" + lacks};
+}
+
+Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain) {
+    Features features;
+    for (const RequiredFeature& feature : kRequired) feature.field(features) = VK_TRUE;
+    const float priority = 1;
+    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                        .queueFamilyIndex = choice.queueFamily,
+                                        .queueCount = 1,
+                                        .pQueuePriorities = &priority};
+    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features.core,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = withSwapchain ? 1u : 0u,
+                                  .ppEnabledExtensionNames = &swapchain};
+    VkDevice device = VK_NULL_HANDLE;
+    const VkResult result = vkCreateDevice(choice.physical, &info, nullptr, &device);
+    if (result != VK_SUCCESS)
+        return Error{"cannot open " + choice.info.name + " (Vulkan error " + std::to_string(result) + ")"};
+    return device;
+}
+
+}  // namespace ag::gpu

@@ -1,0 +1,20 @@
+// Picking a physical device and the features it is opened with.
+#pragma once
+
+#include "engine/gpu/device.h"
+
+namespace ag::gpu {
+
+struct DeviceChoice {
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    uint32_t queueFamily = 0;
+    DeviceInfo info;
+};
+
+// The best device that has everything required; otherwise a sentence saying what each one lacks.
+Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName);
+
+// Device with one queue of the chosen family and the required features.
+Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain);
+
+}  // namespace ag::gpu

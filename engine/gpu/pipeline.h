@@ -1,0 +1,94 @@
+// Pipelines made from shaders on first request and kept: one per (shaders, specialisation, target formats, state).
+#pragma once
+
+#include <volk.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gpu/shader.h"
+
+namespace ag::gpu {
+
+class Device;
+
+struct SpecConstant {
+    uint32_t id = 0;
+    uint32_t value = 0;  // bit pattern
+};
+
+constexpr size_t kMaxSpecConstants = 8;
+constexpr size_t kMaxColorTargets = 4;
+
+// Ids every shader may declare; filled in from the device.
+constexpr uint32_t kSpecSubgroupSize = 100;   // uint: lanes of a subgroup
+constexpr uint32_t kSpecLaneParallel = 101;   // bool: load one light a lane and shuffle (CPU devices)
+
+enum class CullMode : uint32_t { kNone, kBack };
+enum class BlendMode : uint32_t { kNone, kAlpha };
+enum class VertexLayout : uint32_t {
+    kNone,           // full-screen triangle, vertices from gl_VertexIndex
+    kPositions,      // binding 0: vec3 position
+    kPositionsAndAttributes,  // + binding 1: vec3 normal, vec4 tangent, vec2 uv (36 bytes)
+    kImGui,          // binding 0: vec2 position, vec2 uv, unorm8x4 colour (20 bytes)
+};
+
+struct RasterState {
+    VertexLayout vertexLayout = VertexLayout::kNone;
+    CullMode cull = CullMode::kNone;
+    BlendMode blend = BlendMode::kNone;
+    bool depthTest = false;   // reversed depth: nearer is greater
+    bool depthWrite = false;
+    float depthBiasSlope = 0; // for shadow maps; reversed depth, so negative pushes away
+    std::array<VkFormat, kMaxColorTargets> colorFormats{};
+    uint32_t colorCount = 0;
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+};
+
+struct PipelineRequest {
+    std::string_view computeShader;   // either this,
+    std::string_view vertexShader;    // or these two (fragment may be empty: depth only)
+    std::string_view fragmentShader;
+    RasterState raster;
+    std::array<SpecConstant, kMaxSpecConstants> spec{};
+    uint32_t specCount = 0;
+};
+
+struct Pipeline {
+    VkPipeline handle = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // everything lives in set 0
+    VkPipelineBindPoint bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
+    VkShaderStageFlags pushStages = 0;
+    uint32_t pushSizeBytes = 0;
+    glm::uvec3 workgroupSize{1};
+    std::vector<ShaderBinding> bindings;  // of all stages, merged by name
+    uint64_t id = 0;                      // identifies shader bytes and state: part of a pass's key
+};
+
+VkDescriptorType descriptorType(BindingKind kind);
+
+class PipelineLibrary {
+  public:
+    explicit PipelineLibrary(Device& device);
+    ~PipelineLibrary();
+    PipelineLibrary(const PipelineLibrary&) = delete;
+    PipelineLibrary& operator=(const PipelineLibrary&) = delete;
+
+    // No allocation when the pipeline already exists. Fatal with the shader's name if it cannot be made.
+    const Pipeline& get(const PipelineRequest& request);
+    // Drops pipelines whose SPIR-V changed on disk since they were made; returns how many. A shader that
+    // no longer loads keeps its old pipeline and is reported through `errors`.
+    int reloadChanged(std::vector<std::string>* errors);
+    size_t size() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ag::gpu

@@ -1,0 +1,106 @@
+// Buffers and images with their memory. Plain owners: destroying one frees it at once, so the caller makes sure
+// the device no longer uses it (FrameGraph retires its own through Device::retire).
+#pragma once
+
+#include <volk.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <glm/vec2.hpp>
+
+#include "engine/gpu/memory.h"
+
+namespace ag::gpu {
+
+class Device;
+
+struct BufferDesc {
+    std::string name;
+    uint64_t sizeBytes = 0;
+    bool hostVisible = false;     // mapped for the CPU: staging, readback, per-frame uploads
+    bool indirect = false;        // may feed draw or dispatch indirect
+    bool vertexOrIndex = false;   // may be bound as vertex or index buffer
+    VkFormat texelFormat = VK_FORMAT_UNDEFINED;  // with a format: also readable as a texel buffer
+};
+
+// Every buffer can be a storage buffer and a transfer source and destination.
+class Buffer {
+  public:
+    Buffer(Device& device, const BufferDesc& desc);
+    ~Buffer();
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+
+    VkBuffer handle() const { return handle_; }
+    uint64_t id() const { return id_; }  // never used again in this process, unlike the handle
+    const BufferDesc& desc() const { return desc_; }
+    uint64_t sizeBytes() const { return desc_.sizeBytes; }
+    std::byte* mapped() const { return mapped_; }  // null unless hostVisible
+    // Texel view over the whole buffer in desc.texelFormat; null without a format.
+    VkBufferView texelView() const { return texelView_; }
+
+  private:
+    Device& device_;
+    BufferDesc desc_;
+    uint64_t id_;
+    VkBuffer handle_ = VK_NULL_HANDLE;
+    VkBufferView texelView_ = VK_NULL_HANDLE;
+    MemoryRange memory_;
+    std::byte* mapped_ = nullptr;
+};
+
+struct ImageDesc {
+    std::string name;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    glm::uvec2 size{0};
+    uint32_t layers = 1;
+    uint32_t mips = 1;
+    bool array = false;  // view type 2D array even with one layer
+};
+
+bool isDepthFormat(VkFormat format);
+// A bare image without memory, and what memory it would need: for placing several in one range.
+VkImage makeImage(Device& device, const ImageDesc& desc);
+VkMemoryRequirements imageRequirements(Device& device, const ImageDesc& desc);
+
+// Usage flags are everything the format allows among sampled, storage, attachment and transfer.
+class Image {
+  public:
+    // `memory`: where to place it; null takes memory of its own. Aliased images share one range.
+    Image(Device& device, const ImageDesc& desc, const MemoryRange* memory = nullptr);
+    ~Image();
+    Image(const Image&) = delete;
+    Image& operator=(const Image&) = delete;
+
+    VkImage handle() const { return handle_; }
+    uint64_t id() const { return id_; }
+    VkImageView view() const { return view_; }  // all mips and layers
+    VkImageView mipView(uint32_t mip) const;    // one mip, all layers; made at construction
+    const ImageDesc& desc() const { return desc_; }
+    VkImageAspectFlags aspect() const;
+
+  private:
+    Device& device_;
+    ImageDesc desc_;
+    uint64_t id_;
+    VkImage handle_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
+    std::unique_ptr<VkImageView[]> mipViews_;
+    MemoryRange memory_;  // empty where the memory is the caller's
+};
+
+// Blocking uploads and downloads, for loading and for tests: stages, submits, waits.
+void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset = 0);
+void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> bytes, uint64_t offset = 0);
+// Texels of mip 0 of one layer, tightly packed rows; fills the remaining mips by blits when `makeMips`.
+// Leaves the image in SHADER_READ_ONLY_OPTIMAL.
+void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels, bool makeMips);
+// `layout`: the layout the image is in, and is left in.
+void downloadImage(Device& device, const Image& image, VkImageLayout layout, std::span<std::byte> texels);
+uint32_t texelSizeBytes(VkFormat format);
+
+}  // namespace ag::gpu

@@ -1,0 +1,60 @@
+// SPIR-V loaded from the build's shader folder, with what reflection says of its interface.
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/core/result.h"
+
+namespace ag::gpu {
+
+enum class BindingKind {
+    kUniformBuffer,
+    kStorageBuffer,
+    kUniformTexelBuffer,
+    kStorageTexelBuffer,
+    kSampledImage,  // combined image sampler
+    kStorageImage,
+};
+
+struct ShaderBinding {
+    std::string name;  // GLSL name: of the block's instance if it has one, else of the block or variable
+    BindingKind kind;
+    uint32_t set = 0;
+    uint32_t binding = 0;
+    bool reads = true;    // false: declared writeonly
+    bool writes = false;  // false: declared readonly, or a kind that cannot be written
+};
+
+struct StructMember {
+    std::string name;
+    uint32_t offset = 0;     // bytes
+    uint32_t sizeBytes = 0;  // declared size; for a runtime array: its stride
+};
+
+struct ShaderStruct {  // for the tests that hold io headers against the compiled shaders
+    std::string name;
+    std::vector<StructMember> members;
+};
+
+struct ShaderModule {
+    std::string path;  // "val_clustering/assign_texels.comp"
+    VkShaderStageFlagBits stage;
+    std::vector<uint32_t> spirv;
+    std::vector<ShaderBinding> bindings;
+    uint32_t pushSizeBytes = 0;
+    glm::uvec3 workgroupSize{1};
+    std::vector<uint32_t> specConstantIds;
+    std::vector<ShaderStruct> structs;
+};
+
+// Reads `<AFTERGLOW_SHADER_DIR>/<path>.spv` and reflects it.
+Result<ShaderModule> loadShader(const std::string& path);
+Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv);
+
+}  // namespace ag::gpu

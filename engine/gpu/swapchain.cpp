@@ -1,0 +1,130 @@
+#include "engine/gpu/swapchain.h"
+
+#include <algorithm>
+
+#include "engine/gpu/device.h"
+
+namespace ag::gpu {
+namespace {
+
+VkSemaphore makeSemaphore(Device& device) {
+    const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    AG_VK(vkCreateSemaphore(device.handle(), &info, nullptr, &semaphore));
+    return semaphore;
+}
+
+}  // namespace
+
+Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count, nullptr);
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count, formats.data());
+    // UNORM: the display image is sRGB-encoded already.
+    const auto found = std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& f) {
+        return f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM;
+    });
+    if (found != formats.end()) {
+        format_ = found->format;
+        colorSpace_ = found->colorSpace;
+    }
+    vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count, nullptr);
+    std::vector<VkPresentModeKHR> modes(count);
+    vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count, modes.data());
+    if (std::ranges::find(modes, VK_PRESENT_MODE_MAILBOX_KHR) != modes.end())
+        presentMode_ = VK_PRESENT_MODE_MAILBOX_KHR;
+    create(size);
+}
+
+Swapchain::~Swapchain() {
+    device_.waitIdle();
+    destroyImages();
+    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+}
+
+void Swapchain::destroyImages() {
+    for (VkSemaphore s : rendered_) vkDestroySemaphore(device_.handle(), s, nullptr);
+    for (VkSemaphore s : acquired_) vkDestroySemaphore(device_.handle(), s, nullptr);
+    rendered_.clear();
+    acquired_.clear();
+    images_.clear();
+}
+
+void Swapchain::create(glm::uvec2 wanted) {
+    VkSurfaceCapabilitiesKHR caps;
+    AG_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), device_.surface(), &caps));
+    VkExtent2D extent = caps.currentExtent;
+    if (extent.width == UINT32_MAX)
+        extent = {std::clamp(wanted.x, caps.minImageExtent.width, caps.maxImageExtent.width),
+                  std::clamp(wanted.y, caps.minImageExtent.height, caps.maxImageExtent.height)};
+    requested_ = wanted;
+    size_ = {extent.width, extent.height};
+    stale_ = false;
+    if (size_.x == 0 || size_.y == 0) return;  // minimised
+
+    device_.waitIdle();
+    destroyImages();
+    const uint32_t most = caps.maxImageCount ? caps.maxImageCount : UINT32_MAX;
+    const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
+                                        .surface = device_.surface(),
+                                        .minImageCount = std::min(std::max(caps.minImageCount, 3u), most),
+                                        .imageFormat = format_,
+                                        .imageColorSpace = colorSpace_,
+                                        .imageExtent = extent,
+                                        .imageArrayLayers = 1,
+                                        .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                      VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                        .preTransform = caps.currentTransform,
+                                        .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
+                                        .presentMode = presentMode_,
+                                        .clipped = VK_TRUE,
+                                        .oldSwapchain = handle_};
+    VkSwapchainKHR fresh = VK_NULL_HANDLE;
+    AG_VK(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh));
+    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    handle_ = fresh;
+    uint32_t count = 0;
+    vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr);
+    images_.resize(count);
+    vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data());
+    for (uint32_t i = 0; i < count; ++i) rendered_.push_back(makeSemaphore(device_));
+    for (uint32_t i = 0; i <= count; ++i) acquired_.push_back(makeSemaphore(device_));
+    nextAcquire_ = 0;
+}
+
+std::optional<SwapchainImage> Swapchain::acquire(glm::uvec2 windowSize) {
+    if (windowSize.x == 0 || windowSize.y == 0) return std::nullopt;
+    if (stale_ || windowSize != requested_) create(windowSize);
+    for (int attempt = 0; attempt < 2 && size_.x > 0 && size_.y > 0; ++attempt) {
+        const VkSemaphore acquired = acquired_[nextAcquire_];
+        uint32_t index = 0;
+        const VkResult result =
+            vkAcquireNextImageKHR(device_.handle(), handle_, UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
+        if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+            create(windowSize);
+            continue;
+        }
+        checkVk(result, "vkAcquireNextImageKHR");
+        stale_ = result == VK_SUBOPTIMAL_KHR;
+        nextAcquire_ = (nextAcquire_ + 1) % acquired_.size();
+        return SwapchainImage{index, images_[index], acquired, rendered_[index]};
+    }
+    return std::nullopt;
+}
+
+void Swapchain::present(const SwapchainImage& image) {
+    const VkPresentInfoKHR info{.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR,
+                                .waitSemaphoreCount = 1,
+                                .pWaitSemaphores = &image.rendered,
+                                .swapchainCount = 1,
+                                .pSwapchains = &handle_,
+                                .pImageIndices = &image.index};
+    const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
+        stale_ = true;
+    else
+        checkVk(result, "vkQueuePresentKHR");
+}
+
+}  // namespace ag::gpu

@@ -1,0 +1,132 @@
+// Blocking copies between host and device, for loading, readback and tests.
+#include <algorithm>
+#include <cstring>
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/resources.h"
+
+namespace ag::gpu {
+namespace {
+
+void barrier(VkCommandBuffer commands, const Image& image, uint32_t layer, uint32_t mip, uint32_t mips,
+             VkImageLayout from, VkImageLayout to) {
+    const VkImageMemoryBarrier2 b{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+                                  .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                  .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                  .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                  .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                  .oldLayout = from,
+                                  .newLayout = to,
+                                  .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                  .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                  .image = image.handle(),
+                                  .subresourceRange = {image.aspect(), mip, mips, layer, 1}};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &b};
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+VkOffset3D mipEnd(const ImageDesc& desc, uint32_t mip) {
+    return {int32_t(std::max(desc.size.x >> mip, 1u)), int32_t(std::max(desc.size.y >> mip, 1u)), 1};
+}
+
+// Mip 0 is in TRANSFER_DST; every level ends in SHADER_READ_ONLY.
+void blitMips(VkCommandBuffer commands, const Image& image, uint32_t layer) {
+    const ImageDesc& desc = image.desc();
+    for (uint32_t mip = 1; mip < desc.mips; ++mip) {
+        barrier(commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        VkImageBlit region{.srcSubresource = {image.aspect(), mip - 1, layer, 1},
+                           .dstSubresource = {image.aspect(), mip, layer, 1}};
+        region.srcOffsets[1] = mipEnd(desc, mip - 1);
+        region.dstOffsets[1] = mipEnd(desc, mip);
+        vkCmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(),
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
+        barrier(commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    }
+    barrier(commands, image, layer, desc.mips - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+}  // namespace
+
+void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset) {
+    if (bytes.empty()) return;
+    Buffer staging(device, {.name = "transfer.upload", .sizeBytes = bytes.size(), .hostVisible = true});
+    std::memcpy(staging.mapped(), bytes.data(), bytes.size());
+    device.runOnce([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{.dstOffset = offset, .size = bytes.size()};
+        vkCmdCopyBuffer(commands, staging.handle(), buffer.handle(), 1, &region);
+    });
+}
+
+void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> bytes, uint64_t offset) {
+    Buffer staging(device, {.name = "transfer.download", .sizeBytes = bytes.size(), .hostVisible = true});
+    device.runOnce([&](VkCommandBuffer commands) {
+        const VkMemoryBarrier2 written{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                       .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                       .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                       .dstStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                       .dstAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT};
+        const VkDependencyInfo info{
+            .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &written};
+        vkCmdPipelineBarrier2(commands, &info);
+        const VkBufferCopy region{.srcOffset = offset, .size = bytes.size()};
+        vkCmdCopyBuffer(commands, buffer.handle(), staging.handle(), 1, &region);
+    });
+    std::memcpy(bytes.data(), staging.mapped(), bytes.size());
+}
+
+void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels, bool makeMips) {
+    const ImageDesc& desc = image.desc();
+    AG_CHECK_EQ(texels.size(), size_t(desc.size.x) * desc.size.y * texelSizeBytes(desc.format));
+    Buffer staging(device, {.name = "transfer.upload", .sizeBytes = texels.size(), .hostVisible = true});
+    std::memcpy(staging.mapped(), texels.data(), texels.size());
+    device.runOnce([&](VkCommandBuffer commands) {
+        barrier(commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, layer, 1},
+                                       .imageExtent = {desc.size.x, desc.size.y, 1}};
+        vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                               &region);
+        if (makeMips)
+            blitMips(commands, image, layer);
+        else
+            barrier(commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    });
+}
+
+void downloadImage(Device& device, const Image& image, VkImageLayout layout, std::span<std::byte> texels) {
+    const ImageDesc& desc = image.desc();
+    AG_CHECK_EQ(texels.size(), size_t(desc.size.x) * desc.size.y * texelSizeBytes(desc.format));
+    Buffer staging(device, {.name = "transfer.download", .sizeBytes = texels.size(), .hostVisible = true});
+    device.runOnce([&](VkCommandBuffer commands) {
+        barrier(commands, image, 0, 0, 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, 0, 1},
+                                       .imageExtent = {desc.size.x, desc.size.y, 1}};
+        vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.handle(), 1,
+                               &region);
+        barrier(commands, image, 0, 0, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+    });
+    std::memcpy(texels.data(), staging.mapped(), texels.size());
+}
+
+uint32_t texelSizeBytes(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_R8_UNORM: return 1;
+        case VK_FORMAT_R16_SFLOAT: return 2;
+        case VK_FORMAT_R8G8B8A8_UNORM:
+        case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_B8G8R8A8_UNORM:
+        case VK_FORMAT_R32_SFLOAT:
+        case VK_FORMAT_R32_UINT:
+        case VK_FORMAT_D32_SFLOAT: return 4;
+        case VK_FORMAT_R16G16B16A16_SFLOAT: return 8;
+        case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
+        default: AG_CHECK_MSG(false, "a format without a row in texelSizeBytes");
+    }
+    return 0;
+}
+
+}  // namespace ag::gpu

@@ -1,0 +1,3 @@
+// volk loads Vulkan at run time: the one place its definitions live.
+#define VOLK_IMPLEMENTATION
+#include <volk.h>

@@ -1,0 +1,15 @@
+// Clip matrices with reversed depth (near 1, far 0) and y pointing down, as Vulkan's viewport has it.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace ag {
+
+// Infinite far plane; depth = near / distance along the axis. fovY in radians, near in m.
+glm::mat4 reversedInfinitePerspective(float fovY, float aspect, float near);
+// Square, finite.
+glm::mat4 lightPerspective(float fov, float near, float far);
+// A square `width` m across.
+glm::mat4 lightOrtho(float width, float near, float far);
+
+}  // namespace ag

@@ -1,0 +1,133 @@
+// What the renderer sees: flat arrays, no ECS types. Written by extract_system, read by gi/.
+//
+// Positions are relative to `originWorld`, a double-precision point near the camera that moves rarely (in large
+// steps); when it does, everything is stamped anew. Each array carries a version that changes with its contents.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace ag {
+
+struct Bounds {
+    glm::vec3 min{1e30f}, max{-1e30f};
+    bool empty() const { return min.x > max.x; }
+    void add(glm::vec3 p) { min = glm::min(min, p), max = glm::max(max, p); }
+    void add(const Bounds& b) { min = glm::min(min, b.min), max = glm::max(max, b.max); }
+};
+
+struct VertexAttributes {  // 36 bytes: gpu::VertexLayout::kPositionsAndAttributes, binding 1
+    glm::vec3 normal{0, 1, 0};
+    glm::vec4 tangent{1, 0, 0, 1};  // w: handedness; all zero: derive it in the shader
+    glm::vec2 uv{0};
+};
+
+// A range of the index buffer drawn with one material.
+struct Primitive {
+    uint32_t firstIndex = 0;
+    uint32_t indexCount = 0;
+    int32_t vertexOffset = 0;
+    uint32_t material = 0;
+    Bounds boundsLocal;
+};
+
+// Square texture size classes: each is one array image, a material's textures all lie in one class.
+enum class TextureClass : uint32_t { kNone, k256, k512, k1024, k2048 };
+constexpr uint32_t kTextureClassCount = 5;
+constexpr uint32_t textureClassSize(TextureClass c) { return c == TextureClass::kNone ? 0 : 128u << uint32_t(c); }
+
+enum class AlphaMode : uint32_t { kOpaque, kMask, kBlend };
+
+struct Material {
+    std::string name;
+    glm::vec4 baseColor{1};       // linear, factor
+    glm::vec3 emissive{0};        // W/(m² sr), factor x KHR_materials_emissive_strength
+    float metallic = 1;
+    float roughness = 1;
+    float specular = 1;           // KHR_materials_specular factor
+    float normalScale = 1;
+    float alphaCutoff = 0.5f;
+    AlphaMode alphaMode = AlphaMode::kOpaque;
+    bool doubleSided = false;
+    TextureClass textureClass = TextureClass::kNone;
+    // Layers in the arrays of the class; -1: none.
+    int32_t baseColorLayer = -1;  // in the sRGB array
+    int32_t emissiveLayer = -1;   // in the sRGB array
+    int32_t normalLayer = -1;     // in the linear array
+    int32_t metallicRoughnessLayer = -1;  // in the linear array
+    glm::mat3x2 uvTransform{1, 0, 0, 1, 0, 0};  // KHR_texture_transform of the base colour, used for all
+};
+
+// Texels of one class: layers of size x size RGBA8, ready to upload (mips are made on the device).
+struct TextureLayers {
+    std::vector<std::vector<uint8_t>> srgb, linear;
+};
+
+struct GeometryArrays {  // fixed once loaded
+    std::vector<glm::vec3> positions;
+    std::vector<VertexAttributes> attributes;
+    std::vector<uint32_t> indices;
+    std::vector<Primitive> primitives;
+    std::vector<Material> materials;
+    TextureLayers textures[kTextureClassCount];
+    uint64_t version = 1;
+};
+
+// One drawn primitive. The row's index is its slot on the GPU.
+struct RenderInstance {
+    glm::mat4x3 worldFromLocal{1};  // relative to the origin
+    uint32_t primitive = 0;
+};
+
+enum class LightKind : uint32_t { kDirectional, kPoint, kSpot };
+
+struct RenderLight {
+    LightKind kind = LightKind::kPoint;
+    glm::vec3 position{0};            // m, relative to the origin
+    glm::vec3 direction{0, -1, 0};    // the way the light travels, unit
+    glm::vec3 intensity{1};           // W/sr; directional: W/m² on a plane facing the light
+    float range = 0;                  // m, 0: no limit
+    float innerConeAngle = 0;         // radians from the axis
+    float outerConeAngle = 0.785398f;
+    bool bounces = false;             // has a BounceLight: gets an RSM
+    uint32_t rsmResolution = 256;     // texels of a square map, or of about as many on six faces
+    float budgetShare = 1;            // weight of its share of the cluster budget, times its flux
+    bool castsShadow = true;
+    uint64_t id = 0;                  // stable identity (entity handle), for carrying clusters over
+};
+
+struct RenderCamera {
+    glm::mat4 clipFromWorld{1};  // reversed depth, infinite far plane; relative to the origin
+    glm::mat4 worldFromClip{1};
+    glm::vec3 position{0};       // relative to the origin
+    glm::vec3 forward{0, 0, -1};
+    float verticalFov = 0.8f;    // radians
+    float near = 0.05f;          // m
+};
+
+struct RenderScene {
+    const GeometryArrays* geometry = nullptr;
+    glm::dvec3 originWorld{0};
+    std::vector<RenderInstance> instances;
+    std::vector<RenderLight> lights;
+    RenderCamera camera;
+    Bounds bounds;  // of all instances
+
+    // Versions: equal numbers mean equal contents. Never 0.
+    uint64_t instancesVersion = 1;  // any instance row
+    uint64_t lightsVersion = 1;
+    uint64_t cameraVersion = 1;
+    uint64_t originVersion = 1;     // the origin moved: histories in world space must be dropped
+    // Rows of `instances` that changed since the version before, as half-open ranges; empty with
+    // `allInstancesChanged` false means none.
+    struct Range {
+        uint32_t begin = 0, end = 0;
+    };
+    std::vector<Range> changedInstances;
+    bool allInstancesChanged = true;
+};
+
+}  // namespace ag

@@ -1,0 +1,82 @@
+// An imported or generated scene as plain data: geometry ready for the GPU, a node tree, lights, cameras, skins.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/render_scene.h"
+
+namespace ag {
+
+struct NodeTransform {  // relative to the parent
+    glm::dvec3 translation{0};             // m
+    glm::quat rotation{1, 0, 0, 0};
+    glm::vec3 scale{1};
+};
+
+// What a node's glTF extras may say; the game reads it.
+struct NodeExtras {
+    bool collider = false;         // solid for the player
+    glm::vec3 moveExtent{0};       // m: slides to and fro by this much
+    float movePeriod = 0;          // s, 0: stands still
+    float spinSpeed = 0;           // rad/s about +Y
+};
+
+struct SceneNode {
+    std::string name;
+    int32_t parent = -1;  // an earlier node, -1: root
+    uint32_t depth = 0;
+    NodeTransform local;
+    int32_t mesh = -1, light = -1, camera = -1, skin = -1;
+    NodeExtras extras;
+};
+
+struct SceneMesh {
+    std::string name;
+    uint32_t firstPrimitive = 0, primitiveCount = 0;
+};
+
+struct SceneLight {  // KHR_lights_punctual; shines along the node's -Z
+    std::string name;
+    LightKind kind = LightKind::kPoint;
+    glm::vec3 intensity{1};  // W/sr; directional: W/m²
+    float range = 0;         // m, 0: none
+    float innerConeAngle = 0, outerConeAngle = 0.785398f;  // radians
+};
+
+struct SceneCamera {  // looks along the node's -Z
+    std::string name;
+    float verticalFov = 0.8f;  // radians
+    float near = 0.05f;        // m
+};
+
+struct SceneSkin {
+    std::string name;
+    std::vector<uint32_t> joints;             // nodes
+    std::vector<glm::mat4> inverseBind;       // one a joint
+};
+
+// Per vertex, only when the file has skins; parallel to the positions.
+struct SkinVertex {
+    glm::u16vec4 joints{0};
+    glm::vec4 weights{0};
+};
+
+struct SceneAsset {
+    std::string name;
+    GeometryArrays geometry;
+    std::vector<SceneNode> nodes;  // parents before children
+    std::vector<SceneMesh> meshes;
+    std::vector<SceneLight> lights;
+    std::vector<SceneCamera> cameras;
+    std::vector<SceneSkin> skins;
+    std::vector<SkinVertex> skinVertices;
+    std::vector<std::string> warnings;  // one sentence each
+};
+
+uint64_t triangleCount(const SceneAsset& asset);  // as drawn: counted for every instance
+
+}  // namespace ag

@@ -1,0 +1,143 @@
+#include "engine/scene/static_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/projection.h"
+
+namespace ag {
+namespace {
+
+constexpr size_t kMostBounceLights = 8;
+
+glm::mat3 linearOf(const NodeTransform& t) {
+    const glm::mat3 r = glm::mat3_cast(t.rotation);
+    return glm::mat3(r[0] * t.scale.x, r[1] * t.scale.y, r[2] * t.scale.z);
+}
+
+Bounds boundsOf(const Bounds& local, const glm::mat4x3& m) {
+    Bounds b;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p(corner & 1 ? local.max.x : local.min.x, corner & 2 ? local.max.y : local.min.y,
+                          corner & 4 ? local.max.z : local.min.z);
+        b.add(m * glm::vec4(p, 1));
+    }
+    return b;
+}
+
+RenderLight lightOf(const SceneLight& light, const WorldPlacement& place, uint64_t id) {
+    RenderLight out{.kind = light.kind,
+                    .position = glm::vec3(place.translation),
+                    .intensity = light.intensity,
+                    .range = light.range,
+                    .innerConeAngle = light.innerConeAngle,
+                    .outerConeAngle = light.outerConeAngle,
+                    .id = id};
+    out.direction = glm::normalize(place.linear * glm::vec3(0, 0, -1));
+    return out;
+}
+
+float strength(const RenderLight& light) {
+    const float mean = (light.intensity.x + light.intensity.y + light.intensity.z) / 3;
+    return light.kind == LightKind::kDirectional ? mean * 1e3f : mean;
+}
+
+void chooseBounceLights(std::vector<RenderLight>& lights) {
+    std::vector<size_t> order(lights.size());
+    for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::stable_sort(order, [&](size_t a, size_t b) { return strength(lights[a]) > strength(lights[b]); });
+    for (size_t i = 0; i < std::min(order.size(), kMostBounceLights); ++i) lights[order[i]].bounces = true;
+}
+
+}  // namespace
+
+uint64_t triangleCount(const SceneAsset& asset) {
+    uint64_t count = 0;
+    for (const SceneNode& node : asset.nodes) {
+        if (node.mesh < 0) continue;
+        const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
+        for (uint32_t p = 0; p < mesh.primitiveCount; ++p)
+            count += asset.geometry.primitives[mesh.firstPrimitive + p].indexCount / 3;
+    }
+    return count;
+}
+
+std::vector<WorldPlacement> placeNodes(const SceneAsset& asset) {
+    std::vector<WorldPlacement> places(asset.nodes.size());
+    for (size_t i = 0; i < asset.nodes.size(); ++i) {
+        const SceneNode& node = asset.nodes[i];
+        const WorldPlacement parent = node.parent < 0 ? WorldPlacement{} : places[size_t(node.parent)];
+        places[i] = {parent.linear * linearOf(node.local),
+                     parent.translation + glm::dmat3(parent.linear) * node.local.translation};
+    }
+    return places;
+}
+
+CameraPose framingCamera(const Bounds& bounds) {
+    if (bounds.empty()) return {};
+    const glm::vec3 center = (bounds.min + bounds.max) * 0.5f;
+    const float radius = std::max(glm::length(bounds.max - bounds.min) * 0.5f, 1e-4f);
+    const glm::vec3 forward = glm::normalize(glm::vec3(-0.5f, -0.35f, -0.8f));
+    CameraPose pose;
+    const float distance = radius / std::sin(pose.verticalFov * 0.5f);
+    pose.position = glm::dvec3(center - forward * distance);
+    pose.forward = forward;
+    pose.near = std::min(0.05f, radius * 0.01f);
+    return pose;
+}
+
+CameraPose cameraOf(const SceneAsset& asset, size_t index) {
+    const std::vector<WorldPlacement> places = placeNodes(asset);
+    for (size_t i = 0; i < asset.nodes.size(); ++i) {
+        if (asset.nodes[i].camera != int32_t(index)) continue;
+        const SceneCamera& camera = asset.cameras[index];
+        return {places[i].translation, glm::normalize(places[i].linear * glm::vec3(0, 0, -1)), camera.verticalFov,
+                camera.near};
+    }
+    return framingCamera(staticScene(asset).bounds);
+}
+
+RenderScene staticScene(const SceneAsset& asset) {
+    RenderScene scene;
+    scene.geometry = &asset.geometry;
+    const std::vector<WorldPlacement> places = placeNodes(asset);
+    for (size_t i = 0; i < asset.nodes.size(); ++i) {
+        const SceneNode& node = asset.nodes[i];
+        if (node.light >= 0)
+            scene.lights.push_back(lightOf(asset.lights[size_t(node.light)], places[i], scene.lights.size() + 1));
+        if (node.mesh < 0) continue;
+        const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
+        const glm::mat3& m = places[i].linear;
+        const glm::mat4x3 world(m[0], m[1], m[2], glm::vec3(places[i].translation));
+        for (uint32_t p = mesh.firstPrimitive; p < mesh.firstPrimitive + mesh.primitiveCount; ++p) {
+            scene.instances.push_back({world, p});
+            scene.bounds.add(boundsOf(asset.geometry.primitives[p].boundsLocal, world));
+        }
+    }
+    chooseBounceLights(scene.lights);
+    return scene;
+}
+
+void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size) {
+    const float aspect = float(size.x) / float(size.y);
+    const glm::vec3 position(pose.position - scene.originWorld);
+    const glm::vec3 up = std::abs(pose.forward.y) > 0.999f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+    const glm::vec3 right = glm::normalize(glm::cross(pose.forward, up));
+    const glm::vec3 top = glm::cross(right, pose.forward);
+    glm::dmat4 view(1);
+    for (int i = 0; i < 3; ++i) view[i] = glm::dvec4(right[i], top[i], -pose.forward[i], 0);
+    view[3] = glm::dvec4(-glm::dot(right, position), -glm::dot(top, position), glm::dot(pose.forward, position), 1);
+    const glm::dmat4 clip = glm::dmat4(reversedInfinitePerspective(pose.verticalFov, aspect, pose.near)) * view;
+    const glm::mat4 clipFromWorld(clip);
+    if (scene.camera.clipFromWorld == clipFromWorld && scene.camera.position == position) return;
+    scene.camera = {.clipFromWorld = clipFromWorld,
+                    .worldFromClip = glm::mat4(glm::inverse(clip)),
+                    .position = position,
+                    .forward = pose.forward,
+                    .verticalFov = pose.verticalFov,
+                    .near = pose.near};
+    ++scene.cameraVersion;
+}
+
+}  // namespace ag

@@ -1,0 +1,32 @@
+// A RenderScene straight from an asset, for tools and tests that look at a scene without a running world.
+#pragma once
+
+#include <optional>
+
+#include "engine/scene/scene_asset.h"
+
+namespace ag {
+
+struct CameraPose {
+    glm::dvec3 position{0};  // m
+    glm::vec3 forward{0, 0, -1};
+    float verticalFov = 0.8f;  // radians
+    float near = 0.05f;        // m
+};
+
+// Node transforms from the root, as 4x3 matrices with a double-precision place.
+struct WorldPlacement {
+    glm::mat3 linear{1};
+    glm::dvec3 translation{0};
+};
+std::vector<WorldPlacement> placeNodes(const SceneAsset& asset);
+
+// Camera of the asset by index; one that frames the scene if it has none.
+CameraPose cameraOf(const SceneAsset& asset, size_t index);
+CameraPose framingCamera(const Bounds& bounds);
+
+// Instances, lights (the strongest eight bounce) and bounds. The asset must outlive the result.
+RenderScene staticScene(const SceneAsset& asset);
+void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size);
+
+}  // namespace ag

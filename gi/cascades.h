@@ -1,0 +1,20 @@
+// Cascades of a sun: spheres round slices of the camera's frustum, moved in whole texels so that edges do not crawl.
+#pragma once
+
+#include "gi/light_views.h"
+
+namespace ag::gi {
+
+struct Cascade {
+    glm::mat4 clipFromWorld{1};
+    float width = 0;          // m across
+    float depth = 0;          // m from near to far
+    float farDistance = 0;    // m along the camera's axis
+};
+
+// Distance along the camera's axis where slice `index` of `count` ends.
+float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float logShare);
+Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirection, const Bounds& casters,
+                   float sliceNear, float sliceFar, uint32_t resolution);
+
+}  // namespace ag::gi

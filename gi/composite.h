@@ -1,0 +1,24 @@
+// The last steps: outgoing radiance of what the camera sees, and its display image.
+#pragma once
+
+#include "gi/gbuffer.h"
+#include "gi/val_shading.h"
+
+namespace ag::gi {
+
+enum class Tonemap : uint32_t { kNone, kReinhard, kAces };
+
+struct CompositeSettings {
+    float exposure = 0;  // stops
+    Tonemap tonemap = Tonemap::kAces;
+};
+
+struct GiOutputs {
+    ImageHandle radiance;  // rgba16f, W/(m² sr); alpha 0 where no surface is seen
+    ImageHandle display;   // rgba8, sRGB-encoded
+};
+
+GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct, const Irradiance& indirect,
+                       const CompositeSettings& settings);
+
+}  // namespace ag::gi

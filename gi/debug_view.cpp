@@ -1,0 +1,146 @@
+#include "gi/debug_view.h"
+
+#include <array>
+#include <cmath>
+
+namespace ag::gi {
+namespace {
+
+enum class Show : uint32_t { kLight, kReflectance, kDirection, kDistance, kDisplay };
+enum class Copy : uint32_t { kColor, kSum, kDepth };
+
+struct LayerInfo {
+    std::string_view name;
+    Show show;
+};
+
+constexpr std::array<LayerInfo, size_t(Layer::kCount)> kLayers = {{{"final", Show::kDisplay},
+                                                                   {"radiance", Show::kLight},
+                                                                   {"direct", Show::kLight},
+                                                                   {"indirect", Show::kLight},
+                                                                   {"bounce1", Show::kLight},
+                                                                   {"irradiance", Show::kLight},
+                                                                   {"albedo", Show::kReflectance},
+                                                                   {"normal", Show::kDirection},
+                                                                   {"depth", Show::kDistance},
+                                                                   {"rsm", Show::kLight},
+                                                                   {"importance", Show::kDisplay},
+                                                                   {"clusters", Show::kDisplay},
+                                                                   {"vals", Show::kDisplay}}};
+
+ImageHandle layerImage(FrameGraph& graph, glm::uvec2 size) {
+    return graph.image("debug_view.layer", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size});
+}
+
+ImageHandle addCopy(FrameGraph& graph, const SceneView& scene, ImageHandle first, ImageHandle second, Copy mode) {
+    if (!first) return {};
+    const ImageHandle out = layerImage(graph, graph.info(first).size);
+    graph.fullscreen("debug_view.copy_layer", "debug_view/copy_layer.frag")
+        .sample("first", first)
+        .sample("second", second ? second : first)
+        .spec(0, uint32_t(mode))
+        .push(scene.scene->camera.near)
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+ImageHandle addClusters(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
+    const ImageHandle out = layerImage(graph, scene.size);
+    graph.fullscreen("debug_view.clusters", "debug_view/clusters.frag")
+        .read("texels", f.rsm.texels)
+        .read("faces", f.rsm.faces)
+        .read("slotOfTexel", f.clusters.slotOfTexel)
+        .read("candidates", f.clusters.candidates)
+        .sample("depthMap", f.gbuffer.depth)
+        .sample("normalMap", f.gbuffer.normal)
+        .read("camera", scene.camera)
+        .push(f.rsm.atlas)
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+ImageHandle addVals(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
+    const ImageHandle out = layerImage(graph, scene.size);
+    graph.fullscreen("debug_view.vals", "debug_view/vals.frag")
+        .read("vals", f.vals.vals)
+        .sample("depthMap", f.gbuffer.depth)
+        .sample("normalMap", f.gbuffer.normal)
+        .read("camera", scene.camera)
+        .push(f.vals.count)
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+ImageHandle addRsmView(FrameGraph& graph, const GiFrame& f) {
+    const ImageHandle out = layerImage(graph, f.rsm.atlas.size);
+    graph.fullscreen("debug_view.rsm", "debug_view/rsm.frag")
+        .read("texels", f.rsm.texels)
+        .push(f.rsm.atlas)
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+ImageHandle addImportanceView(FrameGraph& graph, const GiFrame& f) {
+    const ImageHandle out = layerImage(graph, f.rsm.atlas.size);
+    graph.fullscreen("debug_view.importance", "debug_view/importance.frag")
+        .read("faces", f.rsm.faces)
+        .read("pyramid", f.importance.pyramid)
+        .push(io::ImportanceSettings{.atlasSize = f.rsm.atlas.size,
+                                     .faceCount = f.rsm.atlas.faceCount,
+                                     .pyramidStride = f.importance.pyramidStride})
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+}  // namespace
+
+std::string_view layerName(Layer layer) { return kLayers[size_t(layer)].name; }
+
+std::optional<Layer> layerFromName(std::string_view name) {
+    for (size_t i = 0; i < kLayers.size(); ++i)
+        if (kLayers[i].name == name) return Layer(i);
+    return std::nullopt;
+}
+
+ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f, Layer layer) {
+    const bool lit = !f.rsm.empty();
+    const ImageHandle direct = f.direct.image, bounce = f.bounce1.image;
+    switch (layer) {
+        case Layer::kFinal: return addCopy(graph, scene, f.outputs.display, {}, Copy::kColor);
+        case Layer::kRadiance: return addCopy(graph, scene, f.outputs.radiance, {}, Copy::kColor);
+        case Layer::kDirect: return addCopy(graph, scene, direct, {}, Copy::kColor);
+        case Layer::kIndirect:
+        case Layer::kBounce1: return addCopy(graph, scene, bounce, {}, Copy::kColor);
+        case Layer::kIrradiance:
+            return addCopy(graph, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
+                           direct && bounce ? Copy::kSum : Copy::kColor);
+        case Layer::kAlbedo: return addCopy(graph, scene, f.gbuffer.albedo, {}, Copy::kColor);
+        case Layer::kNormal: return addCopy(graph, scene, f.gbuffer.normal, {}, Copy::kColor);
+        case Layer::kDepth: return addCopy(graph, scene, f.gbuffer.depth, {}, Copy::kDepth);
+        case Layer::kRsm: return lit ? addRsmView(graph, f) : ImageHandle{};
+        case Layer::kImportance: return lit ? addImportanceView(graph, f) : ImageHandle{};
+        case Layer::kClusters: return lit ? addClusters(graph, scene, f) : ImageHandle{};
+        case Layer::kVals: return lit ? addVals(graph, scene, f) : ImageHandle{};
+        case Layer::kCount: break;
+    }
+    return {};
+}
+
+ImageHandle addLayerView(FrameGraph& graph, const SceneView& scene, const GiFrame& frame, Layer layer,
+                         glm::uvec2 size, const CompositeSettings& settings) {
+    const ImageHandle source = addLayer(graph, scene, frame, layer);
+    const ImageHandle out = graph.image("debug_view.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = size});
+    struct Push {
+        float exposure;
+        uint32_t mode;
+    };
+    graph.fullscreen("debug_view.show_layer", "debug_view/show_layer.frag")
+        .sample("layer", source ? source : frame.gbuffer.depth)
+        // Nothing to show is black, not whatever stands in for it.
+        .spec(0, uint32_t(source ? kLayers[size_t(layer)].show : Show::kLight))
+        .push(Push{source ? std::exp2(settings.exposure) : 0.0f, uint32_t(settings.tonemap)})
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,82 @@
+// What each view draws: instances culled against its frustum, as indirect commands grouped into buckets of one
+// pipeline variant each. A view's version is a hash of what it draws and where that stands, so that moving something
+// the view does not see changes nothing for it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <volk.h>
+
+#include "engine/scene/render_scene.h"
+
+namespace ag::gi {
+
+// A pipeline variant of the scene's materials.
+struct DrawBucket {
+    TextureClass textureClass = TextureClass::kNone;
+    bool alphaMask = false;
+    bool doubleSided = false;
+    bool normalMap = false;
+
+    bool operator==(const DrawBucket&) const = default;
+};
+
+struct BucketRange {
+    uint32_t firstCommand = 0;  // within the whole command array
+    uint32_t commandCount = 0;
+};
+
+struct ViewDraws {
+    std::vector<BucketRange> buckets;  // parallel to DrawLists::buckets()
+    uint64_t version = 0;              // of the commands, the transforms and the geometry behind them
+    uint32_t instanceCount = 0;
+};
+
+class DrawLists {
+  public:
+    // Refreshes buckets and world bounds from the scene. Call once a frame, before any cull().
+    void beginFrame(const RenderScene& scene);
+
+    // Culls into view slot `view`; slots are counted up by the caller and keep their place in the command array. The
+    // result stays in place and is valid until the next cull of that slot.
+    const ViewDraws& cull(const RenderScene& scene, uint32_t view, const glm::mat4& clipFromWorld);
+
+    std::span<const DrawBucket> buckets() const { return buckets_; }
+    // All commands, a fixed region a view; changes are marked per view for the upload.
+    std::span<const VkDrawIndexedIndirectCommand> commands() const { return commands_; }
+    uint32_t commandsPerView() const { return uint32_t(instanceBucket_.size()); }
+    uint32_t viewCount() const { return uint32_t(views_.size()); }
+    bool takeDirty(uint32_t view);  // true once after the view's commands changed
+
+  private:
+    struct View {
+        ViewDraws draws;
+        glm::mat4 clipFromWorld{0};
+        uint64_t instancesVersion = 0;
+        uint64_t generation = 0;
+        bool dirty = true;
+    };
+    void rebuildBuckets(const RenderScene& scene);
+    void refreshBounds(const RenderScene& scene, bool all);
+    void ensureView(uint32_t view);
+
+    std::vector<DrawBucket> buckets_;
+    std::vector<uint32_t> bucketCapacity_;   // instances in each bucket
+    std::vector<uint32_t> bucketFirst_;      // first command of each bucket within a view's region
+    std::vector<uint32_t> instanceBucket_;   // ~0: drawn by no opaque bucket (blended)
+    std::vector<uint32_t> instancePrimitive_;
+    std::vector<Bounds> worldBounds_;
+    std::vector<uint64_t> transformHash_;
+    std::vector<VkDrawIndexedIndirectCommand> commands_;
+    std::deque<View> views_;  // references from cull() stay valid
+    uint64_t geometryVersion_ = 0;
+    uint64_t instancesVersion_ = 0;
+    uint64_t generation_ = 0;  // counts bucket rebuilds
+};
+
+}  // namespace ag::gi

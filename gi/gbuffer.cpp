@@ -1,0 +1,30 @@
+#include "gi/gbuffer.h"
+
+#include "gi/scene_draws.h"
+
+namespace ag::gi {
+
+GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
+    const auto target = [&](const char* name, VkFormat format) {
+        return graph.image(name, {.format = format, .size = scene.size});
+    };
+    GBuffer g{.depth = target("gbuffer.depth", VK_FORMAT_D32_SFLOAT),
+              .normal = target("gbuffer.normal", VK_FORMAT_R16G16B16A16_SFLOAT),
+              .albedo = target("gbuffer.albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
+              .size = scene.size};
+    if (scene.hasEmissive) g.emissive = target("gbuffer.emissive", VK_FORMAT_R16G16B16A16_SFLOAT);
+
+    const glm::mat4& clipFromWorld = scene.scene->camera.clipFromWorld;
+    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), clipFromWorld);
+    PassBuilder pass = graph.raster("gbuffer.fill", "gbuffer/fill.vert",
+                                    scene.hasEmissive ? "gbuffer/fill_emissive.frag" : "gbuffer/fill.frag",
+                                    gpu::VertexLayout::kPositionsAndAttributes);
+    pass.colorClear(g.normal, glm::vec4(0)).colorClear(g.albedo, glm::vec4(0));
+    if (scene.hasEmissive) pass.colorClear(g.emissive, glm::vec4(0));
+    pass.depthClear(g.depth).geometry(scene.geometry).read("instances", scene.instances);
+    bindMaterials(pass, scene);
+    drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, true);
+    return g;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,33 @@
+// Global illumination for a host engine: hand it a RenderScene, get images. This is the only header a host needs.
+#pragma once
+
+#include "gi/composite.h"
+#include "gi/direct_lighting.h"
+#include "gi/gi_settings.h"
+#include "gi/val_fit.h"
+
+namespace ag::gi {
+
+// State that outlives a frame; one per view of the scene.
+struct GiHistory {
+    ValClusteringHistory valClustering;
+};
+
+// Everything the frame made: for composition, debug views, tests and captures.
+struct GiFrame {
+    GBuffer gbuffer;
+    RsmSet rsm;
+    Importance importance;
+    Clusters clusters;
+    Vals vals;
+    ShadowMaps shadows;
+    Irradiance direct, bounce1;
+    GiOutputs outputs;
+};
+
+// Declares the GI passes of one frame, in order. Nothing runs until the graph is executed, and then only what the
+// graph's outputs need.
+GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& settings,
+                              GiHistory& history);
+
+}  // namespace ag::gi

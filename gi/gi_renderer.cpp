@@ -1,0 +1,107 @@
+#include "gi/gi_renderer.h"
+
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+
+namespace ag::gi {
+
+GiRenderer::GiRenderer(gpu::Device& device)
+    : device_(device), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
+    for (Slot& slot : slots_) {
+        const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                           .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                           .queueFamilyIndex = device.queueFamily()};
+        AG_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
+        const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                               .commandPool = slot.pool,
+                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                               .commandBufferCount = 1};
+        AG_VK(vkAllocateCommandBuffers(device.handle(), &info, &slot.commands));
+    }
+}
+
+GiRenderer::~GiRenderer() {
+    device_.waitIdle();
+    for (Slot& slot : slots_) vkDestroyCommandPool(device_.handle(), slot.pool, nullptr);
+}
+
+void GiRenderer::load(const GeometryArrays& geometry) {
+    scene_.load(geometry);
+    graph_.resetHistory("val_clustering.clusters");
+    history_ = {};
+}
+
+void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSettings& settings,
+                        const FrameGraphOptions& options, const Finish& finish, const Present& present,
+                        FrameSemaphores semaphores) {
+    const uint32_t index = uint32_t(frame_++ % kFramesInFlight);
+    Slot& slot = slots_[index];
+    device_.waitFor(slot.submitted);
+    AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
+
+    graph_.beginFrame(options);
+    scene_.beginFrame(scene);
+    const SceneView view = scene_.import(graph_, scene, size);
+    const GiFrame frame = addGlobalIllumination(graph_, view, settings, history_);
+    if (finish) finish(graph_, view, frame);
+
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    AG_VK(vkBeginCommandBuffer(slot.commands, &begin));
+    scene_.upload(slot.commands, scene, index);
+    if (options.timing == TimingMode::kProcessCpu) {
+        // The graph submits by itself, so the uploads must be on their way before it.
+        AG_VK(vkEndCommandBuffer(slot.commands));
+        device_.waitFor(device_.submit(slot.commands));
+        AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
+        graph_.execute(VK_NULL_HANDLE);
+        AG_VK(vkBeginCommandBuffer(slot.commands, &begin));
+    } else {
+        graph_.execute(slot.commands);
+    }
+    if (present) present(slot.commands);
+    AG_VK(vkEndCommandBuffer(slot.commands));
+    slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
+}
+
+Image readImage(GiRenderer& renderer, ImageHandle handle) {
+    const gpu::Image& image = renderer.graph().physical(handle);
+    const glm::uvec2 size = image.desc().size;
+    const VkFormat format = image.desc().format;
+    std::vector<std::byte> bytes(size_t(size.x) * size.y * gpu::texelSizeBytes(format));
+    renderer.waitIdle();
+    gpu::downloadImage(renderer.device(), image, renderer.graph().layoutAfterFrame(handle), bytes);
+    Image out(int(size.x), int(size.y));
+    for (size_t i = 0; i < out.pixels.size(); ++i) {
+        if (format == VK_FORMAT_R32G32B32A32_SFLOAT) {
+            std::memcpy(&out.pixels[i], bytes.data() + i * 16, 12);
+        } else if (format == VK_FORMAT_R16G16B16A16_SFLOAT) {
+            uint64_t packed;
+            std::memcpy(&packed, bytes.data() + i * 8, 8);
+            out.pixels[i] = glm::vec3(glm::unpackHalf4x16(packed));
+        } else if (format == VK_FORMAT_R8G8B8A8_UNORM) {
+            uint32_t packed;
+            std::memcpy(&packed, bytes.data() + i * 4, 4);
+            out.pixels[i] = glm::vec3(glm::unpackUnorm4x8(packed));
+        } else {
+            float value;
+            std::memcpy(&value, bytes.data() + i * 4, 4);
+            out.pixels[i] = glm::vec3(value);
+        }
+    }
+    return out;
+}
+
+Image renderLayer(GiRenderer& renderer, const RenderScene& scene, glm::uvec2 size, const GiSettings& settings,
+                  Layer layer, uint32_t frames, const FrameGraphOptions& options) {
+    ImageHandle shown;
+    for (uint32_t i = 0; i < std::max(frames, 1u); ++i)
+        renderer.render(scene, size, settings, options,
+                        [&](FrameGraph& graph, const SceneView& view, const GiFrame& frame) {
+                            shown = addLayer(graph, view, frame, layer);
+                            if (shown) graph.output(shown);
+                        });
+    return shown ? readImage(renderer, shown) : Image(int(size.x), int(size.y));
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,65 @@
+// Runs GI frames on a device: owns the scene's device memory, the frame graph and the histories, keeps two frames in
+// flight. Windowed and headless programs and the tests all render through it.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "engine/core/image.h"
+#include "engine/gpu/device.h"
+#include "gi/debug_view.h"
+
+namespace ag::gi {
+
+// Swapchain semaphores of a frame that is shown; both null when headless.
+struct FrameSemaphores {
+    VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
+};
+
+class GiRenderer {
+  public:
+    explicit GiRenderer(gpu::Device& device);
+    ~GiRenderer();
+    GiRenderer(const GiRenderer&) = delete;
+    GiRenderer& operator=(const GiRenderer&) = delete;
+
+    // Blocking: a scene just loaded; histories start anew.
+    void load(const GeometryArrays& geometry);
+
+    // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs;
+    // `present` records after it, with the command buffer of the frame. Either may be empty.
+    using Finish = std::function<void(FrameGraph&, const SceneView&, const GiFrame&)>;
+    using Present = std::function<void(VkCommandBuffer)>;
+    void render(const RenderScene& scene, glm::uvec2 size, const GiSettings& settings,
+                const FrameGraphOptions& options, const Finish& finish, const Present& present = {},
+                FrameSemaphores semaphores = {});
+    void waitIdle() { device_.waitIdle(); }
+
+    FrameGraph& graph() { return graph_; }
+    SceneGpu& scene() { return scene_; }
+    gpu::Device& device() { return device_; }
+    gpu::PipelineLibrary& pipelines() { return pipelines_; }
+    uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
+
+  private:
+    struct Slot {
+        VkCommandPool pool = VK_NULL_HANDLE;
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        uint64_t submitted = 0;
+    };
+    gpu::Device& device_;
+    gpu::PipelineLibrary pipelines_;
+    SceneGpu scene_;
+    FrameGraph graph_;
+    GiHistory history_;
+    std::array<Slot, kFramesInFlight> slots_;
+    uint64_t frame_ = 0;
+};
+
+// Renders `frames` frames of a still scene and reads back a layer (black where the frame has none).
+Image renderLayer(GiRenderer& renderer, const RenderScene& scene, glm::uvec2 size, const GiSettings& settings,
+                  Layer layer, uint32_t frames, const FrameGraphOptions& options = {});
+// An image the graph left as its output, as floats; rgba8, rgba16f, rgba32f and r32f.
+Image readImage(GiRenderer& renderer, ImageHandle image);
+
+}  // namespace ag::gi

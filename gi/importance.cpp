@@ -1,0 +1,57 @@
+#include "gi/importance.h"
+
+namespace ag::gi {
+namespace {
+
+BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {
+    const BufferHandle points =
+        graph.buffer("importance.view_points", {.sizeBytes = io::kViewPointCount * sizeof(io::ViewPoint),
+                                                .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.compute("importance.sample_view", "importance/sample_view.comp")
+        .sample("normalMap", gbuffer.normal)
+        .sample("depthMap", gbuffer.depth)
+        .read("camera", scene.camera)
+        .write("viewPoints", points)
+        .dispatchThreads(io::kViewPointCount);
+    return points;
+}
+
+// Nodes of a full 2x2 pyramid over the largest face's blocks.
+uint32_t pyramidNodes(uint32_t largestFace) {
+    uint32_t nodes = 0;
+    for (uint32_t side = largestFace / io::kImportanceBlock; side > 0; side /= 2) nodes += side * side;
+    return nodes;
+}
+
+}  // namespace
+
+Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const GBuffer& gbuffer,
+                         const ImportanceSettings& settings) {
+    if (rsm.empty()) return {};
+    Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace), .viewDependent = settings.viewWeight > 0};
+    const io::ImportanceSettings push{.atlasSize = rsm.atlas.size,
+                                      .faceCount = rsm.atlas.faceCount,
+                                      .pyramidStride = importance.pyramidStride,
+                                      .viewWeight = settings.viewWeight};
+    importance.pyramid = graph.buffer(
+        "importance.pyramid", {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
+    const BufferHandle viewPoints =
+        importance.viewDependent ? addViewPoints(graph, scene, gbuffer) : BufferHandle{};
+
+    const uint32_t blocks = (rsm.largestFace / io::kImportanceBlock) * (rsm.largestFace / io::kImportanceBlock);
+    PassBuilder evaluate = graph.compute(
+        "importance.evaluate",
+        importance.viewDependent ? "importance/evaluate_view.comp" : "importance/evaluate_flux.comp");
+    evaluate.read("texels", rsm.texels).read("faces", rsm.faces).read("maps", rsm.maps);
+    if (importance.viewDependent) evaluate.read("viewPoints", viewPoints);
+    evaluate.write("pyramid", importance.pyramid).push(push).dispatchGroups((blocks + 63) / 64, rsm.atlas.faceCount);
+
+    graph.compute("importance.build_pyramid", "importance/build_pyramid.comp")
+        .read("faces", rsm.faces)
+        .readWrite("pyramid", importance.pyramid)
+        .push(push)
+        .dispatchGroups(rsm.atlas.faceCount);
+    return importance;
+}
+
+}  // namespace ag::gi

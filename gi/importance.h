@@ -1,0 +1,25 @@
+// Where on the RSM clusters are worth having: reflected flux, and with a view weight how much a block faces what the
+// camera sees (RSMC section 4, ACRSM sections 4.4-4.5). One value a block of 4x4 texels (the sources: one a texel),
+// summed into a 2x2 pyramid for warping.
+#pragma once
+
+#include "gi/gbuffer.h"
+#include "gi/rsm.h"
+#include "shaders/importance/importance_io.h"
+
+namespace ag::gi {
+
+struct ImportanceSettings {
+    float viewWeight = 0.0f;  // w_v: 0 flux alone (clusters then do not depend on the camera), 1 view alone
+};
+
+struct Importance {
+    BufferHandle pyramid;  // floats, per face: see shaders/importance/pyramid.glsl
+    uint32_t pyramidStride = 0;
+    bool viewDependent = false;
+};
+
+Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const GBuffer& gbuffer,
+                         const ImportanceSettings& settings);
+
+}  // namespace ag::gi

@@ -1,0 +1,72 @@
+#include "gi/rsm.h"
+
+#include <algorithm>
+
+#include "engine/core/hash.h"
+#include "gi/rsm_views.h"
+#include "gi/scene_draws.h"
+
+namespace ag::gi {
+namespace {
+
+template <class T>
+BufferHandle uploadItems(FrameGraph& graph, const char* name, std::span<const T> items) {
+    const BufferHandle buffer = graph.buffer(name, {.sizeBytes = items.size_bytes()});
+    graph.upload(name, buffer, std::as_bytes(items));
+    return buffer;
+}
+
+void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
+    PassBuilder pass = graph.raster("rsm.render", "gbuffer/fill.vert", "rsm/render.frag",
+                                    gpu::VertexLayout::kPositionsAndAttributes);
+    pass.colorClear(rsm.normal, glm::vec4(0)).colorClear(rsm.albedo, glm::vec4(0)).depthClear(rsm.depth);
+    pass.geometry(scene.geometry).read("instances", scene.instances);
+    bindMaterials(pass, scene);
+    for (uint32_t f = 0; f < rsm.atlas.faceCount; ++f) {
+        const io::RsmFace& face = rsm.faceInfo[f];
+        const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), face.clipFromWorld);
+        rsm.inputsVersion = combineHash(rsm.inputsVersion, draws.version);
+        drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size}, DrawFilter::kAll, false);
+    }
+}
+
+}  // namespace
+
+RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget) {
+    RsmSet rsm;
+    const RsmLayout layout = layoutRsm(*scene.scene, settings, clusterBudget);
+    if (layout.mapCount == 0 || scene.scene->instances.empty()) return rsm;
+    rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
+    rsm.mapInfo = layout.maps;
+    rsm.faceInfo = layout.faces;
+    rsm.largestFace = layout.largestFace;
+    rsm.tileCount = (layout.atlasSize.x / io::kRsmTileSize) * (layout.atlasSize.y / io::kRsmTileSize);
+    const std::span faces(rsm.faceInfo.data(), layout.faceCount);
+    const std::span maps(rsm.mapInfo.data(), layout.mapCount);
+    rsm.inputsVersion = combineHash(hashBytes(std::as_bytes(faces)), hashBytes(std::as_bytes(maps)));
+
+    rsm.normal = graph.image("rsm.normal", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
+    rsm.albedo = graph.image("rsm.albedo", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
+    rsm.depth = graph.image("rsm.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = layout.atlasSize});
+    addRaster(graph, scene, rsm);
+
+    rsm.faces = uploadItems<io::RsmFace>(graph, "rsm.faces", faces);
+    rsm.maps = uploadItems<io::RsmMap>(graph, "rsm.maps", maps);
+    const uint64_t texelCount = uint64_t(layout.atlasSize.x) * layout.atlasSize.y;
+    rsm.texels = graph.buffer("rsm.texels", {.sizeBytes = texelCount * sizeof(io::RsmTexel),
+                                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    rsm.tileMaps = graph.buffer("rsm.tile_maps", {.sizeBytes = rsm.tileCount * sizeof(uint32_t)});
+    graph.compute("rsm.build_texels", "rsm/build_texels.comp")
+        .sample("normalMap", rsm.normal)
+        .sample("albedoMap", rsm.albedo)
+        .sample("depthMap", rsm.depth)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
+        .write("texels", rsm.texels)
+        .write("tileMaps", rsm.tileMaps)
+        .push(rsm.atlas)
+        .dispatchGroups(rsm.tileCount);
+    return rsm;
+}
+
+}  // namespace ag::gi

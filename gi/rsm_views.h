@@ -1,0 +1,22 @@
+// The geometry of RSM faces: pure functions from lights to matrices and atlas places.
+#pragma once
+
+#include "gi/rsm.h"
+
+namespace ag::gi {
+
+struct RsmLayout {
+    std::array<io::RsmMap, io::kMaxBounceLights> maps{};
+    std::array<io::RsmFace, io::kMaxRsmFaces> faces{};
+    uint32_t mapCount = 0, faceCount = 0;
+    glm::uvec2 atlasSize{0};
+    uint32_t largestFace = 0;
+};
+
+// At most kMaxBounceLights lights with a BounceLight; faces are powers of two and aligned to their size.
+RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget);
+
+// Emitted flux of a light in W, for sharing budgets (mean of the channels; sun: onto the scene's bounds).
+float emittedFlux(const RenderLight& light, const Bounds& sceneBounds);
+
+}  // namespace ag::gi

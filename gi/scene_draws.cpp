@@ -1,0 +1,42 @@
+#include "gi/scene_draws.h"
+
+#include <cstring>
+
+namespace ag::gi {
+
+void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view, const glm::mat4& clipFromWorld,
+              glm::uvec4 viewport, DrawFilter filter, bool normalMaps) {
+    const std::span<const DrawBucket> buckets = scene.draws->buckets();
+    for (size_t b = 0; b < buckets.size(); ++b) {
+        const DrawBucket& bucket = buckets[b];
+        const bool wanted = filter == DrawFilter::kAll || bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
+        if (!wanted || view.buckets[b].commandCount == 0) continue;
+        RasterDraw draw;
+        if (filter != DrawFilter::kOpaqueOnly) {  // depth-only variants know no materials
+            draw.spec[draw.specCount++] = {0, uint32_t(bucket.textureClass)};
+            draw.spec[draw.specCount++] = {1, bucket.alphaMask};
+            if (normalMaps) draw.spec[draw.specCount++] = {2, bucket.normalMap};
+        }
+        draw.cull = bucket.doubleSided ? gpu::CullMode::kNone : gpu::CullMode::kBack;
+        draw.viewport = viewport;
+        std::memcpy(draw.push.data(), &clipFromWorld, sizeof clipFromWorld);
+        draw.pushSizeBytes = sizeof clipFromWorld;
+        draw.commands = scene.commands;
+        draw.commandsOffsetBytes = view.buckets[b].firstCommand * sizeof(VkDrawIndexedIndirectCommand);
+        draw.commandCount = view.buckets[b].commandCount;
+        draw.commandsVersion = view.version;
+        pass.draw(draw);
+    }
+}
+
+void bindMaterials(PassBuilder& pass, const SceneView& scene) {
+    static constexpr std::array kSrgb = {"srgb256", "srgb512", "srgb1024", "srgb2048"};
+    static constexpr std::array kLinear = {"linear256", "linear512", "linear1024", "linear2048"};
+    pass.read("materials", scene.materials);
+    for (size_t c = 0; c < 4; ++c) {
+        pass.sample(kSrgb[c], scene.srgbTextures[c], Sampler::kTrilinearRepeat);
+        pass.sample(kLinear[c], scene.linearTextures[c], Sampler::kTrilinearRepeat);
+    }
+}
+
+}  // namespace ag::gi

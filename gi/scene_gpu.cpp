@@ -1,0 +1,227 @@
+#include "gi/scene_gpu.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/core/hash.h"
+#include "engine/gpu/device.h"
+#include "shaders/shadow_maps/shadow_maps_io.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
+    const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
+    return {.worldFromLocal0 = rows[0],
+            .worldFromLocal1 = rows[1],
+            .worldFromLocal2 = rows[2],
+            .ids = {geometry.primitives[instance.primitive].material, instance.primitive, 0, 0}};
+}
+
+io::Material materialRow(const Material& m) {
+    return {.baseColor = m.baseColor,
+            .emissive = m.emissive,
+            .alphaCutoff = m.alphaMode == AlphaMode::kMask ? m.alphaCutoff : 0.0f,
+            .metallic = m.metallic,
+            .roughness = m.roughness,
+            .specular = m.specular,
+            .normalScale = m.normalScale,
+            .layers = {m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer},
+            .uvRow0 = {m.uvTransform[0][0], m.uvTransform[1][0], m.uvTransform[2][0], m.doubleSided ? 1.0f : 0.0f},
+            .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], 0.0f}};
+}
+
+// The camera, and for each light at most a cube of RSM faces and one of shadow views.
+uint64_t viewsNeeded(const RenderScene& scene) {
+    uint64_t views = 1;
+    for (const RenderLight& light : scene.lights) {
+        const bool point = light.kind == LightKind::kPoint;
+        if (light.bounces) views += point ? 6 : 1;
+        if (light.castsShadow) views += point ? 6 : io::kMaxCascades;
+    }
+    return views;
+}
+
+template <class T>
+std::unique_ptr<gpu::Buffer> loadBuffer(gpu::Device& device, const char* name, const std::vector<T>& items,
+                                        bool geometry, VkFormat texel = VK_FORMAT_UNDEFINED) {
+    auto buffer = std::make_unique<gpu::Buffer>(
+        device, gpu::BufferDesc{.name = name,
+                                .sizeBytes = std::max<uint64_t>(items.size(), 1) * sizeof(T),
+                                .vertexOrIndex = geometry,
+                                .texelFormat = texel});
+    if (!items.empty()) gpu::uploadBuffer(device, *buffer, std::as_bytes(std::span(items)));
+    return buffer;
+}
+
+// A class without textures still needs something bound: one black texel.
+std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, VkFormat format, uint32_t size,
+                                       const std::vector<std::vector<uint8_t>>& layers) {
+    const uint32_t side = layers.empty() ? 1 : size;
+    uint32_t mips = 1;
+    while ((side >> mips) > 0) ++mips;
+    auto image = std::make_unique<gpu::Image>(device, gpu::ImageDesc{.name = name,
+                                                                     .format = format,
+                                                                     .size = {side, side},
+                                                                     .layers = std::max<uint32_t>(uint32_t(layers.size()), 1),
+                                                                     .mips = mips,
+                                                                     .array = true});
+    const std::array<std::byte, 4> black{};
+    if (layers.empty()) gpu::uploadImage(device, *image, 0, black, false);
+    for (uint32_t layer = 0; layer < layers.size(); ++layer)
+        gpu::uploadImage(device, *image, layer, std::as_bytes(std::span(layers[layer])), true);
+    return image;
+}
+
+void transferBarrier(VkCommandBuffer commands, bool before) {
+    VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = before ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_2_COPY_BIT;
+    barrier.srcAccessMask = before ? VK_ACCESS_2_NONE : VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.dstStageMask = before ? VK_PIPELINE_STAGE_2_COPY_BIT : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = before ? VK_ACCESS_2_TRANSFER_WRITE_BIT : VK_ACCESS_2_MEMORY_READ_BIT;
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = 1,
+                                .pMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace
+
+SceneGpu::SceneGpu(gpu::Device& device) : device_(device) {}
+SceneGpu::~SceneGpu() { device_.waitIdle(); }
+
+void SceneGpu::load(const GeometryArrays& geometry) {
+    device_.waitIdle();
+    positions_ = loadBuffer(device_, "scene.positions", geometry.positions, true);
+    attributes_ = loadBuffer(device_, "scene.attributes", geometry.attributes, true);
+    indices_ = loadBuffer(device_, "scene.indices", geometry.indices, true);
+    std::vector<io::Material> rows;
+    hasEmissive_ = false;
+    for (const Material& m : geometry.materials) {
+        rows.push_back(materialRow(m));
+        hasEmissive_ = hasEmissive_ || m.emissive != glm::vec3(0);
+    }
+    materials_ = loadBuffer(device_, "scene.materials", rows, false, kVec4Texels);
+    loadTextures(geometry);
+    geometryVersion_ = geometry.version;
+    instancesVersion_ = 0;
+}
+
+void SceneGpu::loadTextures(const GeometryArrays& geometry) {
+    for (uint32_t c = 1; c < kTextureClassCount; ++c) {
+        const uint32_t size = textureClassSize(TextureClass(c));
+        srgb_[c - 1] = loadLayers(device_, "scene.srgb", VK_FORMAT_R8G8B8A8_SRGB, size, geometry.textures[c].srgb);
+        linear_[c - 1] = loadLayers(device_, "scene.linear", VK_FORMAT_R8G8B8A8_UNORM, size, geometry.textures[c].linear);
+    }
+}
+
+std::unique_ptr<gpu::Buffer> SceneGpu::grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
+                                             VkFormat texel, bool indirect) {
+    if (old && old->sizeBytes() >= bytes) return old;
+    if (old) {
+        std::shared_ptr<gpu::Buffer> retired = std::move(old);
+        device_.retire([retired]() mutable { retired.reset(); });
+    }
+    return std::make_unique<gpu::Buffer>(
+        device_, gpu::BufferDesc{.name = name, .sizeBytes = bytes + bytes / 2, .indirect = indirect, .texelFormat = texel});
+}
+
+void SceneGpu::reserveBuffers(const RenderScene& scene) {
+    const uint64_t rowBytes = std::max<uint64_t>(scene.instances.size(), 1) * sizeof(io::Instance);
+    const gpu::Buffer* before = instances_.get();
+    instances_ = grown(std::move(instances_), "scene.instances", rowBytes, kVec4Texels, false);
+    if (instances_.get() != before) instancesVersion_ = 0;
+    const uint64_t commandBytes = std::max<uint64_t>(
+        viewsNeeded(scene) * std::max<uint64_t>(scene.instances.size(), 1) * sizeof(VkDrawIndexedIndirectCommand), 64);
+    commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
+}
+
+SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size) {
+    AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_, "load() the scene's geometry first");
+    reserveBuffers(scene);
+    SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = hasEmissive_};
+    view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
+    // Constant versions: what a view draws of them is in its draws' versions.
+    view.instances = graph.importBuffer("scene.instances", *instances_, 1);
+    view.commands = graph.importBuffer("scene.commands", *commands_, 1);
+    view.materials = graph.importBuffer("scene.materials", *materials_, geometryVersion_);
+    static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024", "scene.srgb2048"};
+    static constexpr std::array kLinearNames = {"scene.linear256", "scene.linear512", "scene.linear1024",
+                                                "scene.linear2048"};
+    for (size_t c = 0; c < 4; ++c) {
+        view.srgbTextures[c] = graph.importImage(kSrgbNames[c], *srgb_[c], geometryVersion_);
+        view.linearTextures[c] = graph.importImage(kLinearNames[c], *linear_[c], geometryVersion_);
+    }
+    const RenderCamera& camera = scene.camera;
+    const io::CameraConstants constants{.clipFromWorld = camera.clipFromWorld,
+                                        .worldFromClip = camera.worldFromClip,
+                                        .position = camera.position,
+                                        .near = camera.near,
+                                        .size = size};
+    view.camera = graph.buffer("scene.camera", {.sizeBytes = sizeof constants});
+    graph.upload("scene.camera", view.camera, std::as_bytes(std::span(&constants, 1)));
+    return view;
+}
+
+void SceneGpu::stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
+                     const gpu::Buffer& to, uint64_t offset) {
+    if (bytes.empty()) return;
+    Staging& staging = staging_[frameSlot];
+    if (!staging.buffer || staging.used + bytes.size() > staging.buffer->sizeBytes()) {
+        if (staging.buffer) {
+            std::shared_ptr<gpu::Buffer> retired = std::move(staging.buffer);
+            device_.retire([retired]() mutable { retired.reset(); });
+        }
+        const uint64_t size = std::max<uint64_t>(uint64_t(1) << 20, bytes.size() * 2);
+        staging.buffer = std::make_unique<gpu::Buffer>(
+            device_, gpu::BufferDesc{.name = "scene.staging", .sizeBytes = size, .hostVisible = true});
+        staging.used = 0;
+    }
+    std::memcpy(staging.buffer->mapped() + staging.used, bytes.data(), bytes.size());
+    if (uploadedBytes_ == 0) transferBarrier(commands, true);
+    const VkBufferCopy region{.srcOffset = staging.used, .dstOffset = offset, .size = bytes.size()};
+    vkCmdCopyBuffer(commands, staging.buffer->handle(), to.handle(), 1, &region);
+    staging.used += bytes.size();
+    uploadedBytes_ += bytes.size();
+}
+
+void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot) {
+    if (instancesVersion_ == scene.instancesVersion) return;
+    const bool all = scene.allInstancesChanged || instancesVersion_ + 1 != scene.instancesVersion;
+    const auto send = [&](uint32_t begin, uint32_t end) {
+        rows_.clear();
+        for (uint32_t i = begin; i < end; ++i) rows_.push_back(instanceRow(scene.instances[i], *scene.geometry));
+        stage(commands, frameSlot, std::as_bytes(std::span(rows_)), *instances_, begin * sizeof(io::Instance));
+    };
+    if (all)
+        send(0, uint32_t(scene.instances.size()));
+    else
+        for (const RenderScene::Range& range : scene.changedInstances) send(range.begin, range.end);
+    instancesVersion_ = scene.instancesVersion;
+}
+
+void SceneGpu::upload(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot) {
+    uploadedBytes_ = 0;
+    staging_[frameSlot].used = 0;
+    uploadInstances(commands, scene, frameSlot);
+    const uint64_t stride = draws_.commandsPerView() * sizeof(VkDrawIndexedIndirectCommand);
+    AG_CHECK_MSG(draws_.viewCount() * stride <= commands_->sizeBytes(), "a view was added after import()");
+    for (uint32_t view = 0; view < draws_.viewCount(); ++view)
+        if (draws_.takeDirty(view))
+            stage(commands, frameSlot,
+                  std::as_bytes(draws_.commands().subspan(view * draws_.commandsPerView(), draws_.commandsPerView())),
+                  *commands_, view * stride);
+    if (uploadedBytes_ > 0) transferBarrier(commands, false);
+}
+
+uint64_t SceneGpu::deviceBytes() const {
+    uint64_t bytes = 0;
+    for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(), instances_.get(),
+                               commands_.get()})
+        if (buffer) bytes += buffer->sizeBytes();
+    return bytes;
+}
+
+}  // namespace ag::gi

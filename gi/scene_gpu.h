@@ -1,0 +1,81 @@
+// The scene in device memory: geometry and textures uploaded once, transforms streamed as changed ranges, lights and
+// draw commands when they change. What the passes see of it is SceneView: typed handles of one frame.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "engine/frame/frame_graph.h"
+#include "engine/gpu/resources.h"
+#include "engine/scene/render_scene.h"
+#include "gi/draw_lists.h"
+#include "shaders/scene/scene_io.h"
+
+namespace ag::gi {
+
+constexpr uint32_t kFramesInFlight = 2;
+
+// Handles of this frame's scene, and what the techniques need to declare draws.
+struct SceneView {
+    const RenderScene* scene = nullptr;
+    DrawLists* draws = nullptr;
+    Geometry geometry;
+    BufferHandle instances;   // io::Instance rows; versions are the draws' (see DrawLists)
+    BufferHandle materials;
+    BufferHandle camera;      // io::CameraConstants
+    BufferHandle commands;    // indirect draws of all views
+    std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
+    glm::uvec2 size{0};       // pixels of the camera's image
+    bool hasEmissive = false;
+    mutable uint32_t viewsClaimed = 0;
+    // The next free slot of DrawLists; claimed in the same order every frame.
+    uint32_t claimView() const { return viewsClaimed++; }
+};
+
+class SceneGpu {
+  public:
+    explicit SceneGpu(gpu::Device& device);
+    ~SceneGpu();
+    SceneGpu(const SceneGpu&) = delete;
+    SceneGpu& operator=(const SceneGpu&) = delete;
+
+    // Blocking: geometry, materials and textures of a scene just loaded.
+    void load(const GeometryArrays& geometry);
+
+    // Once a frame before the passes are declared: bounds, buckets.
+    void beginFrame(const RenderScene& scene) { draws_.beginFrame(scene); }
+    SceneView import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size);
+    // After the passes are declared (all views culled), before they are recorded: copies what changed.
+    void upload(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
+
+    DrawLists& draws() { return draws_; }
+    uint64_t uploadedBytes() const { return uploadedBytes_; }  // in the last frame
+    uint64_t deviceBytes() const;
+
+  private:
+    struct Staging {
+        std::unique_ptr<gpu::Buffer> buffer;
+        uint64_t used = 0;
+    };
+    void loadTextures(const GeometryArrays& geometry);
+    void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes, const gpu::Buffer& to,
+               uint64_t offset);
+    void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
+    void reserveBuffers(const RenderScene& scene);
+    std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
+                                       VkFormat texel, bool indirect);
+
+    gpu::Device& device_;
+    DrawLists draws_;
+    uint64_t geometryVersion_ = 0;
+    bool hasEmissive_ = false;
+    std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_, commands_;
+    std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
+    std::vector<io::Instance> rows_;        // scratch for the conversion
+    uint64_t instancesVersion_ = 0;         // last uploaded
+    std::array<Staging, kFramesInFlight> staging_;
+    uint64_t uploadedBytes_ = 0;
+};
+
+}  // namespace ag::gi

@@ -1,0 +1,123 @@
+#include "gi/val_clustering.h"
+
+#include "engine/core/hash.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr VkFormat kVec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
+constexpr uint32_t kSumGroups = 4;  // workgroups sharing a tile's candidates
+
+// Steps on while the inputs change and for a while after, so that k-means settles; then the clusters rest and
+// everything behind them is skipped.
+uint32_t advance(ValClusteringHistory& history, uint64_t inputsVersion, uint32_t settleFrames) {
+    if (history.inputsVersion != inputsVersion) {
+        history.inputsVersion = inputsVersion;
+        history.sinceChange = 0;
+        ++history.step;
+    } else if (history.sinceChange < settleFrames) {
+        ++history.sinceChange;
+        ++history.step;
+    }
+    return history.step;
+}
+
+struct SeedPush {
+    io::ClusterSettings settings;
+    uint32_t faceCount;
+    uint32_t pyramidStride;
+};
+
+void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importance, const HistoryBuffer& clusters,
+                BufferHandle seeds, const io::ClusterSettings& push) {
+    graph.compute("val_clustering.seed", "val_clustering/seed.comp")
+        .read("texels", rsm.texels)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
+        .read("pyramid", importance.pyramid)
+        .readPrevious("previous", clusters)
+        .write("seeds", seeds)
+        .push(SeedPush{push, rsm.atlas.faceCount, importance.pyramidStride})
+        .dispatchThreads(push.clusterCount);
+}
+
+void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHandle slotOfCluster,
+                   const io::ClusterSettings& push) {
+    graph.compute("val_clustering.gather_candidates", "val_clustering/gather_candidates.comp")
+        .read("seeds", c.seeds)
+        .read("maps", rsm.maps)
+        .read("tileMaps", rsm.tileMaps)
+        .write("candidates", c.candidates)
+        .write("candidateCounts", c.candidateCounts)
+        .write("slotOfCluster", slotOfCluster)
+        .push(push)
+        .dispatchGroups(rsm.tileCount);
+    graph.compute("val_clustering.assign", "val_clustering/assign_texels.comp")
+        .read("texels", rsm.texels)
+        .read("seeds", c.seeds)
+        .read("candidates", c.candidates)
+        .read("candidateCounts", c.candidateCounts)
+        .write("slotOfTexel", c.slotOfTexel)
+        .push(push)
+        .dispatchGroups(rsm.tileCount);
+}
+
+void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHandle slotOfCluster,
+               const io::ClusterSettings& push) {
+    const BufferHandle partials = graph.buffer(
+        "val_clustering.partials",
+        {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * io::kPartialVec4s * 16, .texelFormat = kVec4});
+    graph.compute("val_clustering.sum_tiles", "val_clustering/sum_tiles.comp")
+        .read("texels", rsm.texels)
+        .read("seeds", c.seeds)
+        .read("candidates", c.candidates)
+        .read("slotOfTexel", c.slotOfTexel)
+        .read("candidateCounts", c.candidateCounts)
+        .write("partials", partials)
+        .dispatchGroups(rsm.tileCount, kSumGroups);
+    graph.compute("val_clustering.update", "val_clustering/update_clusters.comp")
+        .read("seeds", c.seeds)
+        .read("maps", rsm.maps)
+        .read("slotOfCluster", slotOfCluster)
+        .read("partials", partials)
+        .write("clusters", c.clusters)
+        .push(push)
+        .dispatchGroups(c.count);
+}
+
+}  // namespace
+
+Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
+                          const ValClusteringSettings& settings, uint64_t viewVersion, ValClusteringHistory& history) {
+    if (rsm.empty()) return {};
+    const uint64_t inputs =
+        combineHash(combineHash(rsm.inputsVersion, importance.viewDependent ? viewVersion : 0), hashValue(settings));
+    const io::ClusterSettings push{
+        .metricWeights = {settings.distanceWeight, settings.normalWeight, settings.chromaWeight},
+        .clusterCount = settings.count,
+        .atlasSize = rsm.atlas.size,
+        .mapCount = rsm.atlas.mapCount,
+        .step = advance(history, inputs, settings.settleFrames)};
+
+    const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
+    const HistoryBuffer state = graph.historyBuffer(
+        "val_clustering.clusters", {.sizeBytes = settings.count * sizeof(io::Cluster), .texelFormat = kVec4});
+    Clusters c{.clusters = state.current, .count = settings.count};
+    c.seeds = graph.buffer("val_clustering.seeds",
+                           {.sizeBytes = settings.count * sizeof(io::ClusterSeed), .texelFormat = kVec4});
+    c.candidates = graph.buffer("val_clustering.candidates",
+                                {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * 4, .texelFormat = kUint});
+    c.candidateCounts = graph.buffer("val_clustering.candidate_counts", {.sizeBytes = rsm.tileCount * 4ull});
+    c.slotOfTexel = graph.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
+    const BufferHandle slotOfCluster =
+        graph.buffer("val_clustering.slot_of_cluster",
+                     {.sizeBytes = uint64_t(rsm.tileCount) * settings.count * 4, .texelFormat = kUint});
+
+    addSeeding(graph, rsm, importance, state, c.seeds, push);
+    addAssignment(graph, rsm, c, slotOfCluster, push);
+    addUpdate(graph, rsm, c, slotOfCluster, push);
+    return c;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,19 @@
+#include "gi/val_fit.h"
+
+namespace ag::gi {
+
+Vals addValFit(FrameGraph& graph, const Clusters& clusters) {
+    if (clusters.count == 0) return {};
+    constexpr uint32_t kLargestSubgroup = 64;
+    Vals v{.count = (clusters.count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
+    v.vals = graph.buffer("val_fit.vals",
+                          {.sizeBytes = v.count * sizeof(io::Val), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.compute("val_fit.fit", "val_fit/fit_vals.comp")
+        .read("clusters", clusters.clusters)
+        .write("vals", v.vals)
+        .push(glm::uvec2(clusters.count, v.count))
+        .dispatchThreads(v.count);
+    return v;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,14 @@
+// Shadow tests on reversed depth: nearer to the light is greater.
+#ifndef AG_SHADOW_MATH_H
+#define AG_SHADOW_MATH_H
+
+#include "common/portable.h"
+
+AG_BEGIN
+
+AG_FUNCTION float shadowCompare(float stored, float receiver, float bias) {
+    return receiver + bias >= stored ? 1.0f : 0.0f;
+}
+
+AG_END
+#endif

@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// An intermediate as plain floats in its own unit, for files and comparison.
+const uint kColor = 0;
+const uint kSum = 1;    // of two images
+const uint kDepth = 2;  // reversed depth to metres along the camera's axis; 0: no surface
+layout(constant_id = 0) const uint kMode = kColor;
+
+layout(push_constant) uniform Push { float near; } push;
+layout(set = 0, binding = 0) uniform sampler2D first;
+layout(set = 0, binding = 1) uniform sampler2D second;
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 value;
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec3 result = texelFetch(first, pixel, 0).rgb;
+    if (kMode == kSum) result += texelFetch(second, pixel, 0).rgb;
+    if (kMode == kDepth) result = vec3(result.x > 0.0 ? push.near / result.x : 0.0);
+    value = vec4(result, 1.0);
+}

@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// The light maps as radiosity, flux over area, in W/m².
+#include "rsm/rsm.glsl"
+
+layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
+layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 color;
+
+void main() {
+    uvec2 coord = uvec2(gl_FragCoord.xy);
+    uvec2 tile = coord / kRsmTileSize, inTile = coord % kRsmTileSize;
+    uint index = rsmTexelIndex(tile.y * (push.atlas.size.x / kRsmTileSize) + tile.x,
+                               inTile.y * kRsmTileSize + inTile.x);
+    RsmSurface s = AG_RSM_FETCH(texels, index);
+    color = vec4(s.weight > 0.0 ? s.flux / s.area : vec3(0.0), 1.0);
+}

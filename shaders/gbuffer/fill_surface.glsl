@@ -1,0 +1,38 @@
+// What the camera sees: shading normal, diffuse albedo, emitted radiance.
+#define AG_SCENE_MATERIALS
+#include "scene/scene.glsl"
+#include "scene/surface_normal.glsl"
+#include "common/brdf.h"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+layout(location = 4) flat in uint material;
+
+layout(location = 0) out vec4 outNormal;  // xyz: unit; w: roughness
+layout(location = 1) out vec4 outAlbedo;  // rgb: diffuse albedo; w: metallic
+#ifdef AG_EMISSIVE
+layout(location = 2) out vec4 outEmissive;  // W/(m² sr)
+#endif
+
+void main() {
+    SurfaceMaterial m = fetchMaterial(material, uv);
+    vec3 n = normalize(normal);
+    if (!gl_FrontFacing) n = -n;
+    if (kNormalMaps) n = bentNormal(m, position, n, tangent);
+    if (kTextureClass != 0) {
+        vec4 metallicRoughness = sampleLinear(m.uv, m.layers.w);
+        if (m.layers.w >= 0) {
+            m.metallic *= metallicRoughness.b;
+            m.roughness *= metallicRoughness.g;
+        }
+    }
+    outNormal = vec4(n, m.roughness);
+    outAlbedo = vec4(diffuseAlbedo(m.baseColor.rgb, m.metallic), m.metallic);
+#ifdef AG_EMISSIVE
+    vec3 emissive = m.emissive;
+    if (kTextureClass != 0) emissive *= sampleSrgb(m.uv, m.layers.y).rgb;
+    outEmissive = vec4(emissive, 1.0);
+#endif
+}

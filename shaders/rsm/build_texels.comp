@@ -1,0 +1,80 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Turns the rasterised maps into emitters: position, normal, reflected flux and area of each texel (method: RSM).
+#include "common/lights.h"
+#include "common/rsm_math.h"
+#include "rsm/rsm.glsl"
+
+layout(local_size_x = 256) in;  // one tile
+layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D albedoMap;
+layout(set = 0, binding = 2) uniform sampler2D depthMap;
+layout(set = 0, binding = 3, scalar) readonly buffer Faces { RsmFace items[]; } faces;
+layout(set = 0, binding = 4, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 5, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
+layout(set = 0, binding = 6, scalar) writeonly buffer TileMaps { uint items[]; } tileMaps;
+
+// The face a texel lies in, or faceCount if none: a handful of faces at most, uniform within a tile.
+uint findFace(uvec2 coord) {
+    uint found = push.atlas.faceCount;
+    for (uint i = 0; i < push.atlas.faceCount; ++i) {
+        uvec2 origin = faces.items[i].origin;
+        uint size = faces.items[i].size;
+        if (all(greaterThanEqual(coord, origin)) && all(lessThan(coord, origin + size))) found = i;
+    }
+    return found;
+}
+
+RsmTexel darkTexel() { return RsmTexel(vec3(0.0), 0.0, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0), 0.0); }
+
+// Incident power on the texel's solid angle (or, for the sun, its cross-section), in W.
+vec3 incidentFlux(RsmMap map, RsmFace face, vec3 toSurface, float distance, vec2 ndc) {
+    if (map.kind == kLightDirectional)
+        return map.intensity * orthoTexelArea(2.0 * map.tanHalf, float(face.size));
+    float cosAxis = inversesqrt(1.0 + dot(ndc, ndc) * map.tanHalf * map.tanHalf);
+    float cone = map.kind == kLightSpot
+                     ? spotFalloff(dot(toSurface, map.direction), map.cosInner, map.cosOuter) : 1.0;
+    return map.intensity * cone * rangeWindow(distance, map.range) *
+           perspectiveTexelSolidAngle(map.tanHalf, float(face.size), cosAxis);
+}
+
+RsmTexel makeTexel(uvec2 coord, uint faceIndex) {
+    RsmFace face = faces.items[faceIndex];
+    RsmMap map = maps.items[face.map];
+    float depth = texelFetch(depthMap, ivec2(coord), 0).x;
+    vec2 ndc = (vec2(coord - face.origin) + 0.5) / float(face.size) * 2.0 - 1.0;
+    vec4 h = face.worldFromClip * vec4(ndc, depth, 1.0);
+    vec3 position = h.xyz / h.w;
+    vec3 normal = texelFetch(normalMap, ivec2(coord), 0).xyz;
+    normal *= inversesqrt(max(dot(normal, normal), 1e-12));
+
+    bool sun = map.kind == kLightDirectional;
+    vec3 fromLight = position - map.position;
+    float distance = sun ? 0.0 : length(fromLight);
+    vec3 toSurface = sun ? map.direction : fromLight / max(distance, 1e-6);
+    float cosine = -dot(toSurface, normal);
+
+    vec3 incident = incidentFlux(map, face, toSurface, distance, ndc);
+    vec3 flux = texelFetch(albedoMap, ivec2(coord), 0).rgb * incident;
+    float crossSection = sun ? orthoTexelArea(2.0 * map.tanHalf, float(face.size))
+                             : perspectiveTexelSolidAngle(map.tanHalf, float(face.size),
+                                   inversesqrt(1.0 + dot(ndc, ndc) * map.tanHalf * map.tanHalf)) * distance * distance;
+    float weight = (flux.x + flux.y + flux.z) / 3.0;
+    bool lit = depth > 0.0 && cosine > 1e-3 && weight > 0.0;
+    if (!lit) return darkTexel();
+    return RsmTexel(position, crossSection / cosine, normal, weight, flux, cosine);
+}
+
+void main() {
+    uint tile = gl_WorkGroupID.x;
+    uvec2 coord = rsmTexelCoord(tile, gl_LocalInvocationID.x, push.atlas.size.x);
+    uint face = findFace(coord);
+    RsmTexel texel = darkTexel();
+    if (face < push.atlas.faceCount) texel = makeTexel(coord, face);
+    texels.items[rsmTexelIndex(tile, gl_LocalInvocationID.x)] = texel;
+    if (gl_LocalInvocationID.x == 0)
+        tileMaps.items[tile] = face < push.atlas.faceCount ? faces.items[face].map : 0xffffffffu;
+}

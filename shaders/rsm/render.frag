@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// What a bounce light sees. The vertex normal, not the normal map: an emitter is a piece of surface, and details
+// below its size cancel out.
+#define AG_SCENE_MATERIALS
+#include "scene/scene.glsl"
+#include "common/brdf.h"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+layout(location = 4) flat in uint material;
+
+layout(location = 0) out vec4 outNormal;
+layout(location = 1) out vec4 outAlbedo;
+
+void main() {
+    SurfaceMaterial m = fetchMaterial(material, uv);
+    vec3 n = normalize(normal);
+    outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
+    outAlbedo = vec4(diffuseAlbedo(m.baseColor.rgb, m.metallic), 1.0);
+}

@@ -1,0 +1,25 @@
+// Access to RSM texels and tiles for the passes that read them.
+#ifndef AG_RSM_GLSL
+#define AG_RSM_GLSL
+
+#include "rsm/rsm_io.h"
+#include "scene/scene_io.h"
+
+struct RsmSurface {
+    vec3 position, normal, flux;
+    float area, weight;
+};
+
+#define AG_RSM_FETCH(texels, index) fetchRsmTexel_(texelFetch(texels, int(index) * 3), texelFetch(texels, int(index) * 3 + 1), texelFetch(texels, int(index) * 3 + 2))
+
+RsmSurface fetchRsmTexel_(vec4 a, vec4 b, vec4 c) { return RsmSurface(a.xyz, b.xyz, c.xyz, a.w, b.w); }
+
+// Texels are stored tile by tile, so that a tile's 256 lie together: index of a texel by its tile and its place.
+uint rsmTexelIndex(uint tile, uint inTile) { return tile * (kRsmTileSize * kRsmTileSize) + inTile; }
+
+uvec2 rsmTexelCoord(uint tile, uint inTile, uint atlasWidth) {
+    uint tilesX = atlasWidth / kRsmTileSize;
+    return uvec2(tile % tilesX, tile / tilesX) * kRsmTileSize +
+           uvec2(inTile % kRsmTileSize, inTile / kRsmTileSize);
+}
+#endif

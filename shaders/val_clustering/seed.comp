@@ -1,0 +1,142 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Where each cluster starts this step: its place of the last step (carried over in world space), or, if it was empty,
+// changed its light or left the map, a Halton point warped by importance (RSMC section 4; ACRSM algorithm 5.3).
+#include "common/sampling.h"
+#include "importance/pyramid.glsl"
+#include "rsm/rsm.glsl"
+#include "val_clustering/val_clustering_io.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+    ClusterSettings settings;
+    uint faceCount;
+    uint pyramidStride;
+} push;
+
+layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 1, scalar) readonly buffer Faces { RsmFace items[]; } faces;
+layout(set = 0, binding = 2, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 3, scalar) readonly buffer Pyramid { float items[]; } pyramid;
+layout(set = 0, binding = 4, scalar) readonly buffer Previous { Cluster items[]; } previous;
+layout(set = 0, binding = 5, scalar) writeonly buffer Seeds { ClusterSeed items[]; } seeds;
+
+uint tileOfTexel(uvec2 coord) {
+    uvec2 tile = coord / kRsmTileSize;
+    return tile.y * (push.settings.atlasSize.x / kRsmTileSize) + tile.x;
+}
+
+uint indexOfTexel(uvec2 coord) {
+    uvec2 inTile = coord % kRsmTileSize;
+    return rsmTexelIndex(tileOfTexel(coord), inTile.y * kRsmTileSize + inTile.x);
+}
+
+// The tile a world position falls into, kNoCluster outside all faces of the map.
+uint projectToTile(vec3 position, RsmMap map) {
+    uint tile = kNoCluster;
+    for (uint i = 0; i < map.faceCount; ++i) {
+        RsmFace face = faces.items[map.firstFace + i];
+        vec4 clip = face.clipFromWorld * vec4(position, 1.0);
+        vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
+        bool inside = clip.w > 0.0 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
+        if (inside) tile = tileOfTexel(face.origin + min(uvec2(uv * float(face.size)), uvec2(face.size - 1)));
+    }
+    return tile;
+}
+
+// Splits u in proportion a : b; returns 0 or 1 and stretches u over the chosen part.
+uint splitUnit(inout float u, float a, float b) {
+    float total = a + b;
+    float share = total > 0.0 ? a / total : 0.5;
+    uint second = u < share ? 0u : 1u;
+    u = second == 0u ? u / max(share, 1e-12) : (u - share) / max(1.0 - share, 1e-12);
+    u = clamp(u, 0.0, 0.99999994);
+    return second;
+}
+
+uint chooseFace(RsmMap map, inout float u) {
+    float total = 0.0;
+    for (uint i = 0; i < map.faceCount; ++i) {
+        uint f = map.firstFace + i;
+        uint top = pyramidTopLevel(faces.items[f].size);
+        total += pyramid.items[f * push.pyramidStride + pyramidLevelOffset(top, top)];
+    }
+    float rest = u * total;
+    uint chosen = map.firstFace;
+    for (uint i = 0; i < map.faceCount; ++i) {
+        uint f = map.firstFace + i;
+        uint top = pyramidTopLevel(faces.items[f].size);
+        float share = pyramid.items[f * push.pyramidStride + pyramidLevelOffset(top, top)];
+        if (rest >= 0.0 && share > 0.0) {
+            chosen = f;
+            u = clamp(rest / share, 0.0, 0.99999994);
+        }
+        rest -= share;
+    }
+    return chosen;
+}
+
+// Down the 2x2 hierarchy, first rows then columns.
+uvec2 warpToBlock(uint face, inout vec2 u) {
+    uint top = pyramidTopLevel(faces.items[face].size);
+    uint base = face * push.pyramidStride;
+    uint node = 0;
+    for (uint level = top; level > 0; --level) {
+        uint child = base + pyramidLevelOffset(top, level - 1) + 4 * node;
+        float c0 = pyramid.items[child], c1 = pyramid.items[child + 1];
+        float c2 = pyramid.items[child + 2], c3 = pyramid.items[child + 3];
+        uint row = splitUnit(u.y, c0 + c1, c2 + c3);
+        uint column = row == 0 ? splitUnit(u.x, c0, c1) : splitUnit(u.x, c2, c3);
+        node = 4 * node + 2 * row + column;
+    }
+    return cellFromMorton(node);
+}
+
+// The texel of the block under u, or the next lit one after it.
+uint litTexelOfBlock(uvec2 origin, vec2 u) {
+    uint count = kImportanceBlock * kImportanceBlock;
+    uvec2 cell = uvec2(u * float(kImportanceBlock));
+    uint start = cell.y * kImportanceBlock + cell.x;
+    uint found = kNoCluster;
+    for (uint i = 0; i < count; ++i) {
+        uint place = (start + i) % count;
+        uvec2 coord = origin + uvec2(place % kImportanceBlock, place / kImportanceBlock);
+        uint index = indexOfTexel(coord);
+        if (found == kNoCluster && texelFetch(texels, int(index) * 3 + 1).w > 0.0) found = index;
+    }
+    return found;
+}
+
+ClusterSeed deadSeed(uint map) {
+    return ClusterSeed(vec3(0.0), kNoCluster, vec3(0.0, 1.0, 0.0), map, vec3(0.0), 0.0);
+}
+
+ClusterSeed seedFromImportance(uint cluster, uint mapIndex) {
+    RsmMap map = maps.items[mapIndex];
+    vec2 u = halton23(1 + (cluster + push.settings.step * kMaxClusters) % 4194304u);
+    uint face = chooseFace(map, u.x);
+    uvec2 block = warpToBlock(face, u);
+    uvec2 origin = faces.items[face].origin + block * kImportanceBlock;
+    uint texel = litTexelOfBlock(origin, u);
+    if (texel == kNoCluster) return deadSeed(mapIndex);
+    RsmSurface s = AG_RSM_FETCH(texels, texel);
+    return ClusterSeed(s.position, tileOfTexel(origin), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
+}
+
+void main() {
+    uint cluster = gl_GlobalInvocationID.x;
+    if (cluster >= push.settings.clusterCount) return;
+    uint mapIndex = 0;
+    for (uint i = 0; i < push.settings.mapCount; ++i)
+        if (cluster >= maps.items[i].firstCluster) mapIndex = i;
+
+    Cluster before = previous.items[cluster];
+    bool kept = before.texelCount > 0.0 && before.lightIdLow == maps.items[mapIndex].lightIdLow;
+    uint tile = kept ? projectToTile(before.position, maps.items[mapIndex]) : kNoCluster;
+    if (tile != kNoCluster)
+        seeds.items[cluster] =
+            ClusterSeed(before.position, tile, before.normal, mapIndex, before.chroma, before.age + 1.0);
+    else
+        seeds.items[cluster] = seedFromImportance(cluster, mapIndex);
+}

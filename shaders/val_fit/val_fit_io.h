@@ -1,0 +1,23 @@
+// Virtual area lights: what shading reads of a cluster.
+#ifndef AG_VAL_FIT_IO_H
+#define AG_VAL_FIT_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+struct Val {  // 3 vec4; black lights pad the list to whole subgroups
+    vec3 position;  // m
+    float area;     // m²
+    vec3 normal;    // unit
+    float radius;   // of the disk of that area, m
+    vec3 flux;      // W
+    float texelCount;
+};
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif

@@ -1,0 +1,75 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// First-bounce irradiance: every pixel meets every virtual area light. Four pixels an invocation share the loads.
+#include "common/form_factors.h"
+#include "common/lane_loop.glsl"
+#include "gbuffer/gbuffer.glsl"
+#include "val_fit/val_fit_io.h"
+
+layout(local_size_x = 64) in;  // 16 x 16 pixels, a 2 x 2 block each
+
+const uint kShapePoint = 0;
+const uint kShapeDisk = 1;        // as published: RSMC eq. 2
+const uint kShapeVectorDisk = 2;  // closed form of a disk's vector irradiance
+layout(constant_id = 0) const uint kShape = kShapeVectorDisk;
+
+layout(push_constant, scalar) uniform Push { uint valCount; } push;  // padded to whole subgroups
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 3) uniform samplerBuffer vals;
+layout(set = 0, binding = 4, rgba16f) writeonly uniform image2D irradiance;
+
+const int kPixels = 4;
+
+float shapeTerm(vec3 x, vec3 n, vec4 a, vec3 valNormal) {
+    if (kShape == kShapePoint) return vplTerm(x, n, a.xyz, valNormal);
+    if (kShape == kShapeDisk) return diskPublishedTerm(x, n, a.xyz, valNormal, a.w);
+    return diskVectorTerm(x, n, a.xyz, valNormal, a.w);
+}
+
+void accumulate(inout vec3 e[kPixels], vec3 x[kPixels], vec3 n[kPixels], vec4 a, vec3 valNormal, vec3 flux) {
+    [[unroll]] for (int p = 0; p < kPixels; ++p) e[p] += flux * shapeTerm(x[p], n[p], a, valNormal);
+}
+
+ivec2 pixelOf(int p) {
+    uvec2 block = uvec2(gl_LocalInvocationID.x % 8, gl_LocalInvocationID.x / 8) * 2;
+    return ivec2(gl_WorkGroupID.xy * 16 + block + uvec2(p & 1, p >> 1));
+}
+
+void main() {
+    uvec2 size = camera.camera.size;
+    mat4 worldFromClip = camera.camera.worldFromClip;
+    vec3 x[kPixels], n[kPixels], e[kPixels];
+    bool surface[kPixels];
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = min(pixelOf(p), ivec2(size) - 1);
+        float depth = texelFetch(depthMap, pixel, 0).x;
+        surface[p] = depth > 0.0;
+        x[p] = worldFromPixel(worldFromClip, size, pixel, depth);
+        n[p] = texelFetch(normalMap, pixel, 0).xyz;
+        e[p] = vec3(0.0);
+    }
+    if (kLaneParallel) {
+        for (uint base = 0; base < push.valCount; base += kSubgroupSize) {
+            int mine = int(base + gl_SubgroupInvocationID) * 3;
+            vec4 a = texelFetch(vals, mine);
+            vec3 valNormal = texelFetch(vals, mine + 1).xyz;
+            vec3 flux = texelFetch(vals, mine + 2).xyz;
+            [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane)
+                accumulate(e, x, n, subgroupShuffle(a, lane), subgroupShuffle(valNormal, lane),
+                           subgroupShuffle(flux, lane));
+        }
+    } else {
+        for (uint i = 0; i < push.valCount; ++i)
+            accumulate(e, x, n, texelFetch(vals, int(i) * 3), texelFetch(vals, int(i) * 3 + 1).xyz,
+                       texelFetch(vals, int(i) * 3 + 2).xyz);
+    }
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = pixelOf(p);
+        if (all(lessThan(pixel, ivec2(size))))
+            imageStore(irradiance, pixel, vec4(surface[p] ? e[p] : vec3(0.0), 1.0));
+    }
+}

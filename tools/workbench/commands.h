@@ -1,0 +1,15 @@
+// The workbench's sub-commands. Each adds its options to the program and runs from its parsed values; it returns the
+// process's exit code: 0 good, 1 a check failed, 2 bad arguments or input.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ag::workbench {
+
+void addInfoCommand(CLI::App& program, int& exitCode);
+void addRenderCommand(CLI::App& program, int& exitCode);
+
+// One sentence to stderr; returns 2.
+int refuse(const std::string& sentence);
+
+}  // namespace ag::workbench

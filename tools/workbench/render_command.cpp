@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include "engine/core/log.h"
+#include "engine/core/settings.h"
+#include "gi/gi_renderer.h"
+#include "tools/workbench/commands.h"
+#include "tools/workbench/scene_options.h"
+
+namespace ag::workbench {
+namespace {
+
+struct RenderOptions {
+    SceneOptions scene;
+    std::string output;
+    std::string layer;
+    uint32_t frames = 64;
+    std::vector<std::string> assignments;
+    bool listSettings = false;
+    bool times = false;
+    bool validate = false;
+};
+
+struct RenderSettings {
+    gi::GiSettings gi;
+    FrameGraphOptions graph;
+    Settings registry;
+
+    RenderSettings() {
+        registry.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"}, &graph.skip);
+        registry.add({"engine", "alias", 0, 0, "", "scratch images share memory"}, &graph.alias);
+        gi::registerSettings(registry, gi);
+    }
+};
+
+std::string layerOf(const RenderOptions& options) {
+    if (!options.layer.empty()) return options.layer;
+    return std::filesystem::path(options.output).extension() == ".png" ? "final" : "radiance";
+}
+
+// Process CPU time of each pass once more with everything run, which also warms the numbers: the first frames compile.
+void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSettings& settings) {
+    FrameGraphOptions options = settings.graph;
+    options.skip = false;
+    options.timing = TimingMode::kProcessCpu;
+    std::vector<double> best;
+    constexpr int kRepeats = 7;
+    for (int i = 0; i < kRepeats; ++i) {
+        renderer.render(loaded.scene, loaded.size, settings.gi, options,
+                        [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
+                            graph.output(frame.outputs.display);
+                        });
+        best.resize(renderer.graph().report().size(), 1e30);
+        for (size_t p = 0; p < best.size(); ++p) best[p] = std::min(best[p], renderer.graph().report()[p].cpuMs);
+    }
+    double total = 0;
+    std::cout << fmt::format("{}: {}x{}, process CPU ms per pass, least of {}\n", renderer.device().info().name,
+                             loaded.size.x, loaded.size.y, kRepeats);
+    for (size_t p = 0; p < best.size(); ++p) {
+        if (renderer.graph().report()[p].outcome != PassOutcome::kRan) continue;
+        std::cout << fmt::format("{:<36} {:8.2f}\n", renderer.graph().report()[p].name, best[p]);
+        total += best[p];
+    }
+    std::cout << fmt::format("{:<36} {:8.2f}\n{:<36} {:8.1f} MiB\n", "sum", total, "device memory",
+                             double(renderer.deviceBytes()) / 1048576.0);
+}
+
+int runRender(const RenderOptions& options) {
+    RenderSettings settings;
+    for (const std::string& assignment : options.assignments)
+        if (const Status set = settings.registry.set(assignment); !set) return refuse(set.error().message);
+    if (options.listSettings) {
+        std::cout << settings.registry.table();
+        return 0;
+    }
+    if (options.output.empty()) return refuse("render needs -o FILE.(exr|pfm|png)");
+    const auto layer = gi::layerFromName(layerOf(options));
+    if (!layer) return refuse(fmt::format("there is no layer '{}'", options.layer));
+    const std::string extension = std::filesystem::path(options.output).extension();
+    if (extension != ".png" && extension != ".exr" && extension != ".pfm")
+        return refuse(fmt::format("{} must end in .exr, .pfm or .png", options.output));
+    auto loaded = loadScene(options.scene);
+    if (!loaded) return refuse(loaded.error().message);
+    auto device = gpu::Device::create({.validation = options.validate});
+    if (!device) return refuse(device.error().message);
+
+    gi::GiRenderer renderer(**device);
+    renderer.load(loaded->asset->geometry);
+    const bool png = extension == ".png";
+    ImageHandle shown;
+    const auto start = std::chrono::steady_clock::now();
+    auto lastLine = start;
+    for (uint32_t i = 0; i < std::max(options.frames, 1u); ++i) {
+        renderer.render(loaded->scene, loaded->size, settings.gi, settings.graph,
+                        [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
+                            shown = png ? gi::addLayerView(graph, view, frame, *layer, loaded->size,
+                                                           settings.gi.composite)
+                                        : gi::addLayer(graph, view, frame, *layer);
+                            if (shown) graph.output(shown);
+                        });
+        const auto now = std::chrono::steady_clock::now();
+        if (now - lastLine > std::chrono::seconds(1)) {
+            spdlog::info("frame {} of {}", i + 1, options.frames);
+            lastLine = now;
+        }
+    }
+    const Image image = shown ? gi::readImage(renderer, shown) : Image(int(loaded->size.x), int(loaded->size.y));
+    if (const Status saved = saveImage(image, options.output); !saved) return refuse(saved.error().message);
+    if (options.times) printTimes(renderer, *loaded, settings);
+    return (*device)->validationMessageCount() == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& program, int& exitCode) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = program.add_subcommand("render", "one converged frame of a scene, without a window");
+    addSceneOptions(*command, options->scene);
+    command->get_option("scene")->required(false);
+    command->add_option("-o,--output", options->output, "FILE.(exr|pfm|png)");
+    command->add_option("--frames", options->frames, "frames to run first")->check(CLI::Range(1u, 100000u))
+        ->capture_default_str();
+    command->add_option("--layer", options->layer, "which intermediate; radiance (exr, pfm) or final (png) by default");
+    command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
+    command->add_flag("--list-settings", options->listSettings, "every setting with default, range, unit, help");
+    command->add_flag("--times", options->times, "print each pass's process CPU time and the memory used");
+    command->add_flag("--validate", options->validate, "with Vulkan validation; any message exits with 1");
+    command->callback([options, &exitCode] { exitCode = runRender(*options); });
+}
+
+}  // namespace ag::workbench

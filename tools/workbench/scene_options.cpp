@@ -1,0 +1,150 @@
+#include "tools/workbench/scene_options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "engine/core/log.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::workbench {
+namespace {
+
+// Comma-separated finite numbers, `least` to `most` of them.
+std::optional<std::vector<float>> parseNumbers(const std::string& text, size_t least, size_t most) {
+    std::vector<float> numbers;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (at <= end) {
+        float value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+        numbers.push_back(value);
+        if (next == end) break;
+        if (*next != ',') return std::nullopt;
+        at = next + 1;
+    }
+    if (numbers.size() < least || numbers.size() > most) return std::nullopt;
+    return numbers;
+}
+
+Status addSuns(const SceneOptions& options, RenderScene& scene) {
+    for (const std::string& text : options.suns) {
+        const auto n = parseNumbers(text, 3, 4);
+        if (!n || glm::length(glm::vec3((*n)[0], (*n)[1], (*n)[2])) < 1e-6f)
+            return Error{fmt::format("--sun takes DX,DY,DZ[,E], not '{}'", text)};
+        scene.lights.push_back({.kind = LightKind::kDirectional,
+                                .direction = glm::normalize(glm::vec3((*n)[0], (*n)[1], (*n)[2])),
+                                .intensity = glm::vec3(n->size() > 3 ? (*n)[3] : 10.0f),
+                                .bounces = true,
+                                .id = 1000 + scene.lights.size()});
+    }
+    return Ok{};
+}
+
+Status addPoints(const SceneOptions& options, RenderScene& scene) {
+    for (const std::string& text : options.points) {
+        const auto n = parseNumbers(text, 4, 4);
+        if (!n) return Error{fmt::format("--point takes X,Y,Z,I, not '{}'", text)};
+        scene.lights.push_back({.kind = LightKind::kPoint,
+                                .position = {(*n)[0], (*n)[1], (*n)[2]},
+                                .intensity = glm::vec3((*n)[3]),
+                                .bounces = true,
+                                .id = 1000 + scene.lights.size()});
+    }
+    return Ok{};
+}
+
+Status addSpots(const SceneOptions& options, RenderScene& scene) {
+    for (const std::string& text : options.spots) {
+        const auto n = parseNumbers(text, 9, 9);
+        const bool fits = n && glm::length(glm::vec3((*n)[3], (*n)[4], (*n)[5])) > 1e-6f && (*n)[7] >= 0 &&
+                          (*n)[7] <= (*n)[8] && (*n)[8] > 0 && (*n)[8] < 90;
+        if (!fits) return Error{fmt::format("--spot takes X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG, not '{}'", text)};
+        scene.lights.push_back({.kind = LightKind::kSpot,
+                                .position = {(*n)[0], (*n)[1], (*n)[2]},
+                                .direction = glm::normalize(glm::vec3((*n)[3], (*n)[4], (*n)[5])),
+                                .intensity = glm::vec3((*n)[6]),
+                                .innerConeAngle = glm::radians((*n)[7]),
+                                .outerConeAngle = glm::radians((*n)[8]),
+                                .bounces = true,
+                                .id = 1000 + scene.lights.size()});
+    }
+    return Ok{};
+}
+
+Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& asset) {
+    if (!options.view.empty()) {
+        const auto n = parseNumbers(options.view, 6, 7);
+        if (!n) return Error{fmt::format("--view takes PX,PY,PZ,TX,TY,TZ[,VFOV_DEG], not '{}'", options.view)};
+        const glm::vec3 position((*n)[0], (*n)[1], (*n)[2]), target((*n)[3], (*n)[4], (*n)[5]);
+        const float fov = n->size() > 6 ? (*n)[6] : 55.0f;
+        if (glm::length(target - position) < 1e-6f || fov <= 0 || fov >= 170)
+            return Error{fmt::format("--view looks nowhere: '{}'", options.view)};
+        CameraPose pose;
+        pose.position = position;
+        pose.forward = glm::normalize(target - position);
+        pose.verticalFov = glm::radians(fov);
+        return pose;
+    }
+    if (options.camera.empty()) return cameraOf(asset, 0);
+    for (size_t i = 0; i < asset.cameras.size(); ++i)
+        if (asset.cameras[i].name == options.camera || std::to_string(i) == options.camera) return cameraOf(asset, i);
+    return Error{fmt::format("{} has no camera '{}' (it has {})", options.scene, options.camera, asset.cameras.size())};
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& command, SceneOptions& o) {
+    command.add_option("scene", o.scene, "glTF or GLB file, or a built-in name")->required();
+    command.add_option("--param", o.param, "number of a built-in scene that takes one");
+    command.add_option("--size", o.size, "pixels, WxH")->capture_default_str();
+    command.add_option("--camera", o.camera, "index or name of one of the scene's cameras");
+    command.add_option("--view", o.view, "camera: PX,PY,PZ,TX,TY,TZ[,VFOV_DEG]");
+    command.add_option("--sun", o.suns, "add a sun: DX,DY,DZ[,E]: the way its light travels, W/m2")
+        ->allow_extra_args(false);
+    command.add_option("--point", o.points, "add a point light: X,Y,Z,I in m and W/sr")->allow_extra_args(false);
+    command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")->allow_extra_args(false);
+    command.add_flag("--no-scene-lights", o.noSceneLights, "drop the file's own lights");
+}
+
+Result<glm::uvec2> parseSize(const std::string& text) {
+    glm::uvec2 size(0);
+    const char* end = text.data() + text.size();
+    const auto [middle, error] = std::from_chars(text.data(), end, size.x);
+    const bool good = error == std::errc() && middle != end && *middle == 'x';
+    const auto [last, error2] = std::from_chars(good ? middle + 1 : end, end, size.y);
+    if (!good || error2 != std::errc() || last != end || size.x == 0 || size.y == 0 || size.x > 8192 || size.y > 8192)
+        return Error{fmt::format("a size is WxH with 1 to 8192 pixels a side, not '{}'", text)};
+    return size;
+}
+
+Result<LoadedScene> loadScene(const SceneOptions& options) {
+    auto asset = scenegen::resolveScene(options.scene, options.param);
+    if (!asset) return asset.error();
+    const auto size = parseSize(options.size);
+    if (!size) return size.error();
+    LoadedScene loaded{.asset = std::make_unique<SceneAsset>(std::move(*asset)), .size = *size};
+    for (const std::string& warning : loaded.asset->warnings) spdlog::warn("{}: {}", options.scene, warning);
+    loaded.scene = staticScene(*loaded.asset);
+    if (options.noSceneLights) loaded.scene.lights.clear();
+    for (const Status& added :
+         {addSuns(options, loaded.scene), addPoints(options, loaded.scene), addSpots(options, loaded.scene)})
+        if (!added) return added.error();
+    if (loaded.scene.lights.empty() && !options.noSceneLights) {
+        spdlog::warn("{} has no light: a sun is added", options.scene);
+        loaded.scene.lights.push_back({.kind = LightKind::kDirectional,
+                                       .direction = glm::normalize(glm::vec3(0.25f, -1, 0.35f)),
+                                       .intensity = glm::vec3(10),
+                                       .bounces = true,
+                                       .id = 1});
+    }
+    const auto camera = chooseCamera(options, *loaded.asset);
+    if (!camera) return camera.error();
+    setCamera(loaded.scene, *camera, *size);
+    return loaded;
+}
+
+}  // namespace ag::workbench

@@ -1,0 +1,40 @@
+// What every sub-command that takes a SCENE understands: the scene, its camera, lights added or dropped.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/scene/static_scene.h"
+
+namespace ag::workbench {
+
+struct SceneOptions {
+    std::string scene;
+    uint32_t param = 0;
+    std::string camera;               // index or name
+    std::string size = "640x360";
+    std::string view;                 // PX,PY,PZ,TX,TY,TZ[,VFOV_DEG]
+    std::vector<std::string> suns;    // DX,DY,DZ[,E]
+    std::vector<std::string> points;  // X,Y,Z,I
+    std::vector<std::string> spots;   // X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG
+    bool noSceneLights = false;
+};
+
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+struct LoadedScene {
+    std::unique_ptr<SceneAsset> asset;  // stays in place: the scene points into it
+    RenderScene scene;
+    glm::uvec2 size{0};
+};
+
+// Everything the options say, ready to render; warnings are logged.
+Result<LoadedScene> loadScene(const SceneOptions& options);
+
+// "640x360"
+Result<glm::uvec2> parseSize(const std::string& text);
+
+}  // namespace ag::workbench
