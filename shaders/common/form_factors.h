@@ -23,26 +23,26 @@ AG_FUNCTION float diskPublishedTerm(vec3 x, vec3 n, vec3 c, vec3 m, float area) 
     return cosines / (d2 * (kPi * d2 + area));
 }
 
-// The disk's vector irradiance in closed form: its length times the receiver's cosine, with a smooth horizon.
-AG_FUNCTION float diskVectorTerm(vec3 x, vec3 n, vec3 c, vec3 m, float area) {
+// The disk's vector irradiance in closed form: its length L times the receiver's cosine c, with a smooth horizon of
+// half width s = sqrt(L): L (c + s)² / (4 s) for |c| < s. With a = p² - r² and q² = a² + 4 r² h² the length is
+// L² = 4 r⁴ h² / (q (p² + r² + q) (q + a)); nothing cancels far away or at the disk's rim. Returns the form factor:
+// E = flux / area x factor.
+AG_FUNCTION float diskVectorFactor(vec3 x, vec3 n, vec3 c, vec3 m, float radiusSquared) {
     vec3 p = x - c;
     float h = dot(p, m);
-    float p2 = max(dot(p, p), 1e-12f);
-    float r2 = max(area * kInvPi, 1e-12f);
-    float t = p2 + r2;
+    float p2 = dot(p, p);
+    float r2 = radiusSquared;
     float a = p2 - r2;
-    // t² - 4 r² (p² - h²), written so that nothing cancels at the disk's rim.
-    float q = sqrt(max(a * a + 4.0f * r2 * h * h, 1e-24f));
-    // p² - r² - q likewise, for far away.
-    float difference = a > 0.0f ? -4.0f * r2 * h * h / (a + q) : a - q;
-    vec3 v = (m * difference - p * (2.0f * h)) * (r2 / (q * (t + q)));
-    float l2 = max(dot(v, v), 1e-30f);
-    float l = sqrt(l2);
-    float c1 = dot(n, v);   // l x cosine
-    float s1 = l * sqrt(l); // l x sqrt(l): the horizon's half width times l
-    float sum = c1 + s1;
-    float f = c1 >= s1 ? c1 : (sum > 0.0f ? sum * sum / (4.0f * s1) : 0.0f);
-    return h > 0.0f ? max(f, 0.0f) / (r2 * kPi) : 0.0f;
+    float g = 2.0f * r2 * h;
+    float q = sqrt(a * a + 4.0f * r2 * h * h);
+    float b = max(q + a, 1e-6f * r2);
+    float scale = g / max(q * (p2 + r2 + q) * b, 1e-30f);
+    float l2 = min(scale * g, 1.0f);                     // L²
+    float lc = -(l2 * dot(n, m) + scale * b * dot(n, p)); // L c
+    float ls = sqrt(l2 * sqrt(max(l2, 1e-30f)));          // L s
+    float sum = max(lc + ls, 0.0f);
+    float f = lc >= ls ? lc : 0.25f * sum * sum / max(ls, 1e-20f);
+    return h > 0.0f ? f : 0.0f;
 }
 
 // Integral of one edge of a polygon seen from the origin, projected onto n; a and b are unit vectors.

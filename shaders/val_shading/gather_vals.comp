@@ -24,10 +24,20 @@ layout(set = 0, binding = 4, rgba16f) writeonly uniform image2D irradiance;
 
 const int kPixels = 4;
 
+// With flux premultiplied by what the shape leaves constant: see loadVal.
 float shapeTerm(vec3 x, vec3 n, vec4 a, vec3 valNormal) {
     if (kShape == kShapePoint) return vplTerm(x, n, a.xyz, valNormal);
     if (kShape == kShapeDisk) return diskPublishedTerm(x, n, a.xyz, valNormal, a.w);
-    return diskVectorTerm(x, n, a.xyz, valNormal, a.w);
+    return diskVectorFactor(x, n, a.xyz, valNormal, a.w);
+}
+
+void loadVal(int index, out vec4 a, out vec3 normal, out vec3 flux) {
+    a = texelFetch(vals, index * 3);
+    normal = texelFetch(vals, index * 3 + 1).xyz;
+    flux = texelFetch(vals, index * 3 + 2).xyz;
+    if (kShape != kShapeVectorDisk) return;
+    flux /= a.w;      // radiosity
+    a.w *= kInvPi;    // radius²
 }
 
 void accumulate(inout vec3 e[kPixels], vec3 x[kPixels], vec3 n[kPixels], vec4 a, vec3 valNormal, vec3 flux) {
@@ -54,18 +64,20 @@ void main() {
     }
     if (kLaneParallel) {
         for (uint base = 0; base < push.valCount; base += kSubgroupSize) {
-            int mine = int(base + gl_SubgroupInvocationID) * 3;
-            vec4 a = texelFetch(vals, mine);
-            vec3 valNormal = texelFetch(vals, mine + 1).xyz;
-            vec3 flux = texelFetch(vals, mine + 2).xyz;
+            vec4 a;
+            vec3 valNormal, flux;
+            loadVal(int(base + gl_SubgroupInvocationID), a, valNormal, flux);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane)
                 accumulate(e, x, n, subgroupShuffle(a, lane), subgroupShuffle(valNormal, lane),
                            subgroupShuffle(flux, lane));
         }
     } else {
-        for (uint i = 0; i < push.valCount; ++i)
-            accumulate(e, x, n, texelFetch(vals, int(i) * 3), texelFetch(vals, int(i) * 3 + 1).xyz,
-                       texelFetch(vals, int(i) * 3 + 2).xyz);
+        for (uint i = 0; i < push.valCount; ++i) {
+            vec4 a;
+            vec3 valNormal, flux;
+            loadVal(int(i), a, valNormal, flux);
+            accumulate(e, x, n, a, valNormal, flux);
+        }
     }
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(p);
