@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/scene/gltf_import.h"
 #include "tools/scenegen/builder.h"
 
 namespace ag::scenegen {
@@ -114,7 +115,7 @@ Result<SceneAsset> buildScene(std::string_view name, uint32_t param) {
 }
 
 Result<SceneAsset> resolveScene(const std::string& nameOrPath, uint32_t param) {
-    return buildScene(nameOrPath, param);
+    return isBuiltIn(nameOrPath) ? buildScene(nameOrPath, param) : importGltf(nameOrPath);
 }
 
 }  // namespace ag::scenegen

@@ -1,0 +1,26 @@
+// glTF 2.0 files (.gltf, .glb) to a SceneAsset. tinygltf parses; everything it lets pass is checked here, so that a
+// hostile file gives a sentence and nothing else. URIs never leave the file's own folder. Animations are not imported.
+#pragma once
+
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/scene/scene_asset.h"
+
+namespace ag {
+
+// What a file may hold at most.
+struct ImportLimits {
+    uint64_t fileBytes = uint64_t(1) << 30;
+    uint64_t vertices = 50'000'000;
+    uint64_t indices = 150'000'000;
+    uint32_t nodes = 1'000'000;
+    uint32_t nodeDepth = 1024;
+    uint32_t imageSide = 16384;
+    uint64_t imageTexels = uint64_t(1) << 28;  // of all images together
+};
+
+// The error names the file and the fault in one sentence.
+Result<SceneAsset> importGltf(const std::string& path, const ImportLimits& limits = {});
+
+}  // namespace ag

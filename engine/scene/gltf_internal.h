@@ -1,0 +1,33 @@
+// The parts of the importer, in the order they run. Private to engine/scene.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/gltf_import.h"
+
+namespace ag::gltf {
+
+using Fault = std::optional<std::string>;  // what is wrong, without the file's name
+
+// Everything an index, a count or an offset could break.
+Fault validate(const tinygltf::Model& model, const ImportLimits& limits);
+
+// Elements of a validated accessor as floats (normalised integers converted), `components` of each kept or padded
+// with zero; sparse values applied.
+std::vector<float> readFloats(const tinygltf::Model& model, int accessor, int components);
+std::vector<uint32_t> readUints(const tinygltf::Model& model, int accessor, int components);
+
+void importMaterials(const tinygltf::Model& model, SceneAsset& asset);
+// After importMaterials: sets every material's class and layers.
+Fault importTextures(const tinygltf::Model& model, SceneAsset& asset);
+Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits);
+Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits);
+
+// A number in an extension's object, or the fallback.
+double numberOf(const tinygltf::Value& object, const char* key, double fallback);
+
+}  // namespace ag::gltf

@@ -1,0 +1,153 @@
+// Materials, and their textures resampled to square classes of array layers.
+#include <fmt/format.h>
+#include <stb/stb_image_resize.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "engine/scene/gltf_internal.h"
+
+namespace ag::gltf {
+namespace {
+
+const tinygltf::Value* extensionOf(const tinygltf::ExtensionMap& extensions, const char* name) {
+    const auto found = extensions.find(name);
+    return found == extensions.end() ? nullptr : &found->second;
+}
+
+double element(const tinygltf::Value& object, const char* key, size_t i, double fallback) {
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsArray() || object.Get(key).ArrayLen() <= i)
+        return fallback;
+    const tinygltf::Value& value = object.Get(key).Get(int(i));
+    return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
+}
+
+// KHR_texture_transform: scale, then rotate, then move.
+glm::mat3x2 uvTransformOf(const tinygltf::ExtensionMap& extensions) {
+    glm::mat3x2 m(1, 0, 0, 1, 0, 0);
+    const tinygltf::Value* t = extensionOf(extensions, "KHR_texture_transform");
+    if (!t) return m;
+    const float angle = float(numberOf(*t, "rotation", 0));
+    const glm::vec2 scale(float(element(*t, "scale", 0, 1)), float(element(*t, "scale", 1, 1)));
+    m[0] = glm::vec2(std::cos(angle), -std::sin(angle)) * scale.x;
+    m[1] = glm::vec2(std::sin(angle), std::cos(angle)) * scale.y;
+    m[2] = {float(element(*t, "offset", 0, 0)), float(element(*t, "offset", 1, 0))};
+    return m;
+}
+
+Material materialOf(const tinygltf::Material& m) {
+    Material out;
+    out.name = m.name;
+    const auto& pbr = m.pbrMetallicRoughness;
+    for (int c = 0; c < 4 && size_t(c) < pbr.baseColorFactor.size(); ++c)
+        out.baseColor[c] = std::clamp(float(pbr.baseColorFactor[size_t(c)]), 0.0f, 1.0f);
+    out.metallic = std::clamp(float(pbr.metallicFactor), 0.0f, 1.0f);
+    out.roughness = std::clamp(float(pbr.roughnessFactor), 0.0f, 1.0f);
+    float strength = 1;
+    if (const tinygltf::Value* e = extensionOf(m.extensions, "KHR_materials_emissive_strength"))
+        strength = std::max(float(numberOf(*e, "emissiveStrength", 1)), 0.0f);
+    for (int c = 0; c < 3 && size_t(c) < m.emissiveFactor.size(); ++c)
+        out.emissive[c] = std::max(float(m.emissiveFactor[size_t(c)]), 0.0f) * strength;
+    if (const tinygltf::Value* e = extensionOf(m.extensions, "KHR_materials_specular"))
+        out.specular = std::clamp(float(numberOf(*e, "specularFactor", 1)), 0.0f, 1.0f);
+    out.normalScale = float(m.normalTexture.scale);
+    out.alphaMode = m.alphaMode == "MASK"    ? AlphaMode::kMask
+                    : m.alphaMode == "BLEND" ? AlphaMode::kBlend
+                                             : AlphaMode::kOpaque;
+    out.alphaCutoff = float(m.alphaCutoff);
+    out.doubleSided = m.doubleSided;
+    out.uvTransform = uvTransformOf(pbr.baseColorTexture.extensions);
+    return out;
+}
+
+TextureClass classFor(int side) {
+    if (side <= 256) return TextureClass::k256;
+    if (side <= 512) return TextureClass::k512;
+    return side <= 1024 ? TextureClass::k1024 : TextureClass::k2048;
+}
+
+std::vector<uint8_t> toRgba(const tinygltf::Image& image) {
+    const size_t texels = size_t(image.width) * size_t(image.height);
+    const size_t bytes = size_t(std::max(image.bits, 8) / 8), components = size_t(image.component);
+    std::vector<uint8_t> out(texels * 4, 255);
+    for (size_t i = 0; i < texels; ++i) {
+        for (size_t c = 0; c < components; ++c)  // the high byte of 16-bit texels
+            out[i * 4 + c] = image.image[(i * components + c) * bytes + bytes - 1];
+        if (components <= 2) {  // grey, perhaps with alpha
+            if (components == 2) out[i * 4 + 3] = out[i * 4 + 1];
+            out[i * 4 + 1] = out[i * 4 + 2] = out[i * 4];
+        }
+    }
+    return out;
+}
+
+std::vector<uint8_t> resample(const tinygltf::Image& image, int side, bool srgb) {
+    std::vector<uint8_t> source = toRgba(image);
+    if (image.width == side && image.height == side) return source;
+    std::vector<uint8_t> out(size_t(side) * size_t(side) * 4);
+    stbir_resize_uint8_generic(source.data(), image.width, image.height, 0, out.data(), side, side, 0, 4, 3, 0,
+                               STBIR_EDGE_WRAP, STBIR_FILTER_DEFAULT,
+                               srgb ? STBIR_COLORSPACE_SRGB : STBIR_COLORSPACE_LINEAR, nullptr);
+    return out;
+}
+
+// Layers already made, by image, class and encoding.
+class LayerMaker {
+  public:
+    LayerMaker(const tinygltf::Model& model, SceneAsset& asset) : model_(model), asset_(asset) {}
+
+    int32_t layer(int texture, TextureClass textureClass, bool srgb) {
+        if (texture < 0) return -1;
+        const int source = model_.textures[size_t(texture)].source;
+        const auto [entry, added] = made_.try_emplace({source, textureClass, srgb}, -1);
+        if (!added) return entry->second;
+        TextureLayers& layers = asset_.geometry.textures[size_t(textureClass)];
+        auto& list = srgb ? layers.srgb : layers.linear;
+        list.push_back(resample(model_.images[size_t(source)], int(textureClassSize(textureClass)), srgb));
+        return entry->second = int32_t(list.size() - 1);
+    }
+
+  private:
+    const tinygltf::Model& model_;
+    SceneAsset& asset_;
+    std::map<std::tuple<int, TextureClass, bool>, int32_t> made_;
+};
+
+}  // namespace
+
+void importMaterials(const tinygltf::Model& model, SceneAsset& asset) {
+    for (const tinygltf::Material& m : model.materials) asset.geometry.materials.push_back(materialOf(m));
+    asset.geometry.materials.push_back({.name = "default"});  // for primitives without one
+}
+
+Fault importTextures(const tinygltf::Model& model, SceneAsset& asset) {
+    LayerMaker maker(model, asset);
+    constexpr size_t kMostLayers = 2048;
+    for (size_t i = 0; i < model.materials.size(); ++i) {
+        const tinygltf::Material& m = model.materials[i];
+        const int base = m.pbrMetallicRoughness.baseColorTexture.index,
+                  rough = m.pbrMetallicRoughness.metallicRoughnessTexture.index, normal = m.normalTexture.index,
+                  emissive = m.emissiveTexture.index;
+        int side = 0;
+        for (int texture : {base, rough, normal, emissive}) {
+            if (texture < 0) continue;
+            const tinygltf::Image& image = model.images[size_t(model.textures[size_t(texture)].source)];
+            side = std::max({side, image.width, image.height});
+        }
+        if (side == 0) continue;
+        Material& out = asset.geometry.materials[i];
+        out.textureClass = classFor(side);
+        out.baseColorLayer = maker.layer(base, out.textureClass, true);
+        out.emissiveLayer = maker.layer(emissive, out.textureClass, true);
+        out.normalLayer = maker.layer(normal, out.textureClass, false);
+        out.metallicRoughnessLayer = maker.layer(rough, out.textureClass, false);
+    }
+    for (const TextureLayers& layers : asset.geometry.textures)
+        if (layers.srgb.size() > kMostLayers || layers.linear.size() > kMostLayers)
+            return "it has more textures of one size than fit an array";
+    return std::nullopt;
+}
+
+}  // namespace ag::gltf

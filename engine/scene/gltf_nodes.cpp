@@ -1,0 +1,135 @@
+// The node tree in parents-first order, with lights, cameras and skins.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/scene/gltf_internal.h"
+
+namespace ag::gltf {
+namespace {
+
+NodeTransform decompose(const std::vector<double>& m) {
+    glm::dmat3 linear;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) linear[c][r] = m[size_t(c * 4 + r)];
+    NodeTransform out;
+    out.translation = {m[12], m[13], m[14]};
+    for (int c = 0; c < 3; ++c) {
+        const double length = glm::length(linear[c]);
+        out.scale[c] = float(length);
+        if (length > 0) linear[c] /= length;
+    }
+    if (glm::determinant(linear) < 0) {  // mirrored: keep it in the scale
+        linear[0] = -linear[0];
+        out.scale.x = -out.scale.x;
+    }
+    out.rotation = glm::normalize(glm::quat(glm::quat_cast(linear)));
+    return out;
+}
+
+NodeTransform transformOf(const tinygltf::Node& n) {
+    if (n.matrix.size() == 16) return decompose(n.matrix);
+    NodeTransform out;
+    if (n.translation.size() == 3) out.translation = {n.translation[0], n.translation[1], n.translation[2]};
+    if (n.rotation.size() == 4) {
+        const glm::quat q(float(n.rotation[3]), float(n.rotation[0]), float(n.rotation[1]), float(n.rotation[2]));
+        out.rotation = glm::length(q) > 1e-6f ? glm::normalize(q) : glm::quat(1, 0, 0, 0);
+    }
+    if (n.scale.size() == 3) out.scale = {float(n.scale[0]), float(n.scale[1]), float(n.scale[2])};
+    return out;
+}
+
+NodeExtras extrasOf(const tinygltf::Value& extras) {
+    NodeExtras out;
+    if (!extras.IsObject()) return out;
+    if (extras.Has("collider") && extras.Get("collider").IsBool()) out.collider = extras.Get("collider").Get<bool>();
+    if (extras.Has("moveExtent") && extras.Get("moveExtent").IsArray() && extras.Get("moveExtent").ArrayLen() == 3)
+        for (int i = 0; i < 3; ++i) out.moveExtent[i] = float(extras.Get("moveExtent").Get(i).GetNumberAsDouble());
+    out.movePeriod = float(numberOf(extras, "movePeriod", 0));
+    out.spinSpeed = float(numberOf(extras, "spinSpeed", 0));
+    return out;
+}
+
+int lightOf(const tinygltf::Node& n) {
+    const auto found = n.extensions.find("KHR_lights_punctual");
+    return found == n.extensions.end() ? -1 : int(numberOf(found->second, "light", -1));
+}
+
+SceneLight lightFrom(const tinygltf::Light& l) {
+    SceneLight out{.name = l.name, .intensity = glm::vec3(float(l.intensity)), .range = float(l.range)};
+    out.kind = l.type == "directional" ? LightKind::kDirectional : l.type == "spot" ? LightKind::kSpot : LightKind::kPoint;
+    for (int c = 0; c < 3 && l.color.size() == 3; ++c) out.intensity[c] *= float(l.color[size_t(c)]);
+    if (out.kind == LightKind::kSpot) {
+        out.innerConeAngle = float(l.spot.innerConeAngle);
+        out.outerConeAngle = float(l.spot.outerConeAngle);
+    }
+    return out;
+}
+
+SceneCamera cameraFrom(const tinygltf::Camera& c) {
+    SceneCamera out{.name = c.name};
+    if (c.type != "perspective") return out;
+    if (c.perspective.yfov > 0.01 && c.perspective.yfov < 3.1) out.verticalFov = float(c.perspective.yfov);
+    if (std::isfinite(c.perspective.znear) && c.perspective.znear > 0) out.near = float(c.perspective.znear);
+    return out;
+}
+
+void importSkins(const tinygltf::Model& model, const std::vector<int32_t>& newIndex, SceneAsset& asset) {
+    for (const tinygltf::Skin& s : model.skins) {
+        SceneSkin skin{.name = s.name};
+        for (int joint : s.joints) skin.joints.push_back(uint32_t(std::max(newIndex[size_t(joint)], 0)));
+        skin.inverseBind.resize(s.joints.size(), glm::mat4(1));
+        if (s.inverseBindMatrices >= 0) {
+            const std::vector<float> values = readFloats(model, s.inverseBindMatrices, 16);
+            for (size_t j = 0; j < s.joints.size(); ++j)
+                for (int k = 0; k < 16; ++k) skin.inverseBind[j][k / 4][k % 4] = values[j * 16 + size_t(k)];
+        }
+        asset.skins.push_back(std::move(skin));
+    }
+}
+
+}  // namespace
+
+Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits&) {
+    // Roots: of the default scene, else of the first, else every node without a parent.
+    std::vector<std::pair<int, int32_t>> pending;  // node, new index of its parent
+    const int scene = model.defaultScene >= 0 ? model.defaultScene : model.scenes.empty() ? -1 : 0;
+    std::vector<int> roots;
+    if (scene >= 0) {
+        roots = model.scenes[size_t(scene)].nodes;
+    } else {
+        std::vector<bool> isChild(model.nodes.size(), false);
+        for (const tinygltf::Node& n : model.nodes)
+            for (int child : n.children) isChild[size_t(child)] = true;
+        for (size_t i = 0; i < model.nodes.size(); ++i)
+            if (!isChild[i]) roots.push_back(int(i));
+    }
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, -1});
+
+    std::vector<int32_t> newIndex(model.nodes.size(), -1);
+    while (!pending.empty()) {
+        const auto [old, parent] = pending.back();
+        pending.pop_back();
+        if (newIndex[size_t(old)] != -1) return fmt::format("node {} is listed twice in its scene", old);
+        const tinygltf::Node& n = model.nodes[size_t(old)];
+        newIndex[size_t(old)] = int32_t(asset.nodes.size());
+        asset.nodes.push_back({.name = n.name,
+                               .parent = parent,
+                               .depth = parent < 0 ? 0 : asset.nodes[size_t(parent)].depth + 1,
+                               .local = transformOf(n),
+                               .mesh = n.mesh,
+                               .light = lightOf(n),
+                               .camera = n.camera,
+                               .skin = n.skin,
+                               .extras = extrasOf(n.extras)});
+        for (auto child = n.children.rbegin(); child != n.children.rend(); ++child)
+            pending.push_back({*child, newIndex[size_t(old)]});
+    }
+    for (const tinygltf::Light& l : model.lights) asset.lights.push_back(lightFrom(l));
+    for (const tinygltf::Camera& c : model.cameras) asset.cameras.push_back(cameraFrom(c));
+    importSkins(model, newIndex, asset);
+    return std::nullopt;
+}
+
+}  // namespace ag::gltf
