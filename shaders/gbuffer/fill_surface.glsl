@@ -21,13 +21,6 @@ void main() {
     vec3 n = normalize(normal);
     if (!gl_FrontFacing) n = -n;
     if (kNormalMaps) n = bentNormal(m, position, n, tangent);
-    if (kTextureClass != 0) {
-        vec4 metallicRoughness = sampleLinear(m.uv, m.layers.w);
-        if (m.layers.w >= 0) {
-            m.metallic *= metallicRoughness.b;
-            m.roughness *= metallicRoughness.g;
-        }
-    }
     outNormal = vec4(n, m.roughness);
     outAlbedo = vec4(diffuseAlbedo(m.baseColor.rgb, m.metallic), m.metallic);
 #ifdef AG_EMISSIVE

@@ -104,6 +104,9 @@ SurfaceMaterial fetchMaterial(uint index, vec2 uv) {
         vec4 row1 = texelFetch(materials, base + 5);
         m.uv = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
         m.baseColor *= sampleSrgb(m.uv, m.layers.x);
+        vec4 metallicRoughness = sampleLinear(m.uv, m.layers.w);
+        m.metallic *= m.layers.w < 0 ? 1.0 : metallicRoughness.b;
+        m.roughness *= m.layers.w < 0 ? 1.0 : metallicRoughness.g;
     }
     if (kAlphaMask && m.baseColor.a < emissiveCutoff.w) discard;
     return m;
