@@ -299,7 +299,9 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
     vkCmdPipelineBarrier2(commands, &dependency);
     AG_VK(vkEndCommandBuffer(commands));
-    waitFor(submit(commands));
+    submit(commands);
+    // Not the timeline: synchronization validation follows the queue's own wait only.
+    AG_VK(vkQueueWaitIdle(impl_->queue));
     vkFreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
 }
 

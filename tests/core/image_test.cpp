@@ -1,0 +1,68 @@
+#include "engine/core/image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace ag {
+namespace {
+
+namespace fs = std::filesystem;
+
+Image ramp(int width, int height) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) image.at(x, y) = {float(x) * 0.25f, float(y) * 3.0f, 1e-3f * float(x * y)};
+    return image;
+}
+
+std::string file(const char* name) { return (fs::path(testing::TempDir()) / name).string(); }
+
+TEST(ImageFiles, FloatsSurviveExactly) {
+    const Image image = ramp(17, 9);
+    for (const char* name : {"ramp.pfm", "ramp.exr"}) {
+        ASSERT_TRUE(saveImage(image, file(name)));
+        const auto back = loadImage(file(name));
+        ASSERT_TRUE(back) << back.error().message;
+        ASSERT_EQ(back->width, 17);
+        ASSERT_EQ(back->height, 9);
+        EXPECT_EQ(back->pixels, image.pixels) << name;
+    }
+}
+
+TEST(ImageFiles, RefuseWithASentenceAndLeaveNothing) {
+    const Status lost = saveImage(ramp(2, 2), "/nonexistent/folder/a.pfm");
+    ASSERT_FALSE(lost);
+    EXPECT_NE(lost.error().message.find("/nonexistent/folder/a.pfm"), std::string::npos);
+    EXPECT_FALSE(saveImage(ramp(2, 2), file("a.gif")));
+    EXPECT_FALSE(fs::exists(file("a.gif")));
+    EXPECT_FALSE(loadImage(file("missing.exr")));
+    std::ofstream(file("short.pfm"), std::ios::binary) << "PF\n100 100\n-1.0\nxx";
+    EXPECT_FALSE(loadImage(file("short.pfm")));
+    std::ofstream(file("text.exr")) << "not an image";
+    EXPECT_FALSE(loadImage(file("text.exr")));
+}
+
+TEST(ImageMetrics, KnownDifferences) {
+    Image truth(10, 10), test(10, 10);
+    for (auto& p : truth.pixels) p = glm::vec3(2);
+    for (auto& p : test.pixels) p = glm::vec3(2.2f);
+    const auto d = compareImages(truth, test);
+    ASSERT_TRUE(d);
+    EXPECT_NEAR(d->meanRatio, 1.1, 1e-6);
+    EXPECT_NEAR(d->rmse, 0.2, 1e-6);
+    EXPECT_NEAR(d->relativeRmse, 0.1, 1e-6);
+    EXPECT_NEAR(d->p99, 0.2 / 2.02, 1e-5);
+}
+
+TEST(ImageMetrics, RefuseSizesAndNotANumber) {
+    EXPECT_FALSE(compareImages(Image(2, 2), Image(3, 2)));
+    Image bad(2, 2);
+    bad.at(1, 1).y = std::nanf("");
+    EXPECT_FALSE(compareImages(Image(2, 2), bad));
+}
+
+}  // namespace
+}  // namespace ag

@@ -1,0 +1,244 @@
+// The graph's decisions, without a device.
+#include "engine/frame/frame_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+namespace ag {
+namespace {
+
+constexpr ImageInfo kImage{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = {64, 64}};
+constexpr ImageInfo kScratchImage{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = {64, 64},
+                                  .lifetime = Lifetime::kScratch};
+constexpr BufferInfo kBuffer{.sizeBytes = 1024};
+
+struct NullGraph : testing::Test {
+    FrameGraph g{nullptr, nullptr};
+    FrameGraphOptions options;
+
+    std::map<std::string, PassOutcome> run() {
+        g.execute(VK_NULL_HANDLE);
+        std::map<std::string, PassOutcome> outcomes;
+        for (const PassReport& pass : g.report()) outcomes[std::string(pass.name)] = pass.outcome;
+        return outcomes;
+    }
+    const PassRecord& record(std::string_view name) {
+        for (const PassRecord& r : g.nullRecords())
+            if (r.name == name) return r;
+        ADD_FAILURE() << name << " did not run";
+        static const PassRecord kNone;
+        return kNone;
+    }
+};
+
+// source -> a -> b, the output of the frame.
+void declareChain(FrameGraph& g, uint64_t version, uint32_t pushA = 0) {
+    const BufferHandle source = g.importBuffer("source", kBuffer, version);
+    const BufferHandle a = g.buffer("a", kBuffer), b = g.buffer("b", kBuffer);
+    g.compute("make.a", "a.comp").read("source", source).write("a", a).push(pushA).dispatchThreads(1);
+    g.compute("make.b", "b.comp").read("a", a).write("b", b).dispatchThreads(1);
+    g.output(b);
+}
+
+TEST_F(NullGraph, SkipsWhatDidNotChange) {
+    for (int frame = 0; frame < 5; ++frame) {
+        g.beginFrame(options);
+        declareChain(g, 1);
+        const auto outcome = run();
+        const PassOutcome expected = frame == 0 ? PassOutcome::kRan : PassOutcome::kSkipped;
+        EXPECT_EQ(outcome.at("make.a"), expected);
+        EXPECT_EQ(outcome.at("make.b"), expected);
+    }
+    g.beginFrame(options);
+    declareChain(g, 2);
+    EXPECT_EQ(run().at("make.b"), PassOutcome::kRan) << "a changed import reaches the end";
+    g.beginFrame(options);
+    declareChain(g, 2, 7);
+    EXPECT_EQ(run().at("make.a"), PassOutcome::kRan) << "changed push constants count";
+}
+
+TEST_F(NullGraph, SkipOffRunsAllThatIsNeeded) {
+    options.skip = false;
+    for (int frame = 0; frame < 3; ++frame) {
+        g.beginFrame(options);
+        declareChain(g, 1);
+        g.compute("nobody.needs", "c.comp").write("c", g.buffer("c", kBuffer)).dispatchThreads(1);
+        const auto outcome = run();
+        EXPECT_EQ(outcome.at("make.a"), PassOutcome::kRan);
+        EXPECT_EQ(outcome.at("make.b"), PassOutcome::kRan);
+        EXPECT_EQ(outcome.at("nobody.needs"), PassOutcome::kDropped);
+    }
+}
+
+TEST_F(NullGraph, DropsWhatNobodyReads) {
+    g.beginFrame(options);
+    declareChain(g, 1);
+    const BufferHandle c = g.buffer("c", kBuffer), d = g.buffer("d", kBuffer);
+    g.compute("make.c", "c.comp").write("c", c).dispatchThreads(1);
+    g.compute("make.d", "d.comp").read("c", c).write("d", d).dispatchThreads(1);
+    const auto outcome = run();
+    EXPECT_EQ(outcome.at("make.c"), PassOutcome::kDropped);
+    EXPECT_EQ(outcome.at("make.d"), PassOutcome::kDropped);
+}
+
+TEST_F(NullGraph, BarriersByKindOfUse) {
+    g.beginFrame(options);
+    const ImageHandle color = g.image("color", kImage), result = g.image("result", kImage);
+    const BufferHandle buffer = g.buffer("buffer", kBuffer), second = g.buffer("second", kBuffer);
+    g.fullscreen("draw", "draw.frag").colorClear(color, glm::vec4(0));
+    g.compute("write", "write.comp").write("buffer", buffer).dispatchThreads(1);
+    g.compute("first.read", "r.comp").read("buffer", buffer).write("second", second).dispatchThreads(1);
+    g.compute("second.read", "s.comp")
+        .read("buffer", buffer)
+        .read("second", second)
+        .sample("color", color)
+        .write("result", result)
+        .dispatchThreads(1);
+    g.compute("overwrite", "o.comp").readWrite("buffer", buffer).dispatchThreads(1);
+    g.output(result);
+    g.output(buffer);
+    run();
+
+    ASSERT_EQ(record("draw").barriers.size(), 1u);
+    EXPECT_EQ(record("draw").barriers[0].oldLayout, VK_IMAGE_LAYOUT_UNDEFINED);
+    EXPECT_EQ(record("draw").barriers[0].newLayout, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    EXPECT_TRUE(record("write").barriers.empty()) << "nothing came before";
+    ASSERT_EQ(record("first.read").barriers.size(), 1u);
+    EXPECT_EQ(record("first.read").barriers[0].resource, "buffer");
+    EXPECT_EQ(record("first.read").barriers[0].srcAccess, VK_ACCESS_2_SHADER_WRITE_BIT);
+    EXPECT_EQ(record("first.read").barriers[0].dstAccess, VK_ACCESS_2_SHADER_READ_BIT);
+    bool bufferAgain = false, colorSampled = false;
+    for (const BarrierRecord& b : record("second.read").barriers) {
+        bufferAgain |= b.resource == "buffer";
+        colorSampled |= b.resource == "color" && b.oldLayout == VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL &&
+                        b.newLayout == VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    }
+    EXPECT_FALSE(bufferAgain) << "a read after a read needs no barrier";
+    EXPECT_TRUE(colorSampled);
+    ASSERT_EQ(record("overwrite").barriers.size(), 1u) << "a write waits for the reads before it";
+    EXPECT_EQ(record("overwrite").barriers[0].resource, "buffer");
+}
+
+// clear -> add -> early reader -> add more -> late reader
+void declareAccumulation(FrameGraph& g, uint64_t earlyVersion, uint64_t lateVersion) {
+    const BufferHandle sum = g.buffer("sum", kBuffer), early = g.buffer("early", kBuffer),
+                       late = g.buffer("late", kBuffer);
+    const BufferHandle e = g.importBuffer("e", kBuffer, earlyVersion), l = g.importBuffer("l", kBuffer, lateVersion);
+    g.fill("clear", sum, 0);
+    g.compute("add", "add.comp").readWrite("sum", sum).dispatchThreads(1);
+    g.compute("early", "early.comp").read("sum", sum).read("e", e).write("early", early).dispatchThreads(1);
+    g.compute("add.more", "more.comp").readWrite("sum", sum).dispatchThreads(1);
+    g.compute("late", "late.comp").read("sum", sum).read("l", l).write("late", late).dispatchThreads(1);
+    g.output(early);
+    g.output(late);
+}
+
+TEST_F(NullGraph, ChainsOfWritesRunFromTheirStartWhenAnEarlyVersionIsNeeded) {
+    g.beginFrame(options);
+    declareAccumulation(g, 1, 1);
+    for (const auto& [name, outcome] : run()) EXPECT_EQ(outcome, PassOutcome::kRan) << name;
+
+    g.beginFrame(options);
+    declareAccumulation(g, 1, 2);
+    auto outcome = run();
+    EXPECT_EQ(outcome.at("late"), PassOutcome::kRan);
+    EXPECT_EQ(outcome.at("add"), PassOutcome::kSkipped) << "the last version is still there";
+    EXPECT_EQ(outcome.at("early"), PassOutcome::kSkipped);
+
+    g.beginFrame(options);
+    declareAccumulation(g, 2, 2);
+    outcome = run();
+    EXPECT_EQ(outcome.at("clear"), PassOutcome::kRan) << "the middle version is gone and is made again";
+    EXPECT_EQ(outcome.at("add"), PassOutcome::kRan);
+    EXPECT_EQ(outcome.at("early"), PassOutcome::kRan);
+    EXPECT_EQ(outcome.at("late"), PassOutcome::kSkipped);
+
+    g.beginFrame(options);
+    declareAccumulation(g, 2, 3);
+    outcome = run();
+    EXPECT_EQ(outcome.at("clear"), PassOutcome::kRan) << "it was left at its middle version";
+    EXPECT_EQ(outcome.at("add.more"), PassOutcome::kRan);
+    EXPECT_EQ(outcome.at("late"), PassOutcome::kRan);
+    EXPECT_EQ(outcome.at("early"), PassOutcome::kSkipped);
+}
+
+void declareHistory(FrameGraph& g, uint64_t version, uint64_t step) {
+    const BufferHandle source = g.importBuffer("source", kBuffer, version);
+    const HistoryBuffer h = g.historyBuffer("history", kBuffer);
+    const BufferHandle out = g.buffer("out", kBuffer);
+    g.compute("step", "step.comp").read("source", source).readPrevious("previous", h).write("current", h.current)
+        .step(step).dispatchThreads(1);
+    g.compute("use", "use.comp").read("current", h.current).write("out", out).dispatchThreads(1);
+    g.output(out);
+}
+
+TEST_F(NullGraph, HistoriesStepOnlyWhenTheirInputsDo) {
+    const auto frame = [&](uint64_t version, uint64_t step) {
+        g.beginFrame(options);
+        declareHistory(g, version, step);
+        return run();
+    };
+    EXPECT_EQ(frame(1, 0).at("step"), PassOutcome::kRan);
+    EXPECT_EQ(frame(1, 0).at("step"), PassOutcome::kSkipped);
+    EXPECT_EQ(frame(1, 1).at("step"), PassOutcome::kRan) << "a step asked for";
+    EXPECT_EQ(frame(1, 1).at("use"), PassOutcome::kSkipped);
+    EXPECT_EQ(frame(2, 1).at("use"), PassOutcome::kRan);
+    EXPECT_EQ(frame(1, 1).at("use"), PassOutcome::kRan) << "going back is a step too: the past is another one";
+}
+
+TEST_F(NullGraph, ScratchIsMadeAgainOnlyForConsumersThatRun) {
+    const auto declare = [&](uint64_t first, uint64_t second) {
+        g.beginFrame(options);
+        const ImageHandle s1 = g.image("s1", kScratchImage), s2 = g.image("s2", kScratchImage);
+        const ImageHandle o1 = g.image("o1", kImage), o2 = g.image("o2", kImage);
+        const BufferHandle i1 = g.importBuffer("i1", kBuffer, first), i2 = g.importBuffer("i2", kBuffer, second);
+        g.compute("fill.s1", "f.comp").write("s1", s1).dispatchThreads(1);
+        g.compute("use.s1", "u.comp").read("s1", s1).read("i1", i1).write("o1", o1).dispatchThreads(1);
+        g.compute("fill.s2", "f2.comp").write("s2", s2).dispatchThreads(1);
+        g.compute("use.s2", "u2.comp").read("s2", s2).read("i2", i2).write("o2", o2).dispatchThreads(1);
+        g.output(o1);
+        g.output(o2);
+        return run();
+    };
+    for (const auto& [name, outcome] : declare(1, 1)) EXPECT_EQ(outcome, PassOutcome::kRan) << name;
+    for (const auto& [name, outcome] : declare(1, 1)) EXPECT_EQ(outcome, PassOutcome::kSkipped) << name;
+    auto outcome = declare(2, 1);
+    EXPECT_EQ(outcome.at("fill.s1"), PassOutcome::kRan) << "s2 took its memory";
+    EXPECT_EQ(outcome.at("use.s1"), PassOutcome::kRan);
+    EXPECT_EQ(outcome.at("fill.s2"), PassOutcome::kSkipped);
+    EXPECT_EQ(outcome.at("use.s2"), PassOutcome::kSkipped);
+    bool discards = false;
+    for (const BarrierRecord& b : record("fill.s1").barriers)
+        discards |= b.resource == "s1" && b.oldLayout == VK_IMAGE_LAYOUT_UNDEFINED &&
+                    b.srcStages == VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    EXPECT_TRUE(discards) << "waits for whoever had the memory";
+}
+
+TEST_F(NullGraph, ResizedResourcesAreMadeAgain) {
+    const auto declare = [&](uint32_t side) {
+        g.beginFrame(options);
+        ImageInfo info = kImage;
+        info.size = {side, side};
+        const ImageHandle a = g.image("a", info);
+        g.compute("make", "m.comp").write("a", a).dispatchThreads(1);
+        g.output(a);
+        return run().at("make");
+    };
+    EXPECT_EQ(declare(64), PassOutcome::kRan);
+    EXPECT_EQ(declare(64), PassOutcome::kSkipped);
+    EXPECT_EQ(declare(32), PassOutcome::kRan);
+    EXPECT_EQ(declare(32), PassOutcome::kSkipped);
+}
+
+TEST_F(NullGraph, NamesItselfForGraphviz) {
+    g.beginFrame(options);
+    declareChain(g, 1);
+    run();
+    EXPECT_NE(g.graphviz().find("make.a"), std::string::npos);
+    EXPECT_NE(g.graphviz().find("digraph"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ag

@@ -1,0 +1,332 @@
+// The GI frame on a device, against analytic truths and its own invariants.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <set>
+
+#include "common/clustering_metric.h"
+#include "engine/scene/static_scene.h"
+#include "gi/gi_renderer.h"
+#include "tests/support/device_environment.h"
+#include "tools/scenegen/builder.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the passes and
+// synchronization validation proves them.
+struct Bench {
+    explicit Bench(SceneAsset built, glm::uvec2 pixels = {160, 96})
+        : asset(std::move(built)), scene(staticScene(asset)), size(pixels), renderer(test::device()) {
+        setCamera(scene, cameraOf(asset, 0), size);
+        renderer.load(asset.geometry);
+        options.timing = TimingMode::kOff;
+    }
+    void frame() {
+        renderer.render(scene, size, settings, options,
+                        [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                            last = declared;
+                            graph.output(declared.outputs.display);
+                            graph.output(declared.outputs.radiance);
+                            if (declared.rsm.empty()) return;
+                            for (BufferHandle b : {declared.rsm.texels, declared.clusters.clusters,
+                                                   declared.clusters.seeds, declared.clusters.candidates,
+                                                   declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
+                                graph.output(b);
+                            graph.output(declared.bounce1.image);
+                        });
+    }
+    template <class T>
+    std::vector<T> read(BufferHandle buffer) {
+        const gpu::Buffer& source = renderer.graph().physical(buffer);
+        std::vector<T> items(source.sizeBytes() / sizeof(T));
+        renderer.waitIdle();
+        gpu::downloadBuffer(renderer.device(), source, std::as_writable_bytes(std::span(items)));
+        return items;
+    }
+    int passesRun() {
+        int count = 0;
+        for (const PassReport& pass : renderer.graph().report()) count += pass.outcome == PassOutcome::kRan;
+        return count;
+    }
+
+    SceneAsset asset;
+    RenderScene scene;
+    glm::uvec2 size;
+    GiSettings settings;
+    FrameGraphOptions options;
+    GiRenderer renderer;
+    GiFrame last;
+};
+
+SceneAsset plane(float albedo) {
+    scenegen::SceneBuilder b("plane");
+    b.quad("floor", {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, b.material("gray", glm::vec3(albedo)));
+    b.camera("camera", {0, 3, 4}, {0, 0, 0}, 50);
+    return b.finish();
+}
+
+double totalFlux(const std::vector<io::RsmTexel>& texels) {
+    double sum = 0;
+    for (const io::RsmTexel& t : texels) sum += double(t.flux.x);
+    return sum;
+}
+
+TEST(Rsm, SpotFluxOnAPlaneIsTheConesPower) {
+    Bench b(plane(0.6f));
+    const double inner = 0.3, outer = 0.6, intensity = 7;
+    b.scene.lights = {{.kind = LightKind::kSpot,
+                       .position = {0.3f, 2, -0.2f},
+                       .direction = glm::normalize(glm::vec3(0.2f, -1, 0.1f)),
+                       .intensity = glm::vec3(float(intensity)),
+                       .innerConeAngle = float(inner),
+                       .outerConeAngle = float(outer),
+                       .bounces = true,
+                       .id = 1}};
+    b.frame();
+    // Integral of t² over the cone, t linear in the cosine from outer to inner: a third of the rim's width counts.
+    const double rim = std::cos(inner) - std::cos(outer);
+    const double truth = 0.6 * intensity * 2 * kPi * ((1 - std::cos(inner)) + rim / 3);
+    EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels)) / truth, 1, 0.01);
+}
+
+TEST(Rsm, SunFluxOnAPlaneIsItsCrossSection) {
+    Bench b(plane(0.6f));
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
+    b.scene.lights = {{.kind = LightKind::kDirectional,
+                       .direction = direction,
+                       .intensity = glm::vec3(5),
+                       .bounces = true,
+                       .id = 1}};
+    b.frame();
+    const double truth = 0.6 * 5 * 40 * 40 * double(-direction.y);
+    const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
+    EXPECT_NEAR(totalFlux(texels) / truth, 1, 0.01);
+    double area = 0;
+    for (const io::RsmTexel& t : texels) area += t.weight > 0 ? double(t.area) : 0;
+    EXPECT_NEAR(area / 1600, 1, 0.01) << "texel areas add up to the plane's";
+}
+
+TEST(Rsm, PointLightsSixFacesCatchAllItsPower) {
+    Bench b(*scenegen::buildScene("furnace", 50));
+    b.frame();
+    EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels)) / (0.5 * 4 * kPi), 1, 0.01);
+}
+
+// Every lit texel in one live cluster, fluxes add up, and the assignment is the CPU's.
+void checkClusters(Bench& b) {
+    const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
+    const auto clusters = b.read<io::Cluster>(b.last.clusters.clusters);
+    const auto slots = b.read<uint32_t>(b.last.clusters.slotOfTexel);
+    const auto candidates = b.read<uint32_t>(b.last.clusters.candidates);
+    const auto counts = b.read<uint32_t>(b.last.clusters.candidateCounts);
+    glm::dvec3 texelFlux(0), clusterFlux(0);
+    std::vector<uint32_t> members(clusters.size(), 0);
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const bool lit = texels[i].weight > 0;
+        ASSERT_EQ(lit, slots[i] != io::kNoCluster) << "texel " << i;
+        if (!lit) continue;
+        const size_t tile = i / (io::kRsmTileSize * io::kRsmTileSize);
+        ASSERT_LT(slots[i], counts[tile]);
+        ++members[candidates[tile * io::kMaxCandidates + slots[i]]];
+        texelFlux += glm::dvec3(texels[i].flux);
+    }
+    for (size_t c = 0; c < clusters.size(); ++c) {
+        ASSERT_EQ(float(members[c]), clusters[c].texelCount) << "cluster " << c;
+        ASSERT_TRUE(std::isfinite(clusters[c].position.x) && std::isfinite(clusters[c].area));
+        clusterFlux += glm::dvec3(clusters[c].flux);
+    }
+    for (int channel = 0; channel < 3; ++channel)
+        ASSERT_NEAR(clusterFlux[channel] / texelFlux[channel], 1, 1e-4);
+}
+
+void checkAssignmentTwin(Bench& b) {
+    const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
+    const auto seeds = b.read<io::ClusterSeed>(b.last.clusters.seeds);
+    const auto slots = b.read<uint32_t>(b.last.clusters.slotOfTexel);
+    const auto candidates = b.read<uint32_t>(b.last.clusters.candidates);
+    const auto counts = b.read<uint32_t>(b.last.clusters.candidateCounts);
+    const ValClusteringSettings& s = b.settings.valClustering;
+    const glm::vec3 weights(s.distanceWeight, s.normalWeight, s.chromaWeight);
+    size_t checked = 0;
+    for (size_t i = 0; i < texels.size(); i += 7) {
+        const io::RsmTexel& t = texels[i];
+        if (t.weight == 0) continue;
+        const size_t tile = i / (io::kRsmTileSize * io::kRsmTileSize);
+        const auto metric = [&](uint32_t slot) {
+            const io::ClusterSeed& seed = seeds[candidates[tile * io::kMaxCandidates + slot]];
+            return io::clusterMetric(t.position, t.normal, glm::normalize(t.flux), seed.position, seed.normal,
+                                     seed.chroma, weights);
+        };
+        float best = 1e30f;
+        for (uint32_t slot = 0; slot < counts[tile]; ++slot) best = std::min(best, metric(slot));
+        ASSERT_NEAR(metric(slots[i]), best, 1e-5f + 1e-4f * best) << "texel " << i;
+        ++checked;
+    }
+    EXPECT_GT(checked, 1000u);
+}
+
+TEST(ValClustering, KeepsFluxAndMembershipWhileTheLightMoves) {
+    Bench b(*scenegen::buildScene("cornell", 0));
+    const RenderLight start = b.scene.lights[0];
+    for (int i = 0; i < 200; ++i) {
+        RenderLight& light = b.scene.lights[0];
+        light = start;
+        light.position.x = 0.6f * std::sin(0.07f * float(i));
+        light.direction = glm::normalize(glm::vec3(0.5f * std::cos(0.05f * float(i)), -1, 0.3f));
+        ++b.scene.lightsVersion;
+        b.frame();
+        if (i % 10 != 9) continue;
+        checkClusters(b);
+        if (HasFatalFailure()) FAIL() << "in frame " << i;
+    }
+    checkAssignmentTwin(b);
+}
+
+TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
+    Bench furnace(*scenegen::buildScene("furnace", 50));
+    for (int i = 0; i < 5; ++i) furnace.frame();
+    checkClusters(furnace);
+    checkAssignmentTwin(furnace);
+
+    Bench few(*scenegen::buildScene("cornell", 0));
+    few.settings.valClustering.count = 1024;  // more clusters than lit texels
+    few.settings.rsm.resolution = 32;
+    for (int i = 0; i < 5; ++i) few.frame();
+    checkClusters(few);
+}
+
+// Irradiance on the wall of `corner` at height y and depth z: a uniform Lambert rectangle [0,2] x [-1,1] of radiosity
+// 2 W/m² in the plane y = 0, by midpoint quadrature.
+double cornerIrradiance(double y, double z) {
+    constexpr int kSteps = 400;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const double dx = 2 * (i + 0.5) / kSteps, dz = -1 + 2 * (j + 0.5) / kSteps - z;
+            const double d2 = dx * dx + y * y + dz * dz;
+            sum += dx * y / (kPi * d2 * d2);
+        }
+    return 2.0 * sum * 4 / (kSteps * kSteps);
+}
+
+TEST(FirstBounce, CornerAgainstQuadrature) {
+    Bench b(*scenegen::buildScene("corner", 0), {320, 180});
+    Image bounce;
+    for (int i = 0; i < 40; ++i) b.frame();
+    bounce = readImage(b.renderer, b.last.bounce1.image);
+    double squares = 0, mean = 0, ratio = 0;
+    int count = 0;
+    for (double y = 0.1; y < 1.95; y += 0.2)
+        for (double z = -0.8; z <= 0.81; z += 0.2) {
+            const glm::vec4 clip = b.scene.camera.clipFromWorld * glm::vec4(0, float(y), float(z), 1);
+            const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(b.size);
+            if (pixel.x < 0 || pixel.y < 0 || pixel.x >= 320 || pixel.y >= 180) continue;
+            const double truth = cornerIrradiance(y, z);
+            const double got = double(bounce.at(int(pixel.x), int(pixel.y)).x);
+            squares += (got - truth) * (got - truth);
+            mean += truth;
+            ratio += got;
+            ++count;
+        }
+    ASSERT_GT(count, 40);
+    RecordProperty("relative_rmse", std::to_string(std::sqrt(squares / count) / (mean / count)));
+    EXPECT_LT(std::sqrt(squares / count) / (mean / count), 0.03);
+    EXPECT_NEAR(ratio / mean, 1, 0.02) << "energy";
+}
+
+TEST(Frame, ColourBleedsAndNothingIsBlack) {
+    Bench b(*scenegen::buildScene("cornell", 0));
+    for (int i = 0; i < 20; ++i) b.frame();
+    const Image bounce = readImage(b.renderer, b.last.bounce1.image);
+    const Image display = readImage(b.renderer, b.last.outputs.display);
+    double left = 0, right = 0, lit = 0;
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 160; ++x) {
+            const glm::vec3 e = bounce.at(x, y);
+            ASSERT_TRUE(std::isfinite(e.x + e.y + e.z));
+            (x < 80 ? left : right) += double(e.x - e.y);
+            lit += display.at(x, y).x > 0.02f;
+        }
+    EXPECT_GT(left, right) << "redder by the red wall";
+    EXPECT_GT(lit / (160 * 96), 0.4);
+}
+
+TEST(Frame, SameFramesGiveTheSameBits) {
+    const auto render = [] {
+        Bench b(*scenegen::buildScene("cornell", 0));
+        for (int i = 0; i < 12; ++i) b.frame();
+        return readImage(b.renderer, b.last.outputs.radiance).pixels;
+    };
+    EXPECT_EQ(render(), render());
+}
+
+TEST(Frame, NothingMovesNothingRuns) {
+    Bench b(*scenegen::buildScene("gallery", 0));
+    b.settings.valClustering.settleFrames = 4;
+    for (int i = 0; i < 6; ++i) b.frame();
+    const auto before = readImage(b.renderer, b.last.outputs.display).pixels;
+    for (int i = 0; i < 3; ++i) {
+        b.frame();
+        EXPECT_EQ(b.passesRun(), 0);
+    }
+    EXPECT_EQ(readImage(b.renderer, b.last.outputs.display).pixels, before);
+}
+
+TEST(Frame, CameraAloneLeavesTheLightMapsAlone) {
+    Bench b(*scenegen::buildScene("gallery", 0));
+    b.settings.valClustering.settleFrames = 2;
+    for (int i = 0; i < 4; ++i) b.frame();
+    CameraPose pose = cameraOf(b.asset, 0);
+    pose.position.x += 0.2;
+    setCamera(b.scene, pose, b.size);
+    b.frame();
+    for (const PassReport& pass : b.renderer.graph().report()) {
+        const bool light = pass.name.starts_with("rsm.") || pass.name.starts_with("val_clustering.") ||
+                           pass.name.starts_with("importance.") || pass.name.starts_with("shadow_maps.lamps");
+        if (light) {
+            EXPECT_NE(pass.outcome, PassOutcome::kRan) << pass.name;
+        }
+        if (pass.name == "gbuffer.fill") {
+            EXPECT_EQ(pass.outcome, PassOutcome::kRan);
+        }
+    }
+}
+
+TEST(Frame, SkippingChangesNoBit) {
+    const auto render = [](bool skip) {
+        Bench b(*scenegen::buildScene("gallery", 0));
+        b.options.skip = skip;
+        std::vector<glm::vec3> all;
+        for (int i = 0; i < 14; ++i) {
+            if (i == 4 || i == 9) {  // a box moves, then stands still again
+                b.scene.instances.back().worldFromLocal[3].y += 0.3f;
+                ++b.scene.instancesVersion;
+            }
+            if (i == 11) b.scene.lights[0].intensity *= 0.5f;
+            b.frame();
+            const auto pixels = readImage(b.renderer, b.last.outputs.radiance).pixels;
+            all.insert(all.end(), pixels.begin(), pixels.end());
+        }
+        return all;
+    };
+    EXPECT_EQ(render(true), render(false));
+}
+
+TEST(Frame, WithoutLightThereIsNoGlobalIllumination) {
+    Bench b(*scenegen::buildScene("cornell", 0));
+    b.scene.lights.clear();
+    b.frame();
+    for (const PassReport& pass : b.renderer.graph().report())
+        EXPECT_TRUE(pass.name.starts_with("scene.") || pass.name.starts_with("gbuffer.") ||
+                    pass.name.starts_with("composite."))
+            << pass.name;
+}
+
+}  // namespace
+}  // namespace ag::gi

@@ -1,0 +1,243 @@
+// What the importer must refuse, and with which words; what it must accept.
+#include "engine/scene/gltf_import.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace ag {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string base64(const std::vector<unsigned char>& bytes) {
+    static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t word = uint32_t(bytes[i]) << 16;
+        if (i + 1 < bytes.size()) word |= uint32_t(bytes[i + 1]) << 8;
+        if (i + 2 < bytes.size()) word |= bytes[i + 2];
+        for (int d = 0; d < 4; ++d) out += i + size_t(d) <= bytes.size() ? kDigits[word >> (18 - 6 * d) & 63] : '=';
+    }
+    return out;
+}
+
+// A triangle: three positions and three 16-bit indices in one embedded buffer.
+json triangle(std::array<float, 9> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0}) {
+    std::vector<unsigned char> bytes(42);
+    std::memcpy(bytes.data(), positions.data(), 36);
+    const uint16_t indices[] = {0, 1, 2};
+    std::memcpy(bytes.data() + 36, indices, 6);
+    return {{"asset", {{"version", "2.0"}}},
+            {"scene", 0},
+            {"scenes", {{{"nodes", {0}}}}},
+            {"nodes", {{{"mesh", 0}, {"name", "thing"}}}},
+            {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+            {"accessors",
+             {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+              {{"bufferView", 1}, {"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}}},
+            {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
+            {"buffers", {{{"byteLength", 42}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
+}
+
+fs::path folder() {
+    const fs::path path = fs::path(testing::TempDir()) / "gltf_import_test";
+    fs::create_directories(path);
+    return path;
+}
+
+std::string write(const std::string& name, const std::string& text) {
+    const fs::path path = folder() / name;
+    std::ofstream(path, std::ios::binary) << text;
+    return path.string();
+}
+
+// The sentence a document is refused with; empty if it loads.
+std::string faultOf(const json& document) {
+    const auto asset = importGltf(write("case.gltf", document.dump()));
+    return asset ? "" : asset.error().message;
+}
+
+testing::AssertionResult refusedWith(const json& document, const std::string& words) {
+    const std::string fault = faultOf(document);
+    if (fault.find("case.gltf: ") != std::string::npos && fault.find(words) != std::string::npos &&
+        fault.find('\n') == std::string::npos)
+        return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "said: '" << fault << "' instead of something with '" << words << "'";
+}
+
+TEST(GltfImport, ReadsATriangle) {
+    const auto asset = importGltf(write("case.gltf", triangle().dump()));
+    ASSERT_TRUE(asset) << asset.error().message;
+    EXPECT_EQ(triangleCount(*asset), 1u);
+    ASSERT_EQ(asset->nodes.size(), 1u);
+    EXPECT_EQ(asset->nodes[0].name, "thing");
+    ASSERT_EQ(asset->geometry.attributes.size(), 3u);
+    EXPECT_FLOAT_EQ(asset->geometry.attributes[0].normal.z, 1) << "flat normals where none are given";
+}
+
+TEST(GltfImport, RefusesWhatIsNoGltf) {
+    for (const auto& [name, text] : std::map<std::string, std::string>{
+             {"empty.gltf", ""}, {"text.gltf", "hello"}, {"html.glb", "<html>"}, {"cut.glb", "glTF\x02"},
+             {"half.gltf", triangle().dump().substr(0, 200)}, {"array.gltf", "[1, 2]"}}) {
+        const auto asset = importGltf(write(name, text));
+        ASSERT_FALSE(asset) << name;
+        EXPECT_NE(asset.error().message.find(name), std::string::npos) << asset.error().message;
+    }
+    EXPECT_NE(importGltf("/no/such/file.glb").error().message.find("does not exist"), std::string::npos);
+    EXPECT_NE(importGltf(folder().string()).error().message.find("not a file"), std::string::npos);
+}
+
+TEST(GltfImport, RefusesIndicesOutOfRange) {
+    json d = triangle();
+    d["accessors"][0]["count"] = 2;
+    EXPECT_TRUE(refusedWith(d, "has index 2, but only 2 vertices"));
+    d = triangle();
+    d["meshes"][0]["primitives"][0]["indices"] = 9;
+    EXPECT_TRUE(refusedWith(d, "indices accessor out of bounds"));
+    d = triangle();
+    d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 5;
+    EXPECT_TRUE(refusedWith(d, "accessor 5"));
+    d = triangle();
+    d["meshes"][0]["primitives"][0]["material"] = 3;
+    EXPECT_TRUE(refusedWith(d, "material 3"));
+    d = triangle();
+    d["nodes"][0]["mesh"] = 7;
+    EXPECT_TRUE(refusedWith(d, "mesh 7"));
+    d = triangle();
+    d["scenes"][0]["nodes"] = {4};
+    EXPECT_TRUE(refusedWith(d, "node 4"));
+    d = triangle();
+    d["accessors"][0]["bufferView"] = 12;
+    EXPECT_TRUE(refusedWith(d, "buffer view 12"));
+}
+
+TEST(GltfImport, RefusesAccessorsPastTheirData) {
+    json d = triangle();
+    d["accessors"][0]["count"] = 4;
+    EXPECT_TRUE(refusedWith(d, "past the end"));
+    d = triangle();
+    d["accessors"][0]["count"] = 4000000000u;
+    EXPECT_NE(faultOf(d), "");
+    d = triangle();
+    d["accessors"][0]["byteOffset"] = 1u << 31;
+    EXPECT_NE(faultOf(d), "");
+    d = triangle();
+    d["bufferViews"][0]["byteLength"] = 1000;
+    EXPECT_TRUE(refusedWith(d, "buffer view 0 reaches past"));
+    d = triangle();
+    d["bufferViews"][0]["byteStride"] = 4;
+    EXPECT_NE(faultOf(d), "");
+    d = triangle();
+    d["accessors"][0]["sparse"] = {{"count", 2},
+                                   {"indices", {{"bufferView", 1}, {"componentType", 5123}, {"byteOffset", 4}}},
+                                   {"values", {{"bufferView", 0}}}};
+    EXPECT_TRUE(refusedWith(d, "sparse"));
+}
+
+TEST(GltfImport, RefusesBadNodeTrees) {
+    json d = triangle();
+    d["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"children", {0}}}};
+    EXPECT_TRUE(refusedWith(d, "cycle"));
+    d["nodes"] = {{{"children", {1, 2}}}, {{"children", {3}}}, {{"children", {3}}}, {{"mesh", 0}}};
+    EXPECT_TRUE(refusedWith(d, "two parents"));
+    d = triangle();
+    json chain = json::array();
+    for (int i = 0; i < 3000; ++i) chain.push_back({{"children", {i + 1}}});
+    chain.push_back({{"mesh", 0}});
+    d["nodes"] = chain;
+    EXPECT_TRUE(refusedWith(d, "deeper"));
+    d = triangle();
+    d["nodes"][0]["matrix"] = {1, 0, 0};
+    EXPECT_NE(faultOf(d), "");
+}
+
+TEST(GltfImport, RefusesPositionsThatAreNotNumbers) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(refusedWith(triangle({0, 0, 0, nan, 0, 0, 0, 1, 0}), "not finite (vertex 1)"));
+}
+
+TEST(GltfImport, RefusesFilesOutsideItsFolderAndMissingOnes) {
+    write("../outside.bin", std::string(42, 'x'));
+    json d = triangle();
+    d["buffers"][0]["uri"] = "../outside.bin";
+    EXPECT_NE(faultOf(d), "");
+    d["buffers"][0]["uri"] = "missing.bin";
+    EXPECT_NE(faultOf(d), "");
+    d = triangle();
+    d["images"] = {{{"uri", "missing.png"}}};
+    d["textures"] = {{{"source", 0}}};
+    d["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    EXPECT_TRUE(refusedWith(d, "image 0"));
+    d["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
+    EXPECT_NE(faultOf(d), "");
+}
+
+TEST(GltfImport, RefusesWhatItCannotHonour) {
+    json d = triangle();
+    d["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    EXPECT_TRUE(refusedWith(d, "KHR_draco_mesh_compression"));
+    d = triangle();
+    d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", -3}}};
+    d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    EXPECT_TRUE(refusedWith(d, "light 0"));
+    d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 2;
+    EXPECT_TRUE(refusedWith(d, "light 2"));
+}
+
+TEST(GltfImport, LightsTakeTheirDefaults) {
+    json d = triangle();
+    d["extensionsUsed"] = {"KHR_lights_punctual"};
+    d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"intensity", 5}, {"spot", json::object()}}};
+    d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    const auto asset = importGltf(write("case.gltf", d.dump()));
+    ASSERT_TRUE(asset) << asset.error().message;
+    ASSERT_EQ(asset->lights.size(), 1u);
+    EXPECT_EQ(asset->lights[0].intensity, glm::vec3(5)) << "an absent colour is white";
+    EXPECT_NEAR(asset->lights[0].outerConeAngle, 0.785398f, 1e-5f);
+    EXPECT_EQ(asset->lights[0].range, 0);
+}
+
+TEST(GltfImport, LeavesOutWhatHasNoArea) {
+    const auto asset = importGltf(write("case.gltf", triangle({0, 0, 0, 1, 0, 0, 2, 0, 0}).dump()));
+    ASSERT_TRUE(asset) << asset.error().message;
+    EXPECT_EQ(triangleCount(*asset), 0u);
+    EXPECT_FALSE(asset->warnings.empty());
+}
+
+TEST(GltfImport, SurvivesRandomDamage) {
+    const std::string good = triangle().dump();
+    std::mt19937 random(5);
+    int loaded = 0;
+    for (int i = 0; i < 1500; ++i) {
+        std::string bad = good;
+        for (uint32_t edits = 1 + random() % 4; edits > 0; --edits) bad[random() % bad.size()] = char(random() % 256);
+        loaded += bool(importGltf(write("damaged.gltf", bad)));
+    }
+    EXPECT_LT(loaded, 1500) << "some damage must be noticed";
+}
+
+TEST(GltfImport, LoadsTheSharedScenes) {
+    const fs::path shared = fs::path(AFTERGLOW_SOURCE_DIR) / "../shared/scenes";
+    if (!fs::exists(shared)) GTEST_SKIP() << "the scenes are not part of the repository";
+    for (const auto& [file, triangles] : std::map<std::string, uint64_t>{{"sponza/Sponza.gltf", 262267},
+                                                                        {"sibenik/sibenik.gltf", 75273},
+                                                                        {"zdm2/zdm2.gltf", 70691},
+                                                                        {"living_room/living_room.glb", 1543},
+                                                                        {"flight_helmet/FlightHelmet.gltf", 94722},
+                                                                        {"fox/Fox.glb", 576}}) {
+        const auto asset = importGltf((shared / file).string());
+        ASSERT_TRUE(asset) << asset.error().message;
+        EXPECT_NEAR(double(triangleCount(*asset)), double(triangles), double(triangles) * 0.02) << file;
+    }
+}
+
+}  // namespace
+}  // namespace ag

@@ -1,0 +1,140 @@
+// The shipped form factors against dense quadrature of the emitter.
+#include "common/form_factors.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <numbers>
+#include <random>
+
+#include "common/sampling.h"
+
+namespace ag {
+namespace {
+
+using glm::dvec3;
+using glm::vec3;
+
+// Irradiance factor of a unit-radiosity emitter patch set, in double precision.
+template <class F>
+double quadrature(dvec3 x, dvec3 n, dvec3 m, int steps, F&& place, double area) {
+    double sum = 0;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j) {
+            const dvec3 d = place((i + 0.5) / steps, (j + 0.5) / steps) - x;
+            const double d2 = glm::dot(d, d);
+            sum += std::max(glm::dot(n, d), 0.0) * std::max(-glm::dot(m, d), 0.0) / (std::numbers::pi * d2 * d2);
+        }
+    return sum * area / (steps * steps);
+}
+
+double diskFactor(vec3 x, vec3 n, float radius) {
+    const auto place = [&](double u, double v) {
+        const double r = radius * std::sqrt(u), phi = 2 * std::numbers::pi * v;
+        return dvec3(r * std::cos(phi), 0, r * std::sin(phi));
+    };
+    return quadrature(x, n, {0, 1, 0}, 256, place, std::numbers::pi * double(radius) * double(radius));
+}
+
+vec3 randomUnit(std::mt19937& random) {
+    std::normal_distribution<float> g;
+    return glm::normalize(vec3(g(random), g(random), g(random)));
+}
+
+struct DiskErrors {
+    double vectorForm, published;
+};
+
+// Relative RMSE of a disk's irradiance over receivers at one distance: all places more than 12 degrees above its plane
+// (the rim itself is singular for the quadrature), all orientations that face its centre.
+DiskErrors diskErrors(float distance) {
+    std::mt19937 random(7);
+    double squares = 0, publishedSquares = 0, mean = 0;
+    constexpr int kReceivers = 400;
+    for (int i = 0; i < kReceivers; ++i) {
+        vec3 x = randomUnit(random);
+        x = glm::normalize(vec3(x.x, std::abs(x.y) + 0.2f, x.z)) * distance;
+        vec3 n = randomUnit(random);
+        if (glm::dot(n, x) > 0) n = -n;
+        const double truth = diskFactor(x, n, 1);
+        const double area = std::numbers::pi;
+        squares += std::pow(io::diskVectorFactor(x, n, vec3(0), vec3(0, 1, 0), 1.0f) - truth, 2);
+        publishedSquares +=
+            std::pow(area * io::diskPublishedTerm(x, n, vec3(0), vec3(0, 1, 0), float(area)) - truth, 2);
+        mean += truth;
+    }
+    mean /= kReceivers;
+    return {std::sqrt(squares / kReceivers) / mean, std::sqrt(publishedSquares / kReceivers) / mean};
+}
+
+TEST(FormFactors, VectorDiskAgainstQuadrature) {
+    const DiskErrors r1 = diskErrors(1), r2 = diskErrors(2), r3 = diskErrors(3);
+    std::cout << "vector disk " << r1.vectorForm << ' ' << r2.vectorForm << ' ' << r3.vectorForm << ", published "
+              << r1.published << ' ' << r2.published << ' ' << r3.published << '\n';
+    RecordProperty("errors", std::to_string(r1.vectorForm) + " " + std::to_string(r2.vectorForm) + " " +
+                                 std::to_string(r3.vectorForm));
+    EXPECT_LT(r1.vectorForm, 0.06);
+    EXPECT_LT(r2.vectorForm, 0.02);
+    EXPECT_LT(r3.vectorForm, 0.012);
+    EXPECT_GT(r1.published, 5 * r1.vectorForm);
+    EXPECT_GT(r2.published, 5 * r2.vectorForm);
+    EXPECT_GT(r3.published, 3 * r3.vectorForm);
+}
+
+TEST(FormFactors, VectorDiskFarAwayIsAPoint) {
+    for (const float distance : {50.0f, 1e3f, 3e4f}) {
+        const vec3 x = glm::normalize(vec3(0.6f, 0.7f, 0.2f)) * distance;
+        const vec3 n = glm::normalize(-x + vec3(0.1f * distance, 0, 0));
+        const float disk = io::diskVectorFactor(x, n, vec3(0), vec3(0, 1, 0), 1.0f);
+        const float point = float(std::numbers::pi) * io::vplTerm(x, n, vec3(0), vec3(0, 1, 0));
+        EXPECT_NEAR(disk / point, 1, 2e-3) << distance;
+    }
+}
+
+TEST(FormFactors, VectorDiskIsBoundedAndFiniteEverywhere) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> exponent(-4, 4);
+    for (int i = 0; i < 20000; ++i) {
+        const float scale = std::pow(10.0f, exponent(random));
+        vec3 x = randomUnit(random) * scale;
+        if (i % 3 == 0) x.y = 0;              // in the emitter's plane
+        if (i % 7 == 0) x = vec3(0);          // at its centre
+        if (i % 11 == 0) x = vec3(1, 0, 0);   // on its rim
+        const float f = io::diskVectorFactor(x, randomUnit(random), vec3(0), vec3(0, 1, 0), 1.0f);
+        ASSERT_TRUE(std::isfinite(f)) << x.x << ' ' << x.y << ' ' << x.z;
+        ASSERT_GE(f, 0);
+        ASSERT_LE(f, 1.001f);
+    }
+    EXPECT_EQ(io::diskVectorFactor(vec3(0, 1, 0), vec3(0, -1, 0), vec3(0), vec3(0, 1, 0), 0.0f), 0);
+}
+
+TEST(FormFactors, RectangleAgainstQuadrature) {
+    std::mt19937 random(11);
+    const vec3 u(0.7f, 0, 0), v(0, 0, 0.4f), m(0, 1, 0);
+    const auto place = [&](double s, double t) { return dvec3(u) * (2 * s - 1) + dvec3(v) * (2 * t - 1); };
+    for (int i = 0; i < 200; ++i) {
+        vec3 x = randomUnit(random) * 1.5f;
+        x.y = std::abs(x.y) + 0.2f;
+        const vec3 n = randomUnit(random);
+        const double area = 4 * 0.7 * 0.4;
+        const double truth = quadrature(x, n, m, 200, place, area);
+        EXPECT_NEAR(io::rectangleTerm(x, n, vec3(0), m, u, v) * area, truth, 2e-4 + 1e-3 * truth);
+    }
+    EXPECT_EQ(io::rectangleTerm(vec3(0, -1, 0), vec3(0, 1, 0), vec3(0), m, u, v), 0) << "lit from behind";
+}
+
+TEST(Sampling, HaltonFillsTheSquareEvenly) {
+    std::array<int, 64> cells{};
+    for (uint32_t i = 1; i <= 6400; ++i) {
+        const glm::vec2 p = io::halton23(i);
+        ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+        ++cells[size_t(p.x * 8) + 8 * size_t(p.y * 8)];
+    }
+    for (int count : cells) EXPECT_NEAR(count, 100, 6);
+    EXPECT_FLOAT_EQ(io::halton23(1).x, 0.5f);
+    EXPECT_FLOAT_EQ(io::halton23(1).y, 1.0f / 3);
+    EXPECT_FLOAT_EQ(io::halton23(6).x, 0.375f);
+}
+
+}  // namespace
+}  // namespace ag
