@@ -14,6 +14,17 @@ VkSemaphore makeSemaphore(Device& device) {
     return semaphore;
 }
 
+VkImageView makeView(Device& device, VkImage image, VkFormat format) {
+    const VkImageViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                     .image = image,
+                                     .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                     .format = format,
+                                     .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    VkImageView view = VK_NULL_HANDLE;
+    AG_VK(vkCreateImageView(device.handle(), &info, nullptr, &view));
+    return view;
+}
+
 }  // namespace
 
 Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
@@ -46,6 +57,8 @@ Swapchain::~Swapchain() {
 void Swapchain::destroyImages() {
     for (VkSemaphore s : rendered_) vkDestroySemaphore(device_.handle(), s, nullptr);
     for (VkSemaphore s : acquired_) vkDestroySemaphore(device_.handle(), s, nullptr);
+    for (VkImageView v : views_) vkDestroyImageView(device_.handle(), v, nullptr);
+    views_.clear();
     rendered_.clear();
     acquired_.clear();
     images_.clear();
@@ -88,6 +101,7 @@ void Swapchain::create(glm::uvec2 wanted) {
     vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr);
     images_.resize(count);
     vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data());
+    for (VkImage image : images_) views_.push_back(makeView(device_, image, format_));
     for (uint32_t i = 0; i < count; ++i) rendered_.push_back(makeSemaphore(device_));
     for (uint32_t i = 0; i <= count; ++i) acquired_.push_back(makeSemaphore(device_));
     nextAcquire_ = 0;
@@ -108,7 +122,7 @@ std::optional<SwapchainImage> Swapchain::acquire(glm::uvec2 windowSize) {
         checkVk(result, "vkAcquireNextImageKHR");
         stale_ = result == VK_SUBOPTIMAL_KHR;
         nextAcquire_ = (nextAcquire_ + 1) % acquired_.size();
-        return SwapchainImage{index, images_[index], acquired, rendered_[index]};
+        return SwapchainImage{index, images_[index], views_[index], acquired, rendered_[index]};
     }
     return std::nullopt;
 }

@@ -15,6 +15,7 @@ class Device;
 struct SwapchainImage {
     uint32_t index = 0;
     VkImage image = VK_NULL_HANDLE;
+    VkImageView view = VK_NULL_HANDLE;
     VkSemaphore acquired = VK_NULL_HANDLE;  // wait for it before writing the image
     VkSemaphore rendered = VK_NULL_HANDLE;  // signal it when done
 };
@@ -46,6 +47,7 @@ class Swapchain {
     glm::uvec2 requested_{0};  // the window's size when the images were made
     bool stale_ = false;  // the surface said it no longer fits
     std::vector<VkImage> images_;
+    std::vector<VkImageView> views_;
     std::vector<VkSemaphore> rendered_;   // one an image: free again when the image is acquired again
     std::vector<VkSemaphore> acquired_;   // one more than images, in turn
     size_t nextAcquire_ = 0;

@@ -97,6 +97,8 @@ struct RenderLight {
     float budgetShare = 1;            // weight of its share of the cluster budget, times its flux
     bool castsShadow = true;
     uint64_t id = 0;                  // stable identity (entity handle), for carrying clusters over
+
+    bool operator==(const RenderLight&) const = default;
 };
 
 struct RenderCamera {

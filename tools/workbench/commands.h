@@ -8,6 +8,8 @@ namespace ag::workbench {
 
 void addInfoCommand(CLI::App& program, int& exitCode);
 void addRenderCommand(CLI::App& program, int& exitCode);
+void addSceneCommand(CLI::App& program, int& exitCode);
+void addCompareCommand(CLI::App& program, int& exitCode);
 
 // One sentence to stderr; returns 2.
 int refuse(const std::string& sentence);

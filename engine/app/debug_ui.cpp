@@ -1,0 +1,99 @@
+#include "engine/app/debug_ui.h"
+
+#include <imgui.h>
+#include <imgui/backends/imgui_impl_glfw.h>
+
+#include <algorithm>
+
+namespace ag {
+namespace {
+
+void editSetting(const Setting& s) {
+    if (bool* const* flag = std::get_if<bool*>(&s.value)) {
+        ImGui::Checkbox(s.info.name.c_str(), *flag);
+    } else if (float* const* number = std::get_if<float*>(&s.value)) {
+        ImGui::SliderFloat(s.info.name.c_str(), *number, float(s.info.min), float(s.info.max));
+    } else if (uint32_t* const* value = std::get_if<uint32_t*>(&s.value)) {
+        int edited = int(**value);
+        if (s.info.choices.empty()) {
+            if (ImGui::SliderInt(s.info.name.c_str(), &edited, int(s.info.min), int(s.info.max)))
+                **value = uint32_t(std::clamp(edited, int(s.info.min), int(s.info.max)));
+        } else if (ImGui::BeginCombo(s.info.name.c_str(), s.info.choices[**value].c_str())) {
+            for (size_t i = 0; i < s.info.choices.size(); ++i)
+                if (ImGui::Selectable(s.info.choices[i].c_str(), i == **value)) **value = uint32_t(i);
+            ImGui::EndCombo();
+        }
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", s.info.help.c_str());
+}
+
+void settingsPanel(Settings& settings) {
+    ImGui::Begin("Settings");
+    std::string open;
+    bool visible = false;
+    for (const Setting& s : settings.all()) {
+        if (s.info.group != open) {
+            open = s.info.group;
+            visible = ImGui::CollapsingHeader(open.c_str());
+        }
+        if (visible) editSetting(s);
+    }
+    ImGui::End();
+}
+
+void passPanel(const FrameGraph& graph) {
+    static constexpr const char* kOutcomes[] = {"ran", "skipped", "dropped"};
+    ImGui::Begin("Passes");
+    if (ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable)) {
+        ImGui::TableSetupColumn("pass");
+        ImGui::TableSetupColumn("ms");
+        ImGui::TableSetupColumn("");
+        ImGui::TableSetupColumn("runs");
+        ImGui::TableHeadersRow();
+        for (const PassReport& pass : graph.report()) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(pass.name.data(), pass.name.data() + pass.name.size());
+            ImGui::TableNextColumn();
+            ImGui::Text("%.2f", pass.gpuMs);
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(kOutcomes[size_t(pass.outcome)]);
+            ImGui::TableNextColumn();
+            ImGui::Text("%llu", static_cast<unsigned long long>(pass.runCount));
+        }
+        ImGui::EndTable();
+    }
+    ImGui::Text("graph memory %.1f MiB", double(graph.transientBytes()) / 1048576.0);
+    ImGui::End();
+}
+
+}  // namespace
+
+DebugUi::DebugUi(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    ImGui_ImplGlfw_InitForOther(window, true);
+}
+
+DebugUi::~DebugUi() {
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void DebugUi::build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
+                    const std::string& status) {
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    ImGui::SetNextWindowPos({8, 8});
+    ImGui::SetNextWindowBgAlpha(0.4f);
+    ImGui::Begin("status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::TextUnformatted(status.c_str());
+    ImGui::End();
+    if (state.showSettings) settingsPanel(settings);
+    if (state.showPasses) passPanel(graph);
+    ImGui::Render();
+}
+
+}  // namespace ag

@@ -1,0 +1,28 @@
+// The panels over a running program: every setting, and every pass with its time and what became of it.
+#pragma once
+
+#include "engine/core/settings.h"
+#include "engine/frame/frame_graph.h"
+
+struct GLFWwindow;
+
+namespace ag {
+
+struct DebugUiState {
+    bool showSettings = false;  // F1
+    bool showPasses = false;    // F2
+};
+
+// ImGui's context with GLFW's events; one at a time.
+class DebugUi {
+  public:
+    explicit DebugUi(GLFWwindow* window);
+    ~DebugUi();
+    DebugUi(const DebugUi&) = delete;
+    DebugUi& operator=(const DebugUi&) = delete;
+
+    // Builds this frame's panels; their draw data is ready when it returns.
+    void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph, const std::string& status);
+};
+
+}  // namespace ag

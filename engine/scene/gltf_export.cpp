@@ -1,0 +1,192 @@
+#include "engine/scene/gltf_export.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+namespace ag {
+namespace {
+
+tinygltf::Value number(double v) { return tinygltf::Value(v); }
+
+template <class V>
+std::vector<double> doubles(const V& v) {
+    std::vector<double> out;
+    for (int i = 0; i < V::length(); ++i) out.push_back(double(v[i]));
+    return out;
+}
+
+// Appends bytes as a buffer view of their own.
+int addView(tinygltf::Model& model, const void* bytes, size_t size, int target) {
+    auto& data = model.buffers[0].data;
+    data.resize((data.size() + 3) / 4 * 4);
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = data.size();
+    view.byteLength = size;
+    view.target = target;
+    data.resize(data.size() + size);
+    std::memcpy(data.data() + view.byteOffset, bytes, size);
+    model.bufferViews.push_back(view);
+    return int(model.bufferViews.size() - 1);
+}
+
+template <class T>
+int addAccessor(tinygltf::Model& model, const std::vector<T>& items, int component, int type, int target,
+                const Bounds* bounds = nullptr) {
+    tinygltf::Accessor a;
+    a.bufferView = addView(model, items.data(), items.size() * sizeof(T), target);
+    a.componentType = component;
+    a.count = items.size();
+    a.type = type;
+    if (bounds) {
+        a.minValues = doubles(bounds->min);
+        a.maxValues = doubles(bounds->max);
+    }
+    model.accessors.push_back(a);
+    return int(model.accessors.size() - 1);
+}
+
+tinygltf::Primitive primitiveOf(tinygltf::Model& model, const GeometryArrays& g, const Primitive& p) {
+    uint32_t vertices = 0;
+    std::vector<uint32_t> indices(g.indices.begin() + p.firstIndex, g.indices.begin() + p.firstIndex + p.indexCount);
+    for (uint32_t i : indices) vertices = std::max(vertices, i + 1);
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec4> tangents;
+    std::vector<glm::vec2> uvs;
+    for (uint32_t v = 0; v < vertices; ++v) {
+        const size_t at = size_t(p.vertexOffset) + v;
+        positions.push_back(g.positions[at]);
+        normals.push_back(g.attributes[at].normal);
+        tangents.push_back(g.attributes[at].tangent);
+        uvs.push_back(g.attributes[at].uv);
+    }
+    tinygltf::Primitive out;
+    const int buffer = TINYGLTF_TARGET_ARRAY_BUFFER, f = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    out.attributes["POSITION"] = addAccessor(model, positions, f, TINYGLTF_TYPE_VEC3, buffer, &p.boundsLocal);
+    out.attributes["NORMAL"] = addAccessor(model, normals, f, TINYGLTF_TYPE_VEC3, buffer);
+    out.attributes["TANGENT"] = addAccessor(model, tangents, f, TINYGLTF_TYPE_VEC4, buffer);
+    out.attributes["TEXCOORD_0"] = addAccessor(model, uvs, f, TINYGLTF_TYPE_VEC2, buffer);
+    out.indices = addAccessor(model, indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    out.material = int(p.material);
+    out.mode = TINYGLTF_MODE_TRIANGLES;
+    return out;
+}
+
+tinygltf::Material materialOf(const Material& m) {
+    tinygltf::Material out;
+    out.name = m.name;
+    out.pbrMetallicRoughness.baseColorFactor = doubles(m.baseColor);
+    out.pbrMetallicRoughness.metallicFactor = double(m.metallic);
+    out.pbrMetallicRoughness.roughnessFactor = double(m.roughness);
+    const float strength = std::max({m.emissive.x, m.emissive.y, m.emissive.z, 1.0f});
+    out.emissiveFactor = doubles(m.emissive / strength);
+    if (strength > 1)
+        out.extensions["KHR_materials_emissive_strength"] =
+            tinygltf::Value(tinygltf::Value::Object{{"emissiveStrength", number(double(strength))}});
+    if (m.specular != 1)
+        out.extensions["KHR_materials_specular"] =
+            tinygltf::Value(tinygltf::Value::Object{{"specularFactor", number(double(m.specular))}});
+    out.doubleSided = m.doubleSided;
+    return out;
+}
+
+tinygltf::Node nodeOf(const SceneNode& n) {
+    tinygltf::Node out;
+    out.name = n.name;
+    out.mesh = n.mesh;
+    out.camera = n.camera;
+    out.translation = doubles(n.local.translation);
+    out.rotation = {double(n.local.rotation.x), double(n.local.rotation.y), double(n.local.rotation.z),
+                    double(n.local.rotation.w)};
+    out.scale = doubles(n.local.scale);
+    if (n.light >= 0)
+        out.extensions["KHR_lights_punctual"] = tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(n.light)}});
+    const NodeExtras& e = n.extras;
+    tinygltf::Value::Object extras;
+    if (e.collider) extras["collider"] = tinygltf::Value(true);
+    if (e.movePeriod > 0) extras["movePeriod"] = number(double(e.movePeriod));
+    if (e.spinSpeed != 0) extras["spinSpeed"] = number(double(e.spinSpeed));
+    if (e.moveExtent != glm::vec3(0)) {
+        tinygltf::Value::Array extent;
+        for (int i = 0; i < 3; ++i) extent.push_back(number(double(e.moveExtent[i])));
+        extras["moveExtent"] = tinygltf::Value(extent);
+    }
+    if (!extras.empty()) out.extras = tinygltf::Value(extras);
+    return out;
+}
+
+tinygltf::Light lightOf(const SceneLight& l) {
+    static constexpr const char* kTypes[] = {"directional", "point", "spot"};
+    tinygltf::Light out;
+    out.name = l.name;
+    out.type = kTypes[size_t(l.kind)];
+    const float most = std::max({l.intensity.x, l.intensity.y, l.intensity.z, 1e-20f});
+    out.intensity = double(most);
+    out.color = doubles(l.intensity / most);
+    out.range = double(l.range);
+    if (l.kind == LightKind::kSpot) {
+        out.spot.innerConeAngle = double(l.innerConeAngle);
+        out.spot.outerConeAngle = double(l.outerConeAngle);
+    }
+    return out;
+}
+
+tinygltf::Camera cameraOf(const SceneCamera& c) {
+    tinygltf::Camera out;
+    out.name = c.name;
+    out.type = "perspective";
+    out.perspective.yfov = double(c.verticalFov);
+    out.perspective.znear = double(c.near);
+    return out;
+}
+
+}  // namespace
+
+Status exportGlb(const SceneAsset& asset, const std::string& path) {
+    if (!asset.skins.empty()) return Error{path + ": scenes with skins are not written"};
+    for (const Material& m : asset.geometry.materials)
+        if (m.textureClass != TextureClass::kNone) return Error{path + ": scenes with textures are not written"};
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = "Afterglow";
+    model.buffers.emplace_back();
+    for (const Material& m : asset.geometry.materials) model.materials.push_back(materialOf(m));
+    for (const SceneMesh& mesh : asset.meshes) {
+        tinygltf::Mesh out;
+        out.name = mesh.name;
+        for (uint32_t p = 0; p < mesh.primitiveCount; ++p)
+            out.primitives.push_back(
+                primitiveOf(model, asset.geometry, asset.geometry.primitives[mesh.firstPrimitive + p]));
+        model.meshes.push_back(out);
+    }
+    tinygltf::Scene scene;
+    for (size_t i = 0; i < asset.nodes.size(); ++i) {
+        model.nodes.push_back(nodeOf(asset.nodes[i]));
+        if (asset.nodes[i].parent >= 0)
+            model.nodes[size_t(asset.nodes[i].parent)].children.push_back(int(i));
+        else
+            scene.nodes.push_back(int(i));
+    }
+    for (const SceneLight& l : asset.lights) model.lights.push_back(lightOf(l));
+    for (const SceneCamera& c : asset.cameras) model.cameras.push_back(cameraOf(c));
+    for (const char* name : {"KHR_lights_punctual", "KHR_materials_specular", "KHR_materials_emissive_strength"})
+        model.extensionsUsed.push_back(name);
+    model.scenes.push_back(scene);
+    model.defaultScene = 0;
+    const std::string temporary = path + ".part";
+    tinygltf::TinyGLTF writer;
+    std::error_code error;
+    if (!writer.WriteGltfSceneToFile(&model, temporary, true, true, false, true)) {
+        std::filesystem::remove(temporary, error);
+        return Error{path + ": the file cannot be written"};
+    }
+    std::filesystem::rename(temporary, path, error);
+    if (error) return Error{path + ": " + error.message()};
+    return Ok{};
+}
+
+}  // namespace ag

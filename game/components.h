@@ -1,0 +1,43 @@
+// Components of the level's own things.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "engine/ecs/entity.h"
+
+namespace ag::game {
+
+struct Mover {  // slides to and fro along `extent` and turns about +Y
+    glm::dvec3 origin{0};     // m, middle of the way
+    glm::vec3 extent{0};      // m
+    float period = 0;         // s, 0: does not slide
+    float spinSpeed = 0;      // rad/s
+    float startYaw = 0;       // rad
+};
+
+struct Collider {  // an upright box the player walks round
+    glm::vec2 halfSize{0};    // m, along x and z before turning
+};
+
+struct HandLamp {
+    float yaw = 0, pitch = 0;  // rad, relative to the player's view
+};
+
+// Resources
+struct Player {
+    glm::dvec3 position{0};    // m, of the eyes
+    float yaw = 0, pitch = 0;  // rad; yaw 0 looks along -Z
+    float verticalFov = 1;     // rad
+};
+
+struct Walkable {  // where the eyes may be
+    glm::dvec2 min{0}, max{0};  // m, x and z
+};
+
+struct GameTime {
+    uint64_t tick = 0;
+    double seconds = 0;        // since the start, tick x step
+    double step = 1.0 / 60.0;  // s
+};
+
+}  // namespace ag::game

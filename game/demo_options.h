@@ -1,0 +1,48 @@
+// The demo's command line.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/core/settings.h"
+#include "engine/frame/frame_graph.h"
+#include "engine/scene/extract_system.h"
+#include "game/game.h"
+#include "gi/gi_renderer.h"
+
+namespace ag::game {
+
+struct DemoOptions {
+    bool headless = false;
+    uint32_t frames = 0;      // 0: until closed; headless: as long as the replay
+    std::string replay, record, scene, screenshot, report, view;
+    std::string sizeText = "640x360";
+    glm::uvec2 size{640, 360};
+    std::vector<std::string> assignments;
+    bool serial = false;
+    bool validate = false;
+};
+
+// What every run of the demo needs: the level, the settings, the device.
+struct Demo {
+    DemoOptions options;
+    std::unique_ptr<Game> game;
+    gi::GiSettings gi;
+    FrameGraphOptions graph;
+    Settings settings;
+    std::vector<Input> replay;    // empty: none
+    std::vector<Input> recorded;
+    std::optional<gi::Layer> layer;  // shown instead of the final image
+};
+
+// Exit codes: 0 good, 1 a check failed, 2 bad arguments or input.
+int runHeadless(Demo& demo);
+int runWindowed(Demo& demo);
+int refuse(const std::string& sentence);
+
+// The tick's input: from the replay while it lasts, else what is given; kept if a recording was asked for.
+Input nextInput(Demo& demo, uint64_t tick, const Input& given);
+// Saves the recording if one was asked for.
+Status finishRecording(const Demo& demo);
+
+}  // namespace ag::game
