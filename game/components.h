@@ -7,16 +7,16 @@
 
 namespace ag::game {
 
-struct Mover {  // slides to and fro along `extent` and turns about +Y
-    glm::dvec3 origin{0};     // m, middle of the way
-    glm::vec3 extent{0};      // m
-    float period = 0;         // s, 0: does not slide
-    float spinSpeed = 0;      // rad/s
-    float startYaw = 0;       // rad
+struct Mover {             // slides to and fro along `extent` and turns about +Y
+    glm::dvec3 origin{0};  // m, middle of the way
+    glm::vec3 extent{0};   // m
+    float period = 0;      // s, 0: does not slide
+    float spinSpeed = 0;   // rad/s
+    float startYaw = 0;    // rad
 };
 
-struct Collider {  // an upright box the player walks round
-    glm::vec2 halfSize{0};    // m, along x and z before turning
+struct Collider {           // an upright box the player walks round
+    glm::vec2 halfSize{0};  // m, along x and z before turning
 };
 
 struct HandLamp {
@@ -30,7 +30,7 @@ struct Player {
     float verticalFov = 1;     // rad
 };
 
-struct Walkable {  // where the eyes may be
+struct Walkable {               // where the eyes may be
     glm::dvec2 min{0}, max{0};  // m, x and z
 };
 

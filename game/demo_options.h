@@ -14,7 +14,7 @@ namespace ag::game {
 
 struct DemoOptions {
     bool headless = false;
-    uint32_t frames = 0;      // 0: until closed; headless: as long as the replay
+    uint32_t frames = 0;  // 0: until closed; headless: as long as the replay
     std::string replay, record, scene, screenshot, report, view;
     std::string sizeText = "640x360";
     glm::uvec2 size{640, 360};
@@ -30,7 +30,7 @@ struct Demo {
     gi::GiSettings gi;
     FrameGraphOptions graph;
     Settings settings;
-    std::vector<Input> replay;    // empty: none
+    std::vector<Input> replay;  // empty: none
     std::vector<Input> recorded;
     std::optional<gi::Layer> layer;  // shown instead of the final image
 };

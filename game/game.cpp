@@ -26,8 +26,9 @@ void addGameplay(World& world, const SceneAsset& asset, const std::vector<Entity
         if (node.name == "hand_lamp") world.add(entities[i], HandLamp{});
         if (extras.collider && node.mesh >= 0) world.add(entities[i], Collider{halfGround(asset, node)});
         if (extras.movePeriod > 0 || extras.spinSpeed != 0)
-            world.add(entities[i], Mover{node.local.translation, extras.moveExtent, extras.movePeriod, extras.spinSpeed,
-                                         2 * std::atan2(node.local.rotation.y, node.local.rotation.w)});
+            world.add(entities[i],
+                      Mover{node.local.translation, extras.moveExtent, extras.movePeriod, extras.spinSpeed,
+                            2 * std::atan2(node.local.rotation.y, node.local.rotation.w)});
     }
 }
 
@@ -42,7 +43,8 @@ Game::Game(SceneAsset level, uint32_t threads)
     player.pitch = std::asin(std::clamp(start.forward.y, -1.0f, 1.0f));
     world_.setResource<Player>(player);
     const Bounds bounds = staticScene(level_).bounds;
-    world_.setResource<Walkable>(glm::dvec2(bounds.min.x, bounds.min.z), glm::dvec2(bounds.max.x, bounds.max.z));
+    world_.setResource<Walkable>(glm::dvec2(bounds.min.x, bounds.min.z),
+                                 glm::dvec2(bounds.max.x, bounds.max.z));
     world_.setResource<GameTime>();
     world_.setResource<Input>();
     world_.setResource<ActiveCamera>(start);

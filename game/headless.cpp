@@ -15,7 +15,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double milliseconds(Clock::duration d) { return std::chrono::duration<double, std::milli>(d).count(); }
+double milliseconds(Clock::duration d) {
+    return std::chrono::duration<double, std::milli>(d).count();
+}
 
 double quantile(std::vector<double> values, double q) {
     if (values.empty()) return 0;
@@ -37,11 +39,13 @@ class PassLog {
         }
     }
     std::string text() const {
-        std::string out = fmt::format("{:<36} {:>10} {:>10} {:>8}\n", "pass", "median ms", "p99 ms", "skipped");
+        std::string out =
+            fmt::format("{:<36} {:>10} {:>10} {:>8}\n", "pass", "median ms", "p99 ms", "skipped");
         for (const std::string& name : order_) {
             const Row& row = rows_.at(name);
             out += fmt::format("{:<36} {:>10.3f} {:>10.3f} {:>7.0f}%\n", name, quantile(row.ms, 0.5),
-                               quantile(row.ms, 0.99), 100.0 * double(row.frames - row.ran) / double(row.frames));
+                               quantile(row.ms, 0.99),
+                               100.0 * double(row.frames - row.ran) / double(row.frames));
         }
         return out;
     }
@@ -98,7 +102,8 @@ int runHeadless(Demo& demo) {
     renderer.waitIdle();
     const double median = quantile(frameMs, 0.5);
     std::string report = fmt::format(
-        "device {}\n{} frames of {}x{}, first after {:.0f} ms (start and shader compilation), median {:.1f} ms "
+        "device {}\n{} frames of {}x{}, first after {:.0f} ms (start and shader compilation), median {:.1f} "
+        "ms "
         "({:.1f}/s), p99 {:.1f} ms\nworld hash {:016x}\ndevice memory {:.1f} MiB\n\n",
         (*device)->info().name, frames, o.size.x, o.size.y, firstMs, median, median > 0 ? 1000 / median : 0,
         quantile(frameMs, 0.99), demo.game->stateHash(), double(renderer.deviceBytes()) / 1048576.0);

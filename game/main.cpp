@@ -1,5 +1,5 @@
-// The demo: a dark gallery and a lamp in your hand. WASD walk, the mouse looks (held button: it moves the lamp),
-// 1-9 show intermediates, F1 settings, F2 passes, Esc frees the mouse and, again, quits.
+// The demo: a dark gallery and a lamp in your hand. WASD walk, the mouse looks (held button: it moves the
+// lamp), 1-9 show intermediates, F1 settings, F2 passes, Esc frees the mouse and, again, quits.
 #include <CLI/CLI.hpp>
 
 #include "engine/core/log.h"
@@ -36,7 +36,9 @@ void addOptions(CLI::App& program, DemoOptions& o) {
 // Everything checked before a device or a window is opened; the sentence that refuses it, if any.
 Status prepare(Demo& demo) {
     const DemoOptions& o = demo.options;
-    demo.settings.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"}, &demo.graph.skip);
+    demo.settings.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
+                      &demo.graph.skip);
+    demo.gi.composite.exposure = 1.0f;  // eyes used to the dark
     gi::registerSettings(demo.settings, demo.gi);
     for (const std::string& assignment : o.assignments)
         if (Status set = demo.settings.set(assignment); !set) return set;
@@ -54,7 +56,8 @@ Status prepare(Demo& demo) {
     }
     auto level = importGltf(o.scene.empty() ? kLevel : o.scene);
     if (!level) return level.error();
-    for (const std::string& warning : level->warnings) spdlog::warn("{}: {}", level->name, warning);
+    for (const std::string& warning : level->warnings)
+        spdlog::warn("{}: {}", level->name, warning);
     demo.game = std::make_unique<Game>(std::move(*level), o.serial ? 1 : 0);
     return Ok{};
 }
@@ -79,4 +82,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace ag::game
 
-int main(int argc, char** argv) { return ag::game::run(argc, argv); }
+int main(int argc, char** argv) {
+    return ag::game::run(argc, argv);
+}

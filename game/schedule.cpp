@@ -1,4 +1,5 @@
-// What the CPU does each tick, in order. A system's parameters say what it touches; the schedule finds what may overlap.
+// What the CPU does each tick, in order. A system's parameters say what it touches; the schedule finds what
+// may overlap.
 #include "game/schedule.h"
 
 #include "engine/scene/extract_system.h"

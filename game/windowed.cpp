@@ -17,28 +17,30 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostTicksPerFrame = 5;   // a slow frame slows the world rather than piling up
+constexpr int kMostTicksPerFrame = 5;         // a slow frame slows the world rather than piling up
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
 
 // Keys 1 to 9.
-constexpr std::array<gi::Layer, 9> kKeyLayers = {gi::Layer::kFinal,    gi::Layer::kDirect,   gi::Layer::kBounce1,
-                                                 gi::Layer::kIrradiance, gi::Layer::kAlbedo, gi::Layer::kNormal,
-                                                 gi::Layer::kRsm,      gi::Layer::kClusters, gi::Layer::kVals};
+constexpr std::array<gi::Layer, 9> kKeyLayers = {
+    gi::Layer::kFinal,  gi::Layer::kDirect, gi::Layer::kBounce1,  gi::Layer::kIrradiance, gi::Layer::kAlbedo,
+    gi::Layer::kNormal, gi::Layer::kRsm,    gi::Layer::kClusters, gi::Layer::kVals};
 
 void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    const VkImageMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                        .oldLayout = from,
-                                        .newLayout = to,
-                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                        .image = image,
-                                        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo info{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier};
+    const VkImageMemoryBarrier2 barrier{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .oldLayout = from,
+        .newLayout = to,
+        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .image = image,
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .imageMemoryBarrierCount = 1,
+                                .pImageMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(commands, &info);
 }
 
@@ -72,17 +74,22 @@ void handleKeys(Window& window, Demo& demo, Controls& controls) {
 
 std::string statusLine(const Demo& demo, double frameMs) {
     const Player& player = demo.game->player();
-    return fmt::format("{:.1f} ms  {:.1f}/s  at {:.2f} {:.2f}\n{}WASD walk, mouse look, hold: lamp, 1-9 views, Tab mouse, "
-                       "F1 settings, F2 passes",
-                       frameMs, 1000 / std::max(frameMs, 1e-3), player.position.x, player.position.z,
-                       demo.layer ? std::string(gi::layerName(*demo.layer)) + "\n" : "");
+    return fmt::format(
+        "{:.1f} ms  {:.1f}/s  at {:.2f} {:.2f}\n{}WASD walk, mouse look, hold: lamp, 1-9 views, Tab mouse, "
+        "F1 settings, F2 passes",
+        frameMs, 1000 / std::max(frameMs, 1e-3), player.position.x, player.position.z,
+        demo.layer ? std::string(gi::layerName(*demo.layer)) + "\n" : "");
 }
 
 class WindowedRun {
   public:
     WindowedRun(Demo& demo, Window& window, gpu::Device& device)
-        : demo_(demo), window_(window), swapchain_(device, window.framebufferSize()), renderer_(device),
-          ui_(window.handle()), imgui_(device, renderer_.pipelines()) {
+        : demo_(demo),
+          window_(window),
+          swapchain_(device, window.framebufferSize()),
+          renderer_(device),
+          ui_(window.handle()),
+          imgui_(device, renderer_.pipelines()) {
         renderer_.load(demo.game->level().geometry);
     }
 
@@ -126,8 +133,9 @@ class WindowedRun {
         renderer_.render(
             demo_.game->scene(), size, demo_.gi, demo_.graph,
             [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
-                shown_ = demo_.layer ? gi::addLayerView(graph, view, frame, *demo_.layer, size, demo_.gi.composite)
-                                     : frame.outputs.display;
+                shown_ = demo_.layer
+                             ? gi::addLayerView(graph, view, frame, *demo_.layer, size, demo_.gi.composite)
+                             : frame.outputs.display;
                 graph.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
             },
             [&](VkCommandBuffer commands) { present(commands, *image); }, {image->acquired, image->rendered});
@@ -141,7 +149,8 @@ class WindowedRun {
         transition(commands, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
         imgui_.draw(commands, target.view, swapchain_.format(), swapchain_.size(), uint32_t(drawn_++ % 2));
-        transition(commands, target.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+        transition(commands, target.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                   VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     }
 
     int saveScreenshot() {

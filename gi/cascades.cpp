@@ -13,7 +13,8 @@ struct Sphere {
     float radius;
 };
 
-// The smallest sphere on the camera's axis round a slice of its frustum; the radius does not change as it turns.
+// The smallest sphere on the camera's axis round a slice of its frustum; the radius does not change as it
+// turns.
 Sphere sliceSphere(const RenderCamera& camera, float aspect, float near, float far) {
     const float tanY = std::tan(camera.verticalFov * 0.5f), tanX = tanY * aspect;
     const float k = tanX * tanX + tanY * tanY;
@@ -44,14 +45,16 @@ Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirect
 
     float highest = -1e30f, lowest = 1e30f;  // of the casters along the light's axis (z grows toward the sun)
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p(corner & 1 ? casters.max.x : casters.min.x, corner & 2 ? casters.max.y : casters.min.y,
+        const glm::vec3 p(corner & 1 ? casters.max.x : casters.min.x,
+                          corner & 2 ? casters.max.y : casters.min.y,
                           corner & 4 ? casters.max.z : casters.min.z);
         const float z = (rotation * glm::vec4(p, 1)).z;
         highest = std::max(highest, z);
         lowest = std::min(lowest, z);
     }
     const float depth = std::max(highest - lowest, 1e-2f) * 1.02f;
-    const glm::vec3 eye = glm::vec3(glm::transpose(rotation) * glm::vec4(center.x, center.y, highest + 0.01f * depth, 0));
+    const glm::vec3 eye =
+        glm::vec3(glm::transpose(rotation) * glm::vec4(center.x, center.y, highest + 0.01f * depth, 0));
     return {.clipFromWorld = lightOrtho(2 * radius, 0.0f, depth) * viewFromWorld(eye, sunDirection),
             .width = 2 * radius,
             .depth = depth,

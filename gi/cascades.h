@@ -1,4 +1,5 @@
-// Cascades of a sun: spheres round slices of the camera's frustum, moved in whole texels so that edges do not crawl.
+// Cascades of a sun: spheres round slices of the camera's frustum, moved in whole texels so that edges do not
+// crawl.
 #pragma once
 
 #include "gi/light_views.h"
@@ -7,9 +8,9 @@ namespace ag::gi {
 
 struct Cascade {
     glm::mat4 clipFromWorld{1};
-    float width = 0;          // m across
-    float depth = 0;          // m from near to far
-    float farDistance = 0;    // m along the camera's axis
+    float width = 0;        // m across
+    float depth = 0;        // m from near to far
+    float farDistance = 0;  // m along the camera's axis
 };
 
 // Distance along the camera's axis where slice `index` of `count` ends.

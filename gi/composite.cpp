@@ -4,11 +4,13 @@
 
 namespace ag::gi {
 
-GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct, const Irradiance& indirect,
-                       const CompositeSettings& settings) {
+GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct,
+                       const Irradiance& indirect, const CompositeSettings& settings) {
     GiOutputs out;
-    out.radiance = graph.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
-    out.display = graph.image("composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = gbuffer.size});
+    out.radiance =
+        graph.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
+    out.display =
+        graph.image("composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = gbuffer.size});
 
     // A term that is not there is compiled out; its binding takes any image of the same class.
     const auto orAlbedo = [&](ImageHandle image) { return image ? image : gbuffer.albedo; };

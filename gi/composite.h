@@ -18,7 +18,7 @@ struct GiOutputs {
     ImageHandle display;   // rgba8, sRGB-encoded
 };
 
-GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct, const Irradiance& indirect,
-                       const CompositeSettings& settings);
+GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct,
+                       const Irradiance& indirect, const CompositeSettings& settings);
 
 }  // namespace ag::gi

@@ -32,7 +32,8 @@ ImageHandle layerImage(FrameGraph& graph, glm::uvec2 size) {
     return graph.image("debug_view.layer", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size});
 }
 
-ImageHandle addCopy(FrameGraph& graph, const SceneView& scene, ImageHandle first, ImageHandle second, Copy mode) {
+ImageHandle addCopy(FrameGraph& graph, const SceneView& scene, ImageHandle first, ImageHandle second,
+                    Copy mode) {
     if (!first) return {};
     const ImageHandle out = layerImage(graph, graph.info(first).size);
     graph.fullscreen("debug_view.copy_layer", "debug_view/copy_layer.frag")
@@ -94,7 +95,9 @@ ImageHandle addImportanceView(FrameGraph& graph, const GiFrame& f) {
 
 }  // namespace
 
-std::string_view layerName(Layer layer) { return kLayers[size_t(layer)].name; }
+std::string_view layerName(Layer layer) {
+    return kLayers[size_t(layer)].name;
+}
 
 std::optional<Layer> layerFromName(std::string_view name) {
     for (size_t i = 0; i < kLayers.size(); ++i)
@@ -106,22 +109,34 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
     const bool lit = !f.rsm.empty();
     const ImageHandle direct = f.direct.image, bounce = f.bounce1.image;
     switch (layer) {
-        case Layer::kFinal: return addCopy(graph, scene, f.outputs.display, {}, Copy::kColor);
-        case Layer::kRadiance: return addCopy(graph, scene, f.outputs.radiance, {}, Copy::kColor);
-        case Layer::kDirect: return addCopy(graph, scene, direct, {}, Copy::kColor);
+        case Layer::kFinal:
+            return addCopy(graph, scene, f.outputs.display, {}, Copy::kColor);
+        case Layer::kRadiance:
+            return addCopy(graph, scene, f.outputs.radiance, {}, Copy::kColor);
+        case Layer::kDirect:
+            return addCopy(graph, scene, direct, {}, Copy::kColor);
         case Layer::kIndirect:
-        case Layer::kBounce1: return addCopy(graph, scene, bounce, {}, Copy::kColor);
+        case Layer::kBounce1:
+            return addCopy(graph, scene, bounce, {}, Copy::kColor);
         case Layer::kIrradiance:
             return addCopy(graph, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
                            direct && bounce ? Copy::kSum : Copy::kColor);
-        case Layer::kAlbedo: return addCopy(graph, scene, f.gbuffer.albedo, {}, Copy::kColor);
-        case Layer::kNormal: return addCopy(graph, scene, f.gbuffer.normal, {}, Copy::kColor);
-        case Layer::kDepth: return addCopy(graph, scene, f.gbuffer.depth, {}, Copy::kDepth);
-        case Layer::kRsm: return lit ? addRsmView(graph, f) : ImageHandle{};
-        case Layer::kImportance: return lit ? addImportanceView(graph, f) : ImageHandle{};
-        case Layer::kClusters: return lit ? addClusters(graph, scene, f) : ImageHandle{};
-        case Layer::kVals: return lit ? addVals(graph, scene, f) : ImageHandle{};
-        case Layer::kCount: break;
+        case Layer::kAlbedo:
+            return addCopy(graph, scene, f.gbuffer.albedo, {}, Copy::kColor);
+        case Layer::kNormal:
+            return addCopy(graph, scene, f.gbuffer.normal, {}, Copy::kColor);
+        case Layer::kDepth:
+            return addCopy(graph, scene, f.gbuffer.depth, {}, Copy::kDepth);
+        case Layer::kRsm:
+            return lit ? addRsmView(graph, f) : ImageHandle{};
+        case Layer::kImportance:
+            return lit ? addImportanceView(graph, f) : ImageHandle{};
+        case Layer::kClusters:
+            return lit ? addClusters(graph, scene, f) : ImageHandle{};
+        case Layer::kVals:
+            return lit ? addVals(graph, scene, f) : ImageHandle{};
+        case Layer::kCount:
+            break;
     }
     return {};
 }
@@ -129,7 +144,8 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
 ImageHandle addLayerView(FrameGraph& graph, const SceneView& scene, const GiFrame& frame, Layer layer,
                          glm::uvec2 size, const CompositeSettings& settings) {
     const ImageHandle source = addLayer(graph, scene, frame, layer);
-    const ImageHandle out = graph.image("debug_view.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = size});
+    const ImageHandle out =
+        graph.image("debug_view.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = size});
     struct Push {
         float exposure;
         uint32_t mode;

@@ -18,11 +18,11 @@ enum class Layer : uint32_t {
     kIrradiance,  // direct and indirect, W/m²
     kAlbedo,
     kNormal,
-    kDepth,       // m along the camera's axis
-    kRsm,         // radiosity over the light maps, W/m²
+    kDepth,  // m along the camera's axis
+    kRsm,    // radiosity over the light maps, W/m²
     kImportance,
-    kClusters,    // Voronoi colours over the scene
-    kVals,        // area lights drawn as disks over the scene
+    kClusters,  // Voronoi colours over the scene
+    kVals,      // area lights drawn as disks over the scene
     kCount
 };
 

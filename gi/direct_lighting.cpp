@@ -21,10 +21,12 @@ io::Light lightRow(const RenderLight& light, const LightShadow& shadow) {
 
 // Pass names are literals, because the graph keeps views of them.
 constexpr std::array<std::string_view, 16> kPassNames = {
-    "direct_lighting.light0",  "direct_lighting.light1",  "direct_lighting.light2",  "direct_lighting.light3",
-    "direct_lighting.light4",  "direct_lighting.light5",  "direct_lighting.light6",  "direct_lighting.light7",
-    "direct_lighting.light8",  "direct_lighting.light9",  "direct_lighting.light10", "direct_lighting.light11",
-    "direct_lighting.light12", "direct_lighting.light13", "direct_lighting.light14", "direct_lighting.light15"};
+    "direct_lighting.light0",  "direct_lighting.light1",  "direct_lighting.light2",
+    "direct_lighting.light3",  "direct_lighting.light4",  "direct_lighting.light5",
+    "direct_lighting.light6",  "direct_lighting.light7",  "direct_lighting.light8",
+    "direct_lighting.light9",  "direct_lighting.light10", "direct_lighting.light11",
+    "direct_lighting.light12", "direct_lighting.light13", "direct_lighting.light14",
+    "direct_lighting.light15"};
 
 }  // namespace
 
@@ -41,15 +43,15 @@ Irradiance addDirectLighting(FrameGraph& graph, const SceneView& scene, const GB
     }
     if (count == 0) return {};
 
-    const Irradiance result{
-        graph.image("direct_lighting.irradiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
+    const Irradiance result{graph.image("direct_lighting.irradiance",
+                                        {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
     const std::span used(rows.data(), count);
     const BufferHandle lights = graph.buffer("direct_lighting.lights", {.sizeBytes = used.size_bytes()});
     graph.upload("direct_lighting.lights", lights, std::as_bytes(used));
     for (uint32_t i = 0; i < count; ++i) {
         const bool shadow = rows[i].castsShadow != 0;
-        PassBuilder pass = graph.compute(
-            kPassNames[i], shadow ? "direct_lighting/add_shadowed.comp" : "direct_lighting/add_unshadowed.comp");
+        PassBuilder pass = graph.compute(kPassNames[i], shadow ? "direct_lighting/add_shadowed.comp"
+                                                               : "direct_lighting/add_unshadowed.comp");
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)
             .read("camera", scene.camera)

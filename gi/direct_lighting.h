@@ -1,5 +1,5 @@
-// Irradiance straight from the scene's lights with 25-tap shadows, one pass a light. Many lights at once are the
-// business of light clustering, not of this list.
+// Irradiance straight from the scene's lights with 25-tap shadows, one pass a light. Many lights at once are
+// the business of light clustering, not of this list.
 #pragma once
 
 #include "gi/gbuffer.h"

@@ -32,7 +32,8 @@ std::array<glm::vec4, 5> frustumPlanes(const glm::mat4& m) {
 
 bool outside(const Bounds& b, const std::array<glm::vec4, 5>& planes) {
     for (const glm::vec4& p : planes) {
-        const glm::vec3 far = {p.x > 0 ? b.max.x : b.min.x, p.y > 0 ? b.max.y : b.min.y, p.z > 0 ? b.max.z : b.min.z};
+        const glm::vec3 far = {p.x > 0 ? b.max.x : b.min.x, p.y > 0 ? b.max.y : b.min.y,
+                               p.z > 0 ? b.max.z : b.min.z};
         if (glm::dot(glm::vec3(p), far) + p.w < 0) return true;
     }
     return false;
@@ -48,7 +49,8 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
     instancePrimitive_.resize(scene.instances.size());
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         instancePrimitive_[i] = scene.instances[i].primitive;
-        const Material& material = geometry.materials[geometry.primitives[scene.instances[i].primitive].material];
+        const Material& material =
+            geometry.materials[geometry.primitives[scene.instances[i].primitive].material];
         if (material.alphaMode == AlphaMode::kBlend) continue;
         const DrawBucket bucket = bucketOf(material);
         const auto found = std::find(buckets_.begin(), buckets_.end(), bucket);
@@ -60,7 +62,8 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
         ++bucketCapacity_[instanceBucket_[i]];
     }
     bucketFirst_.assign(buckets_.size(), 0);
-    for (size_t b = 1; b < buckets_.size(); ++b) bucketFirst_[b] = bucketFirst_[b - 1] + bucketCapacity_[b - 1];
+    for (size_t b = 1; b < buckets_.size(); ++b)
+        bucketFirst_[b] = bucketFirst_[b - 1] + bucketCapacity_[b - 1];
     worldBounds_.resize(scene.instances.size());
     transformHash_.resize(scene.instances.size());
     views_.clear();
@@ -72,22 +75,24 @@ void DrawLists::refreshBounds(const RenderScene& scene, bool all) {
     const auto refresh = [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
             const RenderInstance& instance = scene.instances[i];
-            worldBounds_[i] =
-                transformed(scene.geometry->primitives[instance.primitive].boundsLocal, instance.worldFromLocal);
+            worldBounds_[i] = transformed(scene.geometry->primitives[instance.primitive].boundsLocal,
+                                          instance.worldFromLocal);
             transformHash_[i] = hashValue(instance.worldFromLocal, instance.primitive);
         }
     };
     if (all || scene.allInstancesChanged) return refresh(0, uint32_t(scene.instances.size()));
-    for (const RenderScene::Range& range : scene.changedInstances) refresh(range.begin, range.end);
+    for (const RenderScene::Range& range : scene.changedInstances)
+        refresh(range.begin, range.end);
 }
 
 void DrawLists::beginFrame(const RenderScene& scene) {
-    bool regroup = geometryVersion_ != scene.geometry->version || instanceBucket_.size() != scene.instances.size();
+    bool regroup =
+        geometryVersion_ != scene.geometry->version || instanceBucket_.size() != scene.instances.size();
     if (instancesVersion_ != scene.instancesVersion && !regroup)
         for (size_t i = 0; i < scene.instances.size() && !regroup; ++i)
             regroup = instancePrimitive_[i] != scene.instances[i].primitive;
     if (regroup) rebuildBuckets(scene);
-    if (regroup || instancesVersion_ != scene.instancesVersion) 
+    if (regroup || instancesVersion_ != scene.instancesVersion)
         refreshBounds(scene, regroup || scene.instancesVersion != instancesVersion_ + 1);
     geometryVersion_ = scene.geometry->version;
     instancesVersion_ = scene.instancesVersion;
@@ -97,7 +102,8 @@ void DrawLists::ensureView(uint32_t view) {
     if (view < views_.size()) return;
     views_.resize(view + 1);
     commands_.resize(views_.size() * commandsPerView());
-    for (View& v : views_) v.draws.buckets.resize(buckets_.size());
+    for (View& v : views_)
+        v.draws.buckets.resize(buckets_.size());
 }
 
 const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld) {
@@ -109,14 +115,16 @@ const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const 
 
     const auto planes = frustumPlanes(clipFromWorld);
     const uint32_t first = slot * commandsPerView();
-    for (size_t b = 0; b < buckets_.size(); ++b) view.draws.buckets[b] = {first + bucketFirst_[b], 0};
+    for (size_t b = 0; b < buckets_.size(); ++b)
+        view.draws.buckets[b] = {first + bucketFirst_[b], 0};
     uint64_t version = combineHash(geometryVersion_, generation_);
     view.draws.instanceCount = 0;
     for (uint32_t i = 0; i < instanceBucket_.size(); ++i) {
         if (instanceBucket_[i] == kNoBucket || outside(worldBounds_[i], planes)) continue;
         const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
         BucketRange& range = view.draws.buckets[instanceBucket_[i]];
-        commands_[range.firstCommand + range.commandCount++] = {p.indexCount, 1, p.firstIndex, p.vertexOffset, i};
+        commands_[range.firstCommand + range.commandCount++] = {p.indexCount, 1, p.firstIndex, p.vertexOffset,
+                                                                i};
         version = combineHash(combineHash(version, i), transformHash_[i]);
         ++view.draws.instanceCount;
     }
@@ -128,6 +136,8 @@ const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const 
     return view.draws;
 }
 
-bool DrawLists::takeDirty(uint32_t view) { return std::exchange(views_[view].dirty, false); }
+bool DrawLists::takeDirty(uint32_t view) {
+    return std::exchange(views_[view].dirty, false);
+}
 
 }  // namespace ag::gi

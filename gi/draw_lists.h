@@ -1,6 +1,6 @@
-// What each view draws: instances culled against its frustum, as indirect commands grouped into buckets of one
-// pipeline variant each. A view's version is a hash of what it draws and where that stands, so that moving something
-// the view does not see changes nothing for it.
+// What each view draws: instances culled against its frustum, as indirect commands grouped into buckets of
+// one pipeline variant each. A view's version is a hash of what it draws and where that stands, so that
+// moving something the view does not see changes nothing for it.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/glm.hpp>
 #include <volk.h>
+#include <glm/glm.hpp>
 
 #include "engine/scene/render_scene.h"
 
@@ -42,8 +42,8 @@ class DrawLists {
     // Refreshes buckets and world bounds from the scene. Call once a frame, before any cull().
     void beginFrame(const RenderScene& scene);
 
-    // Culls into view slot `view`; slots are counted up by the caller and keep their place in the command array. The
-    // result stays in place and is valid until the next cull of that slot.
+    // Culls into view slot `view`; slots are counted up by the caller and keep their place in the command
+    // array. The result stays in place and is valid until the next cull of that slot.
     const ViewDraws& cull(const RenderScene& scene, uint32_t view, const glm::mat4& clipFromWorld);
 
     std::span<const DrawBucket> buckets() const { return buckets_; }
@@ -66,9 +66,9 @@ class DrawLists {
     void ensureView(uint32_t view);
 
     std::vector<DrawBucket> buckets_;
-    std::vector<uint32_t> bucketCapacity_;   // instances in each bucket
-    std::vector<uint32_t> bucketFirst_;      // first command of each bucket within a view's region
-    std::vector<uint32_t> instanceBucket_;   // ~0: drawn by no opaque bucket (blended)
+    std::vector<uint32_t> bucketCapacity_;  // instances in each bucket
+    std::vector<uint32_t> bucketFirst_;     // first command of each bucket within a view's region
+    std::vector<uint32_t> instanceBucket_;  // ~0: drawn by no opaque bucket (blended)
     std::vector<uint32_t> instancePrimitive_;
     std::vector<Bounds> worldBounds_;
     std::vector<uint64_t> transformHash_;

@@ -1,5 +1,5 @@
-// What the camera sees, rasterised once: depth, shading normal, diffuse albedo, emission. Alpha-blended surfaces are
-// not in it.
+// What the camera sees, rasterised once: depth, shading normal, diffuse albedo, emission. Alpha-blended
+// surfaces are not in it.
 #pragma once
 
 #include "gi/scene_gpu.h"

@@ -1,4 +1,5 @@
-// Global illumination for a host engine: hand it a RenderScene, get images. This is the only header a host needs.
+// Global illumination for a host engine: hand it a RenderScene, get images. This is the only header a host
+// needs.
 #pragma once
 
 #include "gi/composite.h"
@@ -25,8 +26,8 @@ struct GiFrame {
     GiOutputs outputs;
 };
 
-// Declares the GI passes of one frame, in order. Nothing runs until the graph is executed, and then only what the
-// graph's outputs need.
+// Declares the GI passes of one frame, in order. Nothing runs until the graph is executed, and then only what
+// the graph's outputs need.
 GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& settings,
                               GiHistory& history);
 

@@ -1,5 +1,5 @@
-// What the GPU does each frame, top to bottom. Each line takes handles and settings and returns handles; the frame
-// graph finds order, barriers and what can be skipped.
+// What the GPU does each frame, top to bottom. Each line takes handles and settings and returns handles; the
+// frame graph finds order, barriers and what can be skipped.
 #include "gi/gi.h"
 
 namespace ag::gi {
@@ -10,21 +10,21 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.gbuffer = addGBuffer(graph, scene);
 
     // First bounce: where light lands, as few area lights
-    f.rsm        = addRsm(graph, scene, s.rsm, s.valClustering.count);
+    f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count);
     f.importance = addImportance(graph, scene, f.rsm, f.gbuffer, s.importance);
-    f.clusters   = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
-                                    h.valClustering);
-    f.vals       = addValFit(graph, f.clusters);
+    f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
+                                  h.valClustering);
+    f.vals = addValFit(graph, f.clusters);
 
     // Gather on screen
-    f.bounce1    = addValShading(graph, scene, f.gbuffer, f.vals, s.valShading);
+    f.bounce1 = addValShading(graph, scene, f.gbuffer, f.vals, s.valShading);
 
     // Direct light
-    f.shadows    = addShadowMaps(graph, scene, s.shadowMaps);
-    f.direct     = addDirectLighting(graph, scene, f.gbuffer, f.shadows);
+    f.shadows = addShadowMaps(graph, scene, s.shadowMaps);
+    f.direct = addDirectLighting(graph, scene, f.gbuffer, f.shadows);
 
     // To the eye
-    f.outputs    = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);
+    f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);
     return f;
 }
 

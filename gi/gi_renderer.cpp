@@ -22,7 +22,8 @@ GiRenderer::GiRenderer(gpu::Device& device)
 
 GiRenderer::~GiRenderer() {
     device_.waitIdle();
-    for (Slot& slot : slots_) vkDestroyCommandPool(device_.handle(), slot.pool, nullptr);
+    for (Slot& slot : slots_)
+        vkDestroyCommandPool(device_.handle(), slot.pool, nullptr);
 }
 
 void GiRenderer::load(const GeometryArrays& geometry) {

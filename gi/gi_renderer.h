@@ -1,5 +1,5 @@
-// Runs GI frames on a device: owns the scene's device memory, the frame graph and the histories, keeps two frames in
-// flight. Windowed and headless programs and the tests all render through it.
+// Runs GI frames on a device: owns the scene's device memory, the frame graph and the histories, keeps two
+// frames in flight. Windowed and headless programs and the tests all render through it.
 #pragma once
 
 #include <array>

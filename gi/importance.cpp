@@ -19,7 +19,8 @@ BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuf
 // Nodes of a full 2x2 pyramid over the largest face's blocks.
 uint32_t pyramidNodes(uint32_t largestFace) {
     uint32_t nodes = 0;
-    for (uint32_t side = largestFace / io::kImportanceBlock; side > 0; side /= 2) nodes += side * side;
+    for (uint32_t side = largestFace / io::kImportanceBlock; side > 0; side /= 2)
+        nodes += side * side;
     return nodes;
 }
 
@@ -28,23 +29,28 @@ uint32_t pyramidNodes(uint32_t largestFace) {
 Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const GBuffer& gbuffer,
                          const ImportanceSettings& settings) {
     if (rsm.empty()) return {};
-    Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace), .viewDependent = settings.viewWeight > 0};
+    Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace),
+                          .viewDependent = settings.viewWeight > 0};
     const io::ImportanceSettings push{.atlasSize = rsm.atlas.size,
                                       .faceCount = rsm.atlas.faceCount,
                                       .pyramidStride = importance.pyramidStride,
                                       .viewWeight = settings.viewWeight};
-    importance.pyramid = graph.buffer(
-        "importance.pyramid", {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
+    importance.pyramid =
+        graph.buffer("importance.pyramid",
+                     {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
     const BufferHandle viewPoints =
         importance.viewDependent ? addViewPoints(graph, scene, gbuffer) : BufferHandle{};
 
-    const uint32_t blocks = (rsm.largestFace / io::kImportanceBlock) * (rsm.largestFace / io::kImportanceBlock);
-    PassBuilder evaluate = graph.compute(
-        "importance.evaluate",
-        importance.viewDependent ? "importance/evaluate_view.comp" : "importance/evaluate_flux.comp");
+    const uint32_t blocks =
+        (rsm.largestFace / io::kImportanceBlock) * (rsm.largestFace / io::kImportanceBlock);
+    PassBuilder evaluate =
+        graph.compute("importance.evaluate", importance.viewDependent ? "importance/evaluate_view.comp"
+                                                                      : "importance/evaluate_flux.comp");
     evaluate.read("texels", rsm.texels).read("faces", rsm.faces).read("maps", rsm.maps);
     if (importance.viewDependent) evaluate.read("viewPoints", viewPoints);
-    evaluate.write("pyramid", importance.pyramid).push(push).dispatchGroups((blocks + 63) / 64, rsm.atlas.faceCount);
+    evaluate.write("pyramid", importance.pyramid)
+        .push(push)
+        .dispatchGroups((blocks + 63) / 64, rsm.atlas.faceCount);
 
     graph.compute("importance.build_pyramid", "importance/build_pyramid.comp")
         .read("faces", rsm.faces)

@@ -12,7 +12,8 @@ glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward) {
     const glm::vec3 right = glm::normalize(glm::cross(forward, up));
     const glm::vec3 top = glm::cross(right, forward);
     glm::mat4 m(1);
-    for (int i = 0; i < 3; ++i) m[i] = glm::vec4(right[i], top[i], -forward[i], 0);
+    for (int i = 0; i < 3; ++i)
+        m[i] = glm::vec4(right[i], top[i], -forward[i], 0);
     m[3] = glm::vec4(-glm::dot(right, position), -glm::dot(top, position), glm::dot(forward, position), 1);
     return m;
 }
@@ -42,13 +43,15 @@ LightView sunView(glm::vec3 direction, const Bounds& bounds, float margin) {
     const float half = std::max({extent.x, extent.y, 1e-3f}) * 0.5f * (1 + margin);
     const float depth = std::max(extent.z, 1e-3f) * (0.5f + margin);
     // Eye at the near side of the box, looking along the light.
-    const glm::vec3 eye = glm::vec3(glm::transpose(rotation) * glm::vec4(center.x, center.y, center.z + depth, 0));
+    const glm::vec3 eye =
+        glm::vec3(glm::transpose(rotation) * glm::vec4(center.x, center.y, center.z + depth, 0));
     return {lightOrtho(2 * half, 0.0f, 2 * depth) * viewFromWorld(eye, direction), half};
 }
 
 float farDistanceOf(const RenderLight& light, const Bounds& bounds) {
     if (light.range > 0) return light.range;
-    const glm::vec3 far = glm::max(glm::abs(bounds.min - light.position), glm::abs(bounds.max - light.position));
+    const glm::vec3 far =
+        glm::max(glm::abs(bounds.min - light.position), glm::abs(bounds.max - light.position));
     return std::max(glm::length(far) * 1.01f, 1.0f);
 }
 

@@ -26,13 +26,15 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
         const io::RsmFace& face = rsm.faceInfo[f];
         const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), face.clipFromWorld);
         rsm.inputsVersion = combineHash(rsm.inputsVersion, draws.version);
-        drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size}, DrawFilter::kAll, false);
+        drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size},
+                 DrawFilter::kAll, false);
     }
 }
 
 }  // namespace
 
-RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget) {
+RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings,
+              uint32_t clusterBudget) {
     RsmSet rsm;
     const RsmLayout layout = layoutRsm(*scene.scene, settings, clusterBudget);
     if (layout.mapCount == 0 || scene.scene->instances.empty()) return rsm;
@@ -45,8 +47,10 @@ RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& sett
     const std::span maps(rsm.mapInfo.data(), layout.mapCount);
     rsm.inputsVersion = combineHash(hashBytes(std::as_bytes(faces)), hashBytes(std::as_bytes(maps)));
 
-    rsm.normal = graph.image("rsm.normal", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
-    rsm.albedo = graph.image("rsm.albedo", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
+    rsm.normal =
+        graph.image("rsm.normal", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
+    rsm.albedo =
+        graph.image("rsm.albedo", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
     rsm.depth = graph.image("rsm.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = layout.atlasSize});
     addRaster(graph, scene, rsm);
 

@@ -1,6 +1,7 @@
-// Reflective shadow maps (Dachsbacher & Stamminger 2005) of the bounce lights, in one atlas. A spot light has one
-// square face round its cone, the sun one over the scene's bounds, a point light all six faces of a cube at half the
-// resolution each. A texel becomes an emitter with its flux in W and its area in m² (units: docs/techniques.md).
+// Reflective shadow maps (Dachsbacher & Stamminger 2005) of the bounce lights, in one atlas. A spot light has
+// one square face round its cone, the sun one over the scene's bounds, a point light all six faces of a cube
+// at half the resolution each. A texel becomes an emitter with its flux in W and its area in m² (units:
+// docs/techniques.md).
 #pragma once
 
 #include <array>
@@ -11,21 +12,21 @@
 namespace ag::gi {
 
 struct RsmSettings {
-    uint32_t resolution = 0;      // texels along a map's side; 0: as each light says
-    float sunMargin = 0.02f;      // part of the scene's width added round a sun's map
-    float nearDistance = 0.02f;   // m, of spot and point faces
+    uint32_t resolution = 0;     // texels along a map's side; 0: as each light says
+    float sunMargin = 0.02f;     // part of the scene's width added round a sun's map
+    float nearDistance = 0.02f;  // m, of spot and point faces
 };
 
 struct RsmSet {
     ImageHandle normal, albedo, depth;  // of the atlas, as rasterised
-    BufferHandle texels;     // io::RsmTexel, tile by tile; also a texel buffer of vec4
-    BufferHandle faces;      // io::RsmFace
-    BufferHandle maps;       // io::RsmMap
-    BufferHandle tileMaps;   // per tile: its map, or ~0
-    io::RsmAtlas atlas{};    // zero maps: no light bounces, nothing else is valid
+    BufferHandle texels;                // io::RsmTexel, tile by tile; also a texel buffer of vec4
+    BufferHandle faces;                 // io::RsmFace
+    BufferHandle maps;                  // io::RsmMap
+    BufferHandle tileMaps;              // per tile: its map, or ~0
+    io::RsmAtlas atlas{};               // zero maps: no light bounces, nothing else is valid
     uint32_t tileCount = 0;
-    uint32_t largestFace = 0;   // texels
-    uint64_t inputsVersion = 0; // changes when the texels do
+    uint32_t largestFace = 0;    // texels
+    uint64_t inputsVersion = 0;  // changes when the texels do
     std::array<io::RsmMap, io::kMaxBounceLights> mapInfo{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faceInfo{};
     bool empty() const { return atlas.mapCount == 0; }

@@ -12,7 +12,9 @@ namespace {
 
 constexpr uint32_t kMinClustersPerMap = 8;
 
-uint32_t facesOf(const RenderLight& light) { return light.kind == LightKind::kPoint ? 6 : 1; }
+uint32_t facesOf(const RenderLight& light) {
+    return light.kind == LightKind::kPoint ? 6 : 1;
+}
 
 uint32_t faceSize(const RenderLight& light, const RsmSettings& settings) {
     const uint32_t wanted = settings.resolution ? settings.resolution : light.rsmResolution;
@@ -20,9 +22,11 @@ uint32_t faceSize(const RenderLight& light, const RsmSettings& settings) {
     return light.kind == LightKind::kPoint ? std::max(size / 2, 32u) : size;
 }
 
-LightView faceView(const RenderLight& light, uint32_t face, const RenderScene& scene, const RsmSettings& settings) {
+LightView faceView(const RenderLight& light, uint32_t face, const RenderScene& scene,
+                   const RsmSettings& settings) {
     const float far = farDistanceOf(light, scene.bounds);
-    if (light.kind == LightKind::kDirectional) return sunView(light.direction, scene.bounds, settings.sunMargin);
+    if (light.kind == LightKind::kDirectional)
+        return sunView(light.direction, scene.bounds, settings.sunMargin);
     if (light.kind == LightKind::kSpot) return spotView(light, settings.nearDistance, far);
     return cubeFaceView(light.position, face, settings.nearDistance, far);
 }
@@ -41,7 +45,8 @@ io::RsmMap mapOf(const RenderLight& light) {
 // Largest faces first along shelves: powers of two then stay aligned to their own size.
 void placeFaces(RsmLayout& layout) {
     std::array<uint32_t, io::kMaxRsmFaces> order{};
-    for (uint32_t i = 0; i < layout.faceCount; ++i) order[i] = i;
+    for (uint32_t i = 0; i < layout.faceCount; ++i)
+        order[i] = i;
     std::stable_sort(order.begin(), order.begin() + layout.faceCount,
                      [&](uint32_t a, uint32_t b) { return layout.faces[a].size > layout.faces[b].size; });
     const uint32_t width = std::max(layout.largestFace * (layout.faceCount > 1 ? 2 : 1), io::kRsmTileSize);
@@ -57,10 +62,12 @@ void placeFaces(RsmLayout& layout) {
     layout.atlasSize = {width, cursor.y + shelf};
 }
 
-// Shares by flux, in steps of 8 so that small changes of flux move nothing; the first maps keep what is left over.
+// Shares by flux, in steps of 8 so that small changes of flux move nothing; the first maps keep what is left
+// over.
 void shareClusters(RsmLayout& layout, std::span<const float> flux, uint32_t budget) {
     float total = 0;
-    for (float f : flux) total += f;
+    for (float f : flux)
+        total += f;
     uint32_t next = 0;
     for (uint32_t m = 0; m < layout.mapCount; ++m) {
         const uint32_t reserved = (layout.mapCount - 1 - m) * kMinClustersPerMap;
@@ -69,7 +76,8 @@ void shareClusters(RsmLayout& layout, std::span<const float> flux, uint32_t budg
         const uint32_t rounded = uint32_t(std::lround(share * float(budget) / 8.0f)) * 8;
         io::RsmMap& map = layout.maps[m];
         map.firstCluster = next;
-        map.clusterCount = layout.mapCount == 1 ? budget : std::clamp(rounded, std::min(kMinClustersPerMap, most), most);
+        map.clusterCount =
+            layout.mapCount == 1 ? budget : std::clamp(rounded, std::min(kMinClustersPerMap, most), most);
         next += map.clusterCount;
         const float side = float(layout.faces[map.firstFace].size) * std::sqrt(float(map.faceCount));
         const float cell = side / std::sqrt(float(map.clusterCount));

@@ -4,12 +4,13 @@
 
 namespace ag::gi {
 
-void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view, const glm::mat4& clipFromWorld,
-              glm::uvec4 viewport, DrawFilter filter, bool normalMaps) {
+void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
+              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, bool normalMaps) {
     const std::span<const DrawBucket> buckets = scene.draws->buckets();
     for (size_t b = 0; b < buckets.size(); ++b) {
         const DrawBucket& bucket = buckets[b];
-        const bool wanted = filter == DrawFilter::kAll || bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
+        const bool wanted =
+            filter == DrawFilter::kAll || bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
         if (!wanted || view.buckets[b].commandCount == 0) continue;
         RasterDraw draw;
         if (filter != DrawFilter::kOpaqueOnly) {  // depth-only variants know no materials

@@ -7,10 +7,10 @@ namespace ag::gi {
 
 enum class DrawFilter { kAll, kOpaqueOnly, kMaskedOnly };
 
-// One RasterDraw per non-empty bucket: the variant's constants (ids 0 texture class, 1 alpha mask, 2 normal map), the
-// view's matrix as push constant, its viewport.
-void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view, const glm::mat4& clipFromWorld,
-              glm::uvec4 viewport, DrawFilter filter, bool normalMaps);
+// One RasterDraw per non-empty bucket: the variant's constants (ids 0 texture class, 1 alpha mask, 2 normal
+// map), the view's matrix as push constant, its viewport.
+void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
+              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, bool normalMaps);
 // The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
 void bindMaterials(PassBuilder& pass, const SceneView& scene);
 

@@ -29,7 +29,8 @@ io::Material materialRow(const Material& m) {
             .specular = m.specular,
             .normalScale = m.normalScale,
             .layers = {m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer},
-            .uvRow0 = {m.uvTransform[0][0], m.uvTransform[1][0], m.uvTransform[2][0], m.doubleSided ? 1.0f : 0.0f},
+            .uvRow0 = {m.uvTransform[0][0], m.uvTransform[1][0], m.uvTransform[2][0],
+                       m.doubleSided ? 1.0f : 0.0f},
             .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], 0.0f}};
 }
 
@@ -61,13 +62,15 @@ std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, Vk
                                        const std::vector<std::vector<uint8_t>>& layers) {
     const uint32_t side = layers.empty() ? 1 : size;
     uint32_t mips = 1;
-    while ((side >> mips) > 0) ++mips;
-    auto image = std::make_unique<gpu::Image>(device, gpu::ImageDesc{.name = name,
-                                                                     .format = format,
-                                                                     .size = {side, side},
-                                                                     .layers = std::max<uint32_t>(uint32_t(layers.size()), 1),
-                                                                     .mips = mips,
-                                                                     .array = true});
+    while ((side >> mips) > 0)
+        ++mips;
+    auto image = std::make_unique<gpu::Image>(
+        device, gpu::ImageDesc{.name = name,
+                               .format = format,
+                               .size = {side, side},
+                               .layers = std::max<uint32_t>(uint32_t(layers.size()), 1),
+                               .mips = mips,
+                               .array = true});
     const std::array<std::byte, 4> black{};
     if (layers.empty()) gpu::uploadImage(device, *image, 0, black, false);
     for (uint32_t layer = 0; layer < layers.size(); ++layer)
@@ -81,16 +84,17 @@ void transferBarrier(VkCommandBuffer commands, bool before) {
     barrier.srcAccessMask = before ? VK_ACCESS_2_NONE : VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.dstStageMask = before ? VK_PIPELINE_STAGE_2_COPY_BIT : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.dstAccessMask = before ? VK_ACCESS_2_TRANSFER_WRITE_BIT : VK_ACCESS_2_MEMORY_READ_BIT;
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .memoryBarrierCount = 1,
-                                .pMemoryBarriers = &barrier};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(commands, &info);
 }
 
 }  // namespace
 
 SceneGpu::SceneGpu(gpu::Device& device) : device_(device) {}
-SceneGpu::~SceneGpu() { device_.waitIdle(); }
+SceneGpu::~SceneGpu() {
+    device_.waitIdle();
+}
 
 void SceneGpu::load(const GeometryArrays& geometry) {
     device_.waitIdle();
@@ -112,20 +116,24 @@ void SceneGpu::load(const GeometryArrays& geometry) {
 void SceneGpu::loadTextures(const GeometryArrays& geometry) {
     for (uint32_t c = 1; c < kTextureClassCount; ++c) {
         const uint32_t size = textureClassSize(TextureClass(c));
-        srgb_[c - 1] = loadLayers(device_, "scene.srgb", VK_FORMAT_R8G8B8A8_SRGB, size, geometry.textures[c].srgb);
-        linear_[c - 1] = loadLayers(device_, "scene.linear", VK_FORMAT_R8G8B8A8_UNORM, size, geometry.textures[c].linear);
+        srgb_[c - 1] =
+            loadLayers(device_, "scene.srgb", VK_FORMAT_R8G8B8A8_SRGB, size, geometry.textures[c].srgb);
+        linear_[c - 1] =
+            loadLayers(device_, "scene.linear", VK_FORMAT_R8G8B8A8_UNORM, size, geometry.textures[c].linear);
     }
 }
 
-std::unique_ptr<gpu::Buffer> SceneGpu::grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
-                                             VkFormat texel, bool indirect) {
+std::unique_ptr<gpu::Buffer> SceneGpu::grown(std::unique_ptr<gpu::Buffer> old, const char* name,
+                                             uint64_t bytes, VkFormat texel, bool indirect) {
     if (old && old->sizeBytes() >= bytes) return old;
     if (old) {
         std::shared_ptr<gpu::Buffer> retired = std::move(old);
         device_.retire([retired]() mutable { retired.reset(); });
     }
     return std::make_unique<gpu::Buffer>(
-        device_, gpu::BufferDesc{.name = name, .sizeBytes = bytes + bytes / 2, .indirect = indirect, .texelFormat = texel});
+        device_,
+        gpu::BufferDesc{
+            .name = name, .sizeBytes = bytes + bytes / 2, .indirect = indirect, .texelFormat = texel});
 }
 
 void SceneGpu::reserveBuffers(const RenderScene& scene) {
@@ -133,13 +141,16 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
     const gpu::Buffer* before = instances_.get();
     instances_ = grown(std::move(instances_), "scene.instances", rowBytes, kVec4Texels, false);
     if (instances_.get() != before) instancesVersion_ = 0;
-    const uint64_t commandBytes = std::max<uint64_t>(
-        viewsNeeded(scene) * std::max<uint64_t>(scene.instances.size(), 1) * sizeof(VkDrawIndexedIndirectCommand), 64);
+    const uint64_t commandBytes =
+        std::max<uint64_t>(viewsNeeded(scene) * std::max<uint64_t>(scene.instances.size(), 1) *
+                               sizeof(VkDrawIndexedIndirectCommand),
+                           64);
     commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
 }
 
 SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size) {
-    AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_, "load() the scene's geometry first");
+    AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
+                 "load() the scene's geometry first");
     reserveBuffers(scene);
     SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = hasEmissive_};
     view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
@@ -147,7 +158,8 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     view.instances = graph.importBuffer("scene.instances", *instances_, 1);
     view.commands = graph.importBuffer("scene.commands", *commands_, 1);
     view.materials = graph.importBuffer("scene.materials", *materials_, geometryVersion_);
-    static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024", "scene.srgb2048"};
+    static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024",
+                                              "scene.srgb2048"};
     static constexpr std::array kLinearNames = {"scene.linear256", "scene.linear512", "scene.linear1024",
                                                 "scene.linear2048"};
     for (size_t c = 0; c < 4; ++c) {
@@ -192,13 +204,16 @@ void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scen
     const bool all = scene.allInstancesChanged || instancesVersion_ + 1 != scene.instancesVersion;
     const auto send = [&](uint32_t begin, uint32_t end) {
         rows_.clear();
-        for (uint32_t i = begin; i < end; ++i) rows_.push_back(instanceRow(scene.instances[i], *scene.geometry));
-        stage(commands, frameSlot, std::as_bytes(std::span(rows_)), *instances_, begin * sizeof(io::Instance));
+        for (uint32_t i = begin; i < end; ++i)
+            rows_.push_back(instanceRow(scene.instances[i], *scene.geometry));
+        stage(commands, frameSlot, std::as_bytes(std::span(rows_)), *instances_,
+              begin * sizeof(io::Instance));
     };
     if (all)
         send(0, uint32_t(scene.instances.size()));
     else
-        for (const RenderScene::Range& range : scene.changedInstances) send(range.begin, range.end);
+        for (const RenderScene::Range& range : scene.changedInstances)
+            send(range.begin, range.end);
     instancesVersion_ = scene.instancesVersion;
 }
 
@@ -211,15 +226,16 @@ void SceneGpu::upload(VkCommandBuffer commands, const RenderScene& scene, uint32
     for (uint32_t view = 0; view < draws_.viewCount(); ++view)
         if (draws_.takeDirty(view))
             stage(commands, frameSlot,
-                  std::as_bytes(draws_.commands().subspan(view * draws_.commandsPerView(), draws_.commandsPerView())),
+                  std::as_bytes(
+                      draws_.commands().subspan(view * draws_.commandsPerView(), draws_.commandsPerView())),
                   *commands_, view * stride);
     if (uploadedBytes_ > 0) transferBarrier(commands, false);
 }
 
 uint64_t SceneGpu::deviceBytes() const {
     uint64_t bytes = 0;
-    for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(), instances_.get(),
-                               commands_.get()})
+    for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(),
+                               instances_.get(), commands_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes;
 }

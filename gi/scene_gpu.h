@@ -1,5 +1,6 @@
-// The scene in device memory: geometry and textures uploaded once, transforms streamed as changed ranges, lights and
-// draw commands when they change. What the passes see of it is SceneView: typed handles of one frame.
+// The scene in device memory: geometry and textures uploaded once, transforms streamed as changed ranges,
+// lights and draw commands when they change. What the passes see of it is SceneView: typed handles of one
+// frame.
 #pragma once
 
 #include <array>
@@ -21,12 +22,12 @@ struct SceneView {
     const RenderScene* scene = nullptr;
     DrawLists* draws = nullptr;
     Geometry geometry;
-    BufferHandle instances;   // io::Instance rows; versions are the draws' (see DrawLists)
+    BufferHandle instances;  // io::Instance rows; versions are the draws' (see DrawLists)
     BufferHandle materials;
-    BufferHandle camera;      // io::CameraConstants
-    BufferHandle commands;    // indirect draws of all views
+    BufferHandle camera;                                      // io::CameraConstants
+    BufferHandle commands;                                    // indirect draws of all views
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
-    glm::uvec2 size{0};       // pixels of the camera's image
+    glm::uvec2 size{0};                                       // pixels of the camera's image
     bool hasEmissive = false;
     mutable uint32_t viewsClaimed = 0;
     // The next free slot of DrawLists; claimed in the same order every frame.
@@ -59,8 +60,8 @@ class SceneGpu {
         uint64_t used = 0;
     };
     void loadTextures(const GeometryArrays& geometry);
-    void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes, const gpu::Buffer& to,
-               uint64_t offset);
+    void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
+               const gpu::Buffer& to, uint64_t offset);
     void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
     std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
@@ -72,8 +73,8 @@ class SceneGpu {
     bool hasEmissive_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
-    std::vector<io::Instance> rows_;        // scratch for the conversion
-    uint64_t instancesVersion_ = 0;         // last uploaded
+    std::vector<io::Instance> rows_;  // scratch for the conversion
+    uint64_t instancesVersion_ = 0;   // last uploaded
     std::array<Staging, kFramesInFlight> staging_;
     uint64_t uploadedBytes_ = 0;
 };

@@ -9,7 +9,7 @@ namespace ag::gi {
 namespace {
 
 struct Atlas {
-    uint32_t tile = 0;      // texels of a view's place
+    uint32_t tile = 0;  // texels of a view's place
     uint32_t columns = 1;
     uint32_t count = 0;
     glm::uvec2 place(uint32_t i) const { return glm::uvec2(i % columns, i / columns) * tile; }
@@ -18,7 +18,8 @@ struct Atlas {
 
 Atlas atlasOf(uint32_t tile, uint32_t count) {
     uint32_t columns = 1;
-    while (columns * columns < count) ++columns;
+    while (columns * columns < count)
+        ++columns;
     return {tile, columns, count};
 }
 
@@ -33,16 +34,16 @@ uint32_t viewsOf(const RenderLight& light, const ShadowMapSettings& settings) {
     return light.kind == LightKind::kSpot ? 1 : std::clamp(settings.cascades, 1u, io::kMaxCascades);
 }
 
-void addLampViews(const RenderScene& scene, const RenderLight& light, const ShadowMapSettings& settings, Views& views) {
+void addLampViews(const RenderScene& scene, const RenderLight& light, const ShadowMapSettings& settings,
+                  Views& views) {
     const float far = farDistanceOf(light, scene.bounds);
     const bool point = light.kind == LightKind::kPoint;
     const uint32_t size = point ? settings.resolution / 2 : settings.resolution;
     for (uint32_t face = 0; face < (point ? 6u : 1u); ++face) {
         const LightView view = point ? cubeFaceView(light.position, face, settings.nearDistance, far)
                                      : spotView(light, settings.nearDistance, far);
-        views.items[views.count++] = {.clipFromWorld = view.clipFromWorld,
-                                      .size = size,
-                                      .texelSize = 2 * view.tanHalf / float(size)};
+        views.items[views.count++] = {
+            .clipFromWorld = view.clipFromWorld, .size = size, .texelSize = 2 * view.tanHalf / float(size)};
     }
 }
 
@@ -53,7 +54,8 @@ float cascadeReach(const RenderScene& scene, const ShadowMapSettings& settings) 
     return std::clamp(glm::length(far), 1.0f, settings.cascadeDistance);
 }
 
-void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowMapSettings& settings, Views& views) {
+void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowMapSettings& settings,
+                 Views& views) {
     const RenderCamera& camera = scene.scene->camera;
     const float aspect = float(scene.size.x) / float(scene.size.y);
     const uint32_t count = viewsOf(light, settings);
@@ -103,8 +105,8 @@ void addMasked(FrameGraph& graph, const SceneView& scene, const char* passName, 
     bindMaterials(masked, scene);
     for (uint32_t v = 0; v < views.size(); ++v)
         drawView(masked, scene, scene.draws->cull(*scene.scene, firstSlot + v, views[v].clipFromWorld),
-                 views[v].clipFromWorld, {views[v].origin, views[v].size, views[v].size}, DrawFilter::kMaskedOnly,
-                 false);
+                 views[v].clipFromWorld, {views[v].origin, views[v].size, views[v].size},
+                 DrawFilter::kMaskedOnly, false);
 }
 
 }  // namespace
@@ -132,12 +134,12 @@ ShadowMaps addShadowMaps(FrameGraph& graph, const SceneView& scene, const Shadow
 
     const std::span all(views.items.data(), views.count);
     const uint32_t lampSlot = scene.viewsClaimed;
-    maps.lampAtlas = addAtlas(graph, scene, "shadow_maps.lamps", "shadow_maps.lamp_atlas", all.first(lampViews),
-                              settings.resolution);
+    maps.lampAtlas = addAtlas(graph, scene, "shadow_maps.lamps", "shadow_maps.lamp_atlas",
+                              all.first(lampViews), settings.resolution);
     addMasked(graph, scene, "shadow_maps.lamps_masked", maps.lampAtlas, all.first(lampViews), lampSlot);
     const uint32_t sunSlot = scene.viewsClaimed;
-    maps.sunAtlas = addAtlas(graph, scene, "shadow_maps.suns", "shadow_maps.sun_atlas", all.subspan(lampViews),
-                             settings.resolution);
+    maps.sunAtlas = addAtlas(graph, scene, "shadow_maps.suns", "shadow_maps.sun_atlas",
+                             all.subspan(lampViews), settings.resolution);
     addMasked(graph, scene, "shadow_maps.suns_masked", maps.sunAtlas, all.subspan(lampViews), sunSlot);
     maps.views = graph.buffer("shadow_maps.views", {.sizeBytes = all.size_bytes()});
     graph.upload("shadow_maps.views", maps.views, std::as_bytes(all));

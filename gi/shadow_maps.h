@@ -1,5 +1,5 @@
-// Depth maps of the lights that cast shadows: spot one view, point six, sun cascades fitted to the camera. Two atlases,
-// so that cascades moving with the camera do not redraw the maps of lamps that stand still.
+// Depth maps of the lights that cast shadows: spot one view, point six, sun cascades fitted to the camera.
+// Two atlases, so that cascades moving with the camera do not redraw the maps of lamps that stand still.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 namespace ag::gi {
 
 struct ShadowMapSettings {
-    uint32_t resolution = 1024;       // texels along a spot's or cascade's side; cube faces half of it
-    uint32_t cascades = 3;            // of each sun, 1 to 4
-    float cascadeDistance = 60;       // m from the camera the last cascade reaches; cut to the scene
-    float cascadeSplit = 0.75f;       // 0 uniform, 1 logarithmic
-    float nearDistance = 0.02f;       // m, of spot and point views
+    uint32_t resolution = 1024;  // texels along a spot's or cascade's side; cube faces half of it
+    uint32_t cascades = 3;       // of each sun, 1 to 4
+    float cascadeDistance = 60;  // m from the camera the last cascade reaches; cut to the scene
+    float cascadeSplit = 0.75f;  // 0 uniform, 1 logarithmic
+    float nearDistance = 0.02f;  // m, of spot and point views
 };
 
 struct LightShadow {
@@ -24,8 +24,8 @@ struct LightShadow {
 };
 
 struct ShadowMaps {
-    ImageHandle lampAtlas, sunAtlas;  // D32; invalid if unused
-    BufferHandle views;               // io::ShadowView of all
+    ImageHandle lampAtlas, sunAtlas;                   // D32; invalid if unused
+    BufferHandle views;                                // io::ShadowView of all
     std::array<LightShadow, io::kMaxLights> lights{};  // parallel to the scene's lights
 };
 

@@ -29,8 +29,8 @@ struct SeedPush {
     uint32_t pyramidStride;
 };
 
-void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importance, const HistoryBuffer& clusters,
-                BufferHandle seeds, const io::ClusterSettings& push) {
+void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
+                const HistoryBuffer& clusters, BufferHandle seeds, const io::ClusterSettings& push) {
     graph.compute("val_clustering.seed", "val_clustering/seed.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
@@ -65,9 +65,10 @@ void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, Buff
 
 void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHandle slotOfCluster,
                const io::ClusterSettings& push) {
-    const BufferHandle partials = graph.buffer(
-        "val_clustering.partials",
-        {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * io::kPartialVec4s * 16, .texelFormat = kVec4});
+    const BufferHandle partials =
+        graph.buffer("val_clustering.partials",
+                     {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * io::kPartialVec4s * 16,
+                      .texelFormat = kVec4});
     graph.compute("val_clustering.sum_tiles", "val_clustering/sum_tiles.comp")
         .read("texels", rsm.texels)
         .read("seeds", c.seeds)
@@ -89,10 +90,11 @@ void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHa
 }  // namespace
 
 Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
-                          const ValClusteringSettings& settings, uint64_t viewVersion, ValClusteringHistory& history) {
+                          const ValClusteringSettings& settings, uint64_t viewVersion,
+                          ValClusteringHistory& history) {
     if (rsm.empty()) return {};
-    const uint64_t inputs =
-        combineHash(combineHash(rsm.inputsVersion, importance.viewDependent ? viewVersion : 0), hashValue(settings));
+    const uint64_t inputs = combineHash(
+        combineHash(rsm.inputsVersion, importance.viewDependent ? viewVersion : 0), hashValue(settings));
     const io::ClusterSettings push{
         .metricWeights = {settings.distanceWeight, settings.normalWeight, settings.chromaWeight},
         .clusterCount = settings.count,
@@ -106,10 +108,12 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
     Clusters c{.clusters = state.current, .count = settings.count};
     c.seeds = graph.buffer("val_clustering.seeds",
                            {.sizeBytes = settings.count * sizeof(io::ClusterSeed), .texelFormat = kVec4});
-    c.candidates = graph.buffer("val_clustering.candidates",
-                                {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * 4, .texelFormat = kUint});
+    c.candidates =
+        graph.buffer("val_clustering.candidates",
+                     {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * 4, .texelFormat = kUint});
     c.candidateCounts = graph.buffer("val_clustering.candidate_counts", {.sizeBytes = rsm.tileCount * 4ull});
-    c.slotOfTexel = graph.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
+    c.slotOfTexel =
+        graph.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
     const BufferHandle slotOfCluster =
         graph.buffer("val_clustering.slot_of_cluster",
                      {.sizeBytes = uint64_t(rsm.tileCount) * settings.count * 4, .texelFormat = kUint});

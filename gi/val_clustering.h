@@ -1,7 +1,7 @@
-// RSM clustering (Prutkin, Kaplanyan, Dachsbacher 2012): one assignment and update of k-means a frame, clusters carried
-// over in world space, empty ones seeded anew by importance. Differences: flux and area are sums over a cluster's
-// texels; candidates are found by 16x16 tiles instead of a sqrt(k) grid; the update is a segmented sum in a fixed order,
-// so that equal inputs give equal bits.
+// RSM clustering (Prutkin, Kaplanyan, Dachsbacher 2012): one assignment and update of k-means a frame,
+// clusters carried over in world space, empty ones seeded anew by importance. Differences: flux and area are
+// sums over a cluster's texels; candidates are found by 16x16 tiles instead of a sqrt(k) grid; the update is
+// a segmented sum in a fixed order, so that equal inputs give equal bits.
 #pragma once
 
 #include "gi/importance.h"
@@ -10,11 +10,11 @@
 namespace ag::gi {
 
 struct ValClusteringSettings {
-    uint32_t count = 256;          // clusters over all bounce lights, 16 to 1024
-    float distanceWeight = 1;      // w_d, 1/m²
-    float normalWeight = 10;       // w_n
-    float chromaWeight = 0;        // w_flux of RSMC eq. 1
-    uint32_t settleFrames = 32;    // steps taken after the light maps last changed; then clusters rest
+    uint32_t count = 256;        // clusters over all bounce lights, 16 to 1024
+    float distanceWeight = 1;    // w_d, 1/m²
+    float normalWeight = 10;     // w_n
+    float chromaWeight = 0;      // w_flux of RSMC eq. 1
+    uint32_t settleFrames = 32;  // steps taken after the light maps last changed; then clusters rest
 };
 
 // The part of clustering's state that lives on the CPU: when it may rest.
@@ -25,14 +25,15 @@ struct ValClusteringHistory {
 };
 
 struct Clusters {
-    BufferHandle clusters;       // io::Cluster
-    BufferHandle seeds;          // io::ClusterSeed the texels were compared with
+    BufferHandle clusters;                     // io::Cluster
+    BufferHandle seeds;                        // io::ClusterSeed the texels were compared with
     BufferHandle candidates, candidateCounts;  // per tile: cluster indices, how many
-    BufferHandle slotOfTexel;    // per texel: place in its tile's candidates, ~0 unlit
+    BufferHandle slotOfTexel;                  // per texel: place in its tile's candidates, ~0 unlit
     uint32_t count = 0;
 };
 
 Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
-                          const ValClusteringSettings& settings, uint64_t viewVersion, ValClusteringHistory& history);
+                          const ValClusteringSettings& settings, uint64_t viewVersion,
+                          ValClusteringHistory& history);
 
 }  // namespace ag::gi

@@ -6,8 +6,8 @@ Vals addValFit(FrameGraph& graph, const Clusters& clusters) {
     if (clusters.count == 0) return {};
     constexpr uint32_t kLargestSubgroup = 64;
     Vals v{.count = (clusters.count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
-    v.vals = graph.buffer("val_fit.vals",
-                          {.sizeBytes = v.count * sizeof(io::Val), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    v.vals = graph.buffer("val_fit.vals", {.sizeBytes = v.count * sizeof(io::Val),
+                                           .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     graph.compute("val_fit.fit", "val_fit/fit_vals.comp")
         .read("clusters", clusters.clusters)
         .write("vals", v.vals)

@@ -87,8 +87,8 @@ void DebugUi::build(const DebugUiState& state, Settings& settings, const FrameGr
     ImGui::SetNextWindowPos({8, 8});
     ImGui::SetNextWindowBgAlpha(0.4f);
     ImGui::Begin("status", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
-                     ImGuiWindowFlags_NoFocusOnAppearing);
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::TextUnformatted(status.c_str());
     ImGui::End();
     if (state.showSettings) settingsPanel(settings);

@@ -22,7 +22,8 @@ class DebugUi {
     DebugUi& operator=(const DebugUi&) = delete;
 
     // Builds this frame's panels; their draw data is ready when it returns.
-    void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph, const std::string& status);
+    void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
+               const std::string& status);
 };
 
 }  // namespace ag

@@ -25,18 +25,22 @@ std::unique_ptr<gpu::Buffer> grown(gpu::Device& device, std::unique_ptr<gpu::Buf
                                    uint64_t bytes) {
     if (old && old->sizeBytes() >= bytes) return old;
     return std::make_unique<gpu::Buffer>(
-        device, gpu::BufferDesc{.name = name, .sizeBytes = bytes * 2, .hostVisible = true, .vertexOrIndex = true});
+        device,
+        gpu::BufferDesc{.name = name, .sizeBytes = bytes * 2, .hostVisible = true, .vertexOrIndex = true});
 }
 
 }  // namespace
 
-ImGuiPass::ImGuiPass(gpu::Device& device, gpu::PipelineLibrary& pipelines) : device_(device), pipelines_(pipelines) {
+ImGuiPass::ImGuiPass(gpu::Device& device, gpu::PipelineLibrary& pipelines)
+    : device_(device), pipelines_(pipelines) {
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
     font_ = std::make_unique<gpu::Image>(
-        device, gpu::ImageDesc{.name = "imgui.font", .format = VK_FORMAT_R8G8B8A8_UNORM, .size = {width, height}});
-    gpu::uploadImage(device, *font_, 0, std::as_bytes(std::span(texels, size_t(width) * size_t(height) * 4)), false);
+        device,
+        gpu::ImageDesc{.name = "imgui.font", .format = VK_FORMAT_R8G8B8A8_UNORM, .size = {width, height}});
+    gpu::uploadImage(device, *font_, 0, std::as_bytes(std::span(texels, size_t(width) * size_t(height) * 4)),
+                     false);
     const VkSamplerCreateInfo sampler{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                       .magFilter = VK_FILTER_LINEAR,
                                       .minFilter = VK_FILTER_LINEAR};
@@ -59,8 +63,8 @@ void ImGuiPass::upload(Buffers& buffers) {
     const ImDrawData& data = *ImGui::GetDrawData();
     buffers.vertices = grown(device_, std::move(buffers.vertices), "imgui.vertices",
                              uint64_t(data.TotalVtxCount) * sizeof(ImDrawVert));
-    buffers.indices =
-        grown(device_, std::move(buffers.indices), "imgui.indices", uint64_t(data.TotalIdxCount) * sizeof(ImDrawIdx));
+    buffers.indices = grown(device_, std::move(buffers.indices), "imgui.indices",
+                            uint64_t(data.TotalIdxCount) * sizeof(ImDrawIdx));
     std::byte* vertex = buffers.vertices->mapped();
     std::byte* index = buffers.indices->mapped();
     for (int i = 0; i < data.CmdListsCount; ++i) {
@@ -72,7 +76,8 @@ void ImGuiPass::upload(Buffers& buffers) {
     }
 }
 
-void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat format, glm::uvec2 size, uint32_t slot) {
+void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat format, glm::uvec2 size,
+                     uint32_t slot) {
     const ImDrawData* data = ImGui::GetDrawData();
     if (!data || data->TotalVtxCount == 0) return;
     Buffers& buffers = buffers_[slot % buffers_.size()];
@@ -104,14 +109,16 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
                                     .pColorAttachments = &color};
     vkCmdBeginRendering(commands, &rendering);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set_, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set_, 0,
+                            nullptr);
     const VkBuffer vertices = buffers.vertices->handle();
     const VkDeviceSize zero = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
     vkCmdBindIndexBuffer(commands, buffers.indices->handle(), 0,
                          sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
     const glm::vec2 scale(2 / data->DisplaySize.x, 2 / data->DisplaySize.y);
-    const glm::vec2 push[] = {scale, glm::vec2(-1) - glm::vec2(data->DisplayPos.x, data->DisplayPos.y) * scale};
+    const glm::vec2 push[] = {scale,
+                              glm::vec2(-1) - glm::vec2(data->DisplayPos.x, data->DisplayPos.y) * scale};
     vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, sizeof push, push);
     const VkViewport viewport{0, 0, float(size.x), float(size.y), 0, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);

@@ -34,7 +34,8 @@ Result<std::vector<Input>> loadReplay(const std::string& path) {
     std::ifstream in(path);
     if (!in) return Error{path + ": the replay cannot be opened"};
     std::string line;
-    if (!std::getline(in, line) || line != kHeader) return Error{path + ": it is not a replay of this version"};
+    if (!std::getline(in, line) || line != kHeader)
+        return Error{path + ": it is not a replay of this version"};
     std::vector<Input> ticks;
     Input i;
     while (in >> i.forward >> i.right >> i.look.x >> i.look.y >> i.lampFree) {

@@ -6,7 +6,9 @@
 namespace ag {
 namespace {
 
-Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+Window& self(GLFWwindow* window) {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
 
 std::string lastError() {
     const char* text = nullptr;
@@ -45,8 +47,12 @@ Window::~Window() {
     glfwTerminate();
 }
 
-bool Window::wantsToClose() const { return glfwWindowShouldClose(window_); }
-void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+bool Window::wantsToClose() const {
+    return glfwWindowShouldClose(window_);
+}
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
 
 glm::uvec2 Window::framebufferSize() const {
     int width = 0, height = 0;
@@ -54,7 +60,9 @@ glm::uvec2 Window::framebufferSize() const {
     return {width, height};
 }
 
-void Window::poll() { glfwPollEvents(); }
+void Window::poll() {
+    glfwPollEvents();
+}
 
 Input Window::takeInput() {
     Input input;
@@ -69,7 +77,9 @@ Input Window::takeInput() {
     return input;
 }
 
-std::vector<int> Window::takePressedKeys() { return std::exchange(pressed_, {}); }
+std::vector<int> Window::takePressedKeys() {
+    return std::exchange(pressed_, {});
+}
 
 void Window::captureCursor(bool captured) {
     captured_ = captured;

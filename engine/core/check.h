@@ -19,22 +19,23 @@ std::string operands(const A& a, const B& b) {
 }  // namespace detail
 }  // namespace ag
 
-#define AG_CHECK(condition)                                                        \
-    do {                                                                           \
-        if (!(condition)) ::ag::checkFailed(__FILE__, __LINE__, #condition, {});   \
+#define AG_CHECK(condition)                                                      \
+    do {                                                                         \
+        if (!(condition)) ::ag::checkFailed(__FILE__, __LINE__, #condition, {}); \
     } while (false)
 
-#define AG_CHECK_MSG(condition, message)                                               \
-    do {                                                                               \
-        if (!(condition)) ::ag::checkFailed(__FILE__, __LINE__, #condition, message);  \
+#define AG_CHECK_MSG(condition, message)                                              \
+    do {                                                                              \
+        if (!(condition)) ::ag::checkFailed(__FILE__, __LINE__, #condition, message); \
     } while (false)
 
-#define AG_CHECK_OP(a, op, b)                                                                              \
-    do {                                                                                                   \
-        const auto& agCheckA = (a);                                                                        \
-        const auto& agCheckB = (b);                                                                        \
-        if (!(agCheckA op agCheckB))                                                                       \
-            ::ag::checkFailed(__FILE__, __LINE__, #a " " #op " " #b, ::ag::detail::operands(agCheckA, agCheckB)); \
+#define AG_CHECK_OP(a, op, b)                                              \
+    do {                                                                   \
+        const auto& agCheckA = (a);                                        \
+        const auto& agCheckB = (b);                                        \
+        if (!(agCheckA op agCheckB))                                       \
+            ::ag::checkFailed(__FILE__, __LINE__, #a " " #op " " #b,       \
+                              ::ag::detail::operands(agCheckA, agCheckB)); \
     } while (false)
 
 #define AG_CHECK_EQ(a, b) AG_CHECK_OP(a, ==, b)

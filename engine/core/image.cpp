@@ -38,7 +38,8 @@ Status savePfm(const Image& image, const std::string& path) {
         std::ofstream out(file, std::ios::binary);
         out << "PF\n" << image.width << ' ' << image.height << "\n-1.0\n";
         for (int y = image.height - 1; y >= 0; --y)
-            out.write(reinterpret_cast<const char*>(&image.at(0, y)), std::streamsize(sizeof(glm::vec3)) * image.width);
+            out.write(reinterpret_cast<const char*>(&image.at(0, y)),
+                      std::streamsize(sizeof(glm::vec3)) * image.width);
         out.flush();
         return out ? "" : "the disk is full or the folder does not exist";
     });
@@ -47,7 +48,8 @@ Status savePfm(const Image& image, const std::string& path) {
 Status saveExr(const Image& image, const std::string& path) {
     return writeWhole(path, [&](const std::string& file) -> std::string {
         const char* message = nullptr;
-        const int result = SaveEXR(&image.pixels[0].x, image.width, image.height, 3, 0, file.c_str(), &message);
+        const int result =
+            SaveEXR(&image.pixels[0].x, image.width, image.height, 3, 0, file.c_str(), &message);
         if (result == TINYEXR_SUCCESS) return "";
         const std::string text = message ? message : "the disk is full or the folder does not exist";
         if (message) FreeEXRErrorMessage(message);
@@ -101,12 +103,15 @@ Result<Image> loadExr(const std::string& path) {
         return Error{fmt::format("{} is not a readable EXR image: {}", path, text)};
     }
     Image image(width, height);
-    for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
     free(rgba);
     return image;
 }
 
-std::string extensionOf(const std::string& path) { return fs::path(path).extension().string(); }
+std::string extensionOf(const std::string& path) {
+    return fs::path(path).extension().string();
+}
 
 bool finite(const Image& image) {
     return std::ranges::all_of(image.pixels, [](const glm::vec3& p) {
@@ -135,7 +140,8 @@ Result<Image> loadImage(const std::string& path) {
 
 Result<ImageDifference> compareImages(const Image& truth, const Image& test) {
     if (truth.width != test.width || truth.height != test.height)
-        return Error{fmt::format("sizes differ: {}x{} and {}x{}", truth.width, truth.height, test.width, test.height)};
+        return Error{
+            fmt::format("sizes differ: {}x{} and {}x{}", truth.width, truth.height, test.width, test.height)};
     if (!finite(truth) || !finite(test)) return Error{"an image holds values that are not finite"};
     glm::dvec3 sumTruth(0), sumTest(0);
     for (size_t i = 0; i < truth.pixels.size(); ++i) {

@@ -11,12 +11,15 @@
 namespace ag {
 namespace {
 
-std::string fullName(const Setting& s) { return s.info.group + "." + s.info.name; }
+std::string fullName(const Setting& s) {
+    return s.info.group + "." + s.info.name;
+}
 
 std::optional<double> parseNumber(std::string_view text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        return std::nullopt;
     return value;
 }
 
@@ -41,7 +44,8 @@ std::string allowed(const Setting& s) {
 // Letters in common at the same places: enough to offer what was probably meant.
 size_t likeness(std::string_view a, std::string_view b) {
     size_t same = 0;
-    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) same += a[i] == b[i];
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        same += a[i] == b[i];
     return same;
 }
 
@@ -60,7 +64,8 @@ std::string settingText(const Setting& s, double value) {
 void Settings::insert(SettingInfo info, std::variant<bool*, int32_t*, uint32_t*, float*> value) {
     Setting setting{.info = std::move(info), .value = value};
     setting.defaultValue = settingValue(setting);
-    for (const Setting& known : settings_) AG_CHECK_MSG(fullName(known) != fullName(setting), fullName(setting));
+    for (const Setting& known : settings_)
+        AG_CHECK_MSG(fullName(known) != fullName(setting), fullName(setting));
     settings_.push_back(std::move(setting));
 }
 
@@ -73,26 +78,28 @@ Status Settings::set(std::string_view assignment) {
     if (found == settings_.end()) {
         const auto near = std::ranges::max_element(
             settings_, {}, [&](const Setting& s) { return likeness(fullName(s), name); });
-        return Error{near == settings_.end()
-                         ? fmt::format("there is no setting '{}'", name)
-                         : fmt::format("there is no setting '{}'; did you mean '{}'?", name, fullName(*near))};
+        return Error{near == settings_.end() ? fmt::format("there is no setting '{}'", name)
+                                             : fmt::format("there is no setting '{}'; did you mean '{}'?",
+                                                           name, fullName(*near))};
     }
     const std::optional<double> value = parseValue(*found, text);
     if (!value) return Error{fmt::format("setting {} takes {}, not '{}'", name, allowed(*found), text)};
     const bool number = found->info.choices.empty() && !std::holds_alternative<bool*>(found->value);
-    const bool whole = !number || std::holds_alternative<float*>(found->value) || *value == std::floor(*value);
+    const bool whole =
+        !number || std::holds_alternative<float*>(found->value) || *value == std::floor(*value);
     if (number && (*value < found->info.min || *value > found->info.max || !whole))
         return Error{fmt::format("setting {} takes {}{}, not {}", name, whole ? "" : "a whole number in ",
                                  allowed(*found), text)};
-    std::visit([&](auto* v) { *v = static_cast<std::remove_reference_t<decltype(*v)>>(*value); }, found->value);
+    std::visit([&](auto* v) { *v = static_cast<std::remove_reference_t<decltype(*v)>>(*value); },
+               found->value);
     return Ok{};
 }
 
 std::string Settings::table() const {
     std::string out;
     for (const Setting& s : settings_)
-        out += fmt::format("{:<38} {:<12} {:<32} {:<10} {}\n", fullName(s), settingText(s, s.defaultValue), allowed(s),
-                           s.info.unit, s.info.help);
+        out += fmt::format("{:<38} {:<12} {:<32} {:<10} {}\n", fullName(s), settingText(s, s.defaultValue),
+                           allowed(s), s.info.unit, s.info.help);
     return out;
 }
 

@@ -1,5 +1,6 @@
-// The registry of tunables: plain structs keep the values, the registry knows their names, ranges, units and help. One
-// registration gives `--set group.name=value`, `--list-settings`, the JSON beside every capture, and the UI.
+// The registry of tunables: plain structs keep the values, the registry knows their names, ranges, units and
+// help. One registration gives `--set group.name=value`, `--list-settings`, the JSON beside every capture,
+// and the UI.
 #pragma once
 
 #include <cstdint>

@@ -12,13 +12,17 @@ void Commands::play(World& world) {
                     scratch_.push_back({values_[value].id, bytes_.data() + values_[value].offset});
                 world.createFrom(scratch_);
                 break;
-            case Kind::kDestroy: world.destroy(op.entity); break;
+            case Kind::kDestroy:
+                world.destroy(op.entity);
+                break;
             case Kind::kAdd:
                 if (world.alive(op.entity))
                     world.addFrom(op.entity, {values_[value].id, bytes_.data() + values_[value].offset});
                 ++value;
                 break;
-            case Kind::kRemove: world.removeComponent(op.entity, op.count); break;
+            case Kind::kRemove:
+                world.removeComponent(op.entity, op.count);
+                break;
         }
     }
     ops_.clear();

@@ -55,7 +55,9 @@ struct ComponentMask {
     bool containsAll(const ComponentMask& m) const {
         return (words[0] & m.words[0]) == m.words[0] && (words[1] & m.words[1]) == m.words[1];
     }
-    bool intersects(const ComponentMask& m) const { return (words[0] & m.words[0]) || (words[1] & m.words[1]); }
+    bool intersects(const ComponentMask& m) const {
+        return (words[0] & m.words[0]) || (words[1] & m.words[1]);
+    }
     bool operator==(const ComponentMask&) const = default;
 };
 

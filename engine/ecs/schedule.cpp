@@ -16,7 +16,8 @@ uint64_t nowNs() {
 }  // namespace
 
 void Schedule::insert(std::string name, Access access, Run run) {
-    for (const System& known : systems_) AG_CHECK_MSG(known.name != name, "two systems are named " + name);
+    for (const System& known : systems_)
+        AG_CHECK_MSG(known.name != name, "two systems are named " + name);
     AG_CHECK_LT(systems_.size() + 1, size_t(kFlushPosition));
     systems_.push_back({.name = std::move(name), .access = access, .run = std::move(run)});
     stale_ = true;
@@ -30,7 +31,8 @@ void Schedule::flush() {
 // An edge to each later system in conflict, unless a path leads there already.
 void Schedule::build() {
     graph_ = {};
-    for (const System& system : systems_) graph_.add(system.name);
+    for (const System& system : systems_)
+        graph_.add(system.name);
     std::vector<std::vector<bool>> before(systems_.size(), std::vector<bool>(systems_.size(), false));
     for (uint32_t after = 0; after < systems_.size(); ++after) {
         for (uint32_t b = after; b-- > 0;) {
@@ -66,7 +68,8 @@ bool Schedule::hasEdge(std::string_view before, std::string_view after) {
 }
 
 void Schedule::playCommands(World& world, size_t end) {
-    for (size_t i = 0; i < end; ++i) systems_[i].commands.play(world);
+    for (size_t i = 0; i < end; ++i)
+        systems_[i].commands.play(world);
 }
 
 void Schedule::run(World& world, JobRunner& runner) {

@@ -1,7 +1,7 @@
 // Systems in program order, and the graph that follows from what they touch.
 //
-// Of two systems that conflict, the one added first runs first; others may overlap. The graph is data: tests ask it by
-// name, tools draw it. One thread is simply the list in order, and gives the same world.
+// Of two systems that conflict, the one added first runs first; others may overlap. The graph is data: tests
+// ask it by name, tools draw it. One thread is simply the list in order, and gives the same world.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace ag {
 
-struct SystemSpan {  // of the last run
+struct SystemSpan {                   // of the last run
     uint64_t beginNs = 0, endNs = 0;  // steady clock
     uint64_t thread = 0;
 };

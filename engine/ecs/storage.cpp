@@ -15,7 +15,9 @@ constexpr size_t kChunkBytes = size_t(256) << 10;
 constexpr uint32_t kLeastRows = 256, kMostRows = 4096;
 constexpr size_t kColumnAlignment = 64;
 
-size_t alignUp(size_t n) { return (n + kColumnAlignment - 1) / kColumnAlignment * kColumnAlignment; }
+size_t alignUp(size_t n) {
+    return (n + kColumnAlignment - 1) / kColumnAlignment * kColumnAlignment;
+}
 
 struct Registry {
     std::mutex mutex;
@@ -67,11 +69,16 @@ ComponentId nextComponentId(ComponentType type, bool tracked) {
     return r.count++;
 }
 
-const ComponentType& componentType(ComponentId id) { return registry().types[id]; }
-bool componentTracked(ComponentId id) { return registry().tracked[id]; }
+const ComponentType& componentType(ComponentId id) {
+    return registry().types[id];
+}
+bool componentTracked(ComponentId id) {
+    return registry().tracked[id];
+}
 
 ChunkMemory::~ChunkMemory() {
-    for (void* slab : slabs_) std::free(slab);
+    for (void* slab : slabs_)
+        std::free(slab);
 }
 
 std::byte* ChunkMemory::allocate(size_t bytes) {
@@ -97,7 +104,9 @@ std::byte* ChunkMemory::allocate(size_t bytes) {
     return memory;
 }
 
-void ChunkMemory::release(std::byte* memory, size_t bytes) { free_.push_back({memory, bytes}); }
+void ChunkMemory::release(std::byte* memory, size_t bytes) {
+    free_.push_back({memory, bytes});
+}
 
 Archetype makeArchetype(const ComponentMask& mask) {
     Archetype a;
@@ -120,7 +129,8 @@ RowPlace pushRow(Archetype& archetype, ChunkMemory& memory, Entity entity, uint3
     const uint32_t row = chunk.rows++;
     ++archetype.rows;
     chunk.entities()[row] = entity;
-    for (uint32_t& v : chunk.versions) v = version;
+    for (uint32_t& v : chunk.versions)
+        v = version;
     setDirty(chunk, row);
     return {uint32_t(archetype.chunks.size() - 1), row};
 }
@@ -137,11 +147,13 @@ Entity removeRow(Archetype& archetype, ChunkMemory& memory, RowPlace place, uint
             const size_t size = componentType(archetype.components[c]).sizeBytes;
             std::memcpy(chunk.column(c) + place.row * size, last.column(c) + lastRow * size, size);
         }
-        for (uint32_t& v : chunk.versions) v = version;
+        for (uint32_t& v : chunk.versions)
+            v = version;
         setDirty(chunk, place.row);
     }
     // The leaver may have been looked at as a neighbour: its chunk changed too.
-    for (uint32_t& v : last.versions) v = version;
+    for (uint32_t& v : last.versions)
+        v = version;
     --last.rows;
     --archetype.rows;
     if (last.rows == 0) {

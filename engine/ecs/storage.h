@@ -1,5 +1,6 @@
-// Chunked archetypes: entities with the same components share chunks of up to 4,096 rows, one aligned column a
-// component. Chunks are cut from 2 MiB slabs of huge pages. A removed row is filled with the archetype's last one.
+// Chunked archetypes: entities with the same components share chunks of up to 4,096 rows, one aligned column
+// a component. Chunks are cut from 2 MiB slabs of huge pages. A removed row is filled with the archetype's
+// last one.
 #pragma once
 
 #include <array>
@@ -36,9 +37,9 @@ struct Chunk {
     size_t bytes = 0;
     uint32_t capacity = 0;
     uint32_t rows = 0;
-    std::vector<uint32_t> offsets;   // of columns, in bytes; parallel to the archetype's components
-    std::vector<uint32_t> versions;  // of columns: when and by which system last written
-    std::vector<uint64_t> dirtyRows; // bits, for all tracked columns together
+    std::vector<uint32_t> offsets;    // of columns, in bytes; parallel to the archetype's components
+    std::vector<uint32_t> versions;   // of columns: when and by which system last written
+    std::vector<uint64_t> dirtyRows;  // bits, for all tracked columns together
     uint32_t entityOffset = 0;
 
     Entity* entities() { return reinterpret_cast<Entity*>(memory + entityOffset); }
@@ -49,7 +50,7 @@ struct Chunk {
 
 struct Archetype {
     ComponentMask mask;
-    std::vector<ComponentId> components;  // ascending
+    std::vector<ComponentId> components;             // ascending
     std::array<int16_t, kMaxComponents> columnOf{};  // -1: has none
     uint32_t rowBytes = sizeof(Entity);
     bool tracked = false;
@@ -65,7 +66,8 @@ struct RowPlace {
     uint32_t chunk = 0, row = 0;
 };
 RowPlace pushRow(Archetype& archetype, ChunkMemory& memory, Entity entity, uint32_t version);
-// Fills the place with the last row and shortens; returns the entity that moved there (none if it was the last).
+// Fills the place with the last row and shortens; returns the entity that moved there (none if it was the
+// last).
 Entity removeRow(Archetype& archetype, ChunkMemory& memory, RowPlace place, uint32_t version);
 
 }  // namespace ag

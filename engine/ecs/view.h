@@ -1,5 +1,5 @@
-// What systems take as parameters. Their types say everything a system touches: const is read, the rest is written, and
-// what is not named does not compile.
+// What systems take as parameters. Their types say everything a system touches: const is read, the rest is
+// written, and what is not named does not compile.
 //
 //   void flickerLamps(View<PointLight, const Flicker> lamps, Res<const FrameTime> time);
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace ag {
 
-// Filters of a View. Changed<const T> also gives the column; its rows are those of chunks written since the system
-// last ran.
+// Filters of a View. Changed<const T> also gives the column; its rows are those of chunks written since the
+// system last ran.
 template <class T>
 struct With {};
 template <class T>
@@ -30,7 +30,8 @@ struct Access {
             return w.intersects(r) || w.intersects(w2);
         };
         return exclusive || other.exclusive || clash(writes, other.reads, other.writes) ||
-               other.writes.intersects(reads) || clash(resourceWrites, other.resourceReads, other.resourceWrites) ||
+               other.writes.intersects(reads) ||
+               clash(resourceWrites, other.resourceReads, other.resourceWrites) ||
                other.resourceWrites.intersects(resourceReads);
     }
 };
@@ -47,7 +48,9 @@ template <class Term>
 struct TermTraits {  // T or const T
     using Column = Term;
     static constexpr bool kHasColumn = true;
-    static void filter(ComponentMask& with, ComponentMask&) { with.set(componentId<std::remove_const_t<Term>>()); }
+    static void filter(ComponentMask& with, ComponentMask&) {
+        with.set(componentId<std::remove_const_t<Term>>());
+    }
     static void access(Access& a) {
         (std::is_const_v<Term> ? a.reads : a.writes).set(componentId<std::remove_const_t<Term>>());
     }
@@ -74,7 +77,9 @@ struct TermTraits<Changed<T>> {
     static_assert(std::is_const_v<T>, "Changed reads: Changed<const T>");
     using Column = T;
     static constexpr bool kHasColumn = true;
-    static void filter(ComponentMask& with, ComponentMask&) { with.set(componentId<std::remove_const_t<T>>()); }
+    static void filter(ComponentMask& with, ComponentMask&) {
+        with.set(componentId<std::remove_const_t<T>>());
+    }
     static void access(Access& a) { a.reads.set(componentId<std::remove_const_t<T>>()); }
     static bool unseen(const Archetype& a, const Chunk& c, uint32_t lastRun) {
         return newerThan(c.versions[size_t(a.column(componentId<std::remove_const_t<T>>()))], lastRun);
@@ -82,8 +87,8 @@ struct TermTraits<Changed<T>> {
 };
 
 template <class Term>
-using ColumnPointer = std::conditional_t<TermTraits<Term>::kHasColumn, std::tuple<typename TermTraits<Term>::Column*>,
-                                         std::tuple<>>;
+using ColumnPointer = std::conditional_t<TermTraits<Term>::kHasColumn,
+                                         std::tuple<typename TermTraits<Term>::Column*>, std::tuple<>>;
 
 }  // namespace detail
 
@@ -113,8 +118,8 @@ class View {
     }
     static void access(Access& a) { (detail::TermTraits<Terms>::access(a), ...); }
 
-    // f(T&...) or f(Entity, T&...) for each row. If f returns a bool it says whether it changed the row: a chunk then
-    // counts as written only if one of its rows was.
+    // f(T&...) or f(Entity, T&...) for each row. If f returns a bool it says whether it changed the row: a
+    // chunk then counts as written only if one of its rows was.
     template <class F>
     void each(F&& f) const {
         forChunks([&](Archetype& archetype, Chunk& chunk) { rows(archetype, chunk, f); });
@@ -126,7 +131,8 @@ class View {
         list.clear();
         forChunks([&](Archetype& archetype, Chunk& chunk) { list.push_back({&archetype, &chunk}); });
         runner.parallelFor(uint32_t(list.size()), 1, [&](uint32_t begin, uint32_t end) {
-            for (uint32_t i = begin; i < end; ++i) rows(*list[i].first, *list[i].second, f);
+            for (uint32_t i = begin; i < end; ++i)
+                rows(*list[i].first, *list[i].second, f);
         });
     }
     // f(ChunkRows) for each chunk; written columns count as written.
@@ -150,7 +156,8 @@ class View {
         for (Archetype& archetype : world_->archetypes()) {
             if (!archetype.mask.containsAll(with_) || archetype.mask.intersects(without_)) continue;
             for (const auto& chunk : archetype.chunks)
-                if ((detail::TermTraits<Terms>::unseen(archetype, *chunk, time_.lastRun) && ...)) f(archetype, *chunk);
+                if ((detail::TermTraits<Terms>::unseen(archetype, *chunk, time_.lastRun) && ...))
+                    f(archetype, *chunk);
         }
     }
     template <class Term>
@@ -209,8 +216,8 @@ class View {
     template <class Term>
     void stamp(Archetype& archetype, Chunk& chunk) const {
         if constexpr (writesTerm<Term>())
-            chunk.versions[size_t(archetype.column(componentId<typename detail::TermTraits<Term>::Column>()))] =
-                time_.version;
+            chunk.versions[size_t(
+                archetype.column(componentId<typename detail::TermTraits<Term>::Column>()))] = time_.version;
     }
     template <class... Ts>
     static void mark(Archetype&, Chunk& chunk, uint32_t row) {
@@ -218,7 +225,8 @@ class View {
     }
     static void markAll(Archetype&, Chunk& chunk) {
         if constexpr ((writesTracked<Terms>() || ...))
-            for (uint32_t row = 0; row < chunk.rows; ++row) chunk.dirtyRows[row / 64] |= uint64_t(1) << (row % 64);
+            for (uint32_t row = 0; row < chunk.rows; ++row)
+                chunk.dirtyRows[row / 64] |= uint64_t(1) << (row % 64);
     }
     static std::vector<std::pair<Archetype*, Chunk*>>& scratch() {
         thread_local std::vector<std::pair<Archetype*, Chunk*>> list;  // keeps its capacity from call to call

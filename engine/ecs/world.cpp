@@ -30,7 +30,8 @@ void World::setValue(const Record& record, ComponentValue value) {
 
 Entity World::createFrom(std::span<const ComponentValue> values) {
     ComponentMask mask;
-    for (const ComponentValue& value : values) mask.set(value.id);
+    for (const ComponentValue& value : values)
+        mask.set(value.id);
     Entity entity;
     if (freeIndices_.empty()) {
         entity.index = uint32_t(records_.size());
@@ -43,7 +44,8 @@ Entity World::createFrom(std::span<const ComponentValue> values) {
     entity.generation = record.generation;
     record.archetype = archetypeFor(mask);
     record.place = pushRow(archetypes_[record.archetype], memory_, entity, version());
-    for (const ComponentValue& value : values) setValue(record, value);
+    for (const ComponentValue& value : values)
+        setValue(record, value);
     ++alive_;
     return entity;
 }
@@ -117,7 +119,8 @@ void* World::writeAt(Entity entity, ComponentId id, uint32_t version) {
     Archetype& archetype = archetypes_[record.archetype];
     Chunk& chunk = *archetype.chunks[record.place.chunk];
     chunk.versions[size_t(archetype.column(id))] = version;
-    if (componentTracked(id)) chunk.dirtyRows[record.place.row / 64] |= uint64_t(1) << (record.place.row % 64);
+    if (componentTracked(id))
+        chunk.dirtyRows[record.place.row / 64] |= uint64_t(1) << (record.place.row % 64);
     return found;
 }
 
@@ -128,7 +131,8 @@ uint64_t World::stateHash() const {
         for (const auto& chunk : archetype.chunks) {
             hash = hashBytes(std::as_bytes(std::span(chunk->entities(), chunk->rows)), hash);
             for (uint32_t c = 0; c < archetype.components.size(); ++c)
-                hash = hashBytes({chunk->column(c), chunk->rows * size_t(componentType(archetype.components[c]).sizeBytes)},
+                hash = hashBytes({chunk->column(c),
+                                  chunk->rows * size_t(componentType(archetype.components[c]).sizeBytes)},
                                  hash);
         }
     }

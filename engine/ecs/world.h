@@ -1,9 +1,9 @@
 // Entities, their components and the world's resources.
 //
-// Every column of every chunk carries a version: frame x 256 + position of the writing system. Because it holds the
-// position and not the time, it is the same on one thread and on many, and a writer late in a frame is seen by an
-// early reader of the next. Structure changes (create, destroy, add, remove) happen here directly, or from systems
-// through Commands at a flush.
+// Every column of every chunk carries a version: frame x 256 + position of the writing system. Because it
+// holds the position and not the time, it is the same on one thread and on many, and a writer late in a frame
+// is seen by an early reader of the next. Structure changes (create, destroy, add, remove) happen here
+// directly, or from systems through Commands at a flush.
 #pragma once
 
 #include <deque>
@@ -19,7 +19,9 @@ namespace ag {
 constexpr uint32_t kVersionsPerFrame = 256;
 constexpr uint32_t kFlushPosition = 255;  // in a frame: where structure changes, after all systems
 
-inline bool newerThan(uint32_t version, uint32_t than) { return int32_t(version - than) > 0; }
+inline bool newerThan(uint32_t version, uint32_t than) {
+    return int32_t(version - than) > 0;
+}
 
 using ResourceId = uint32_t;
 ResourceId nextResourceId();
@@ -84,7 +86,8 @@ class World {
     T& setResource(Args&&... args) {
         const ResourceId id = resourceId<T>();
         if (resources_.size() <= id) resources_.resize(id + 1);
-        resources_[id] = std::shared_ptr<void>(new T{std::forward<Args>(args)...}, [](void* p) { delete static_cast<T*>(p); });
+        resources_[id] = std::shared_ptr<void>(new T{std::forward<Args>(args)...},
+                                               [](void* p) { delete static_cast<T*>(p); });
         return *static_cast<T*>(resources_[id].get());
     }
     template <class T>

@@ -1,5 +1,5 @@
-// The one table of how a pass may touch a resource: pipeline stages, access, image layout. Nobody else writes a
-// barrier's fields.
+// The one table of how a pass may touch a resource: pipeline stages, access, image layout. Nobody else writes
+// a barrier's fields.
 #pragma once
 
 #include <volk.h>
@@ -11,17 +11,17 @@
 namespace ag {
 
 enum class UseKind : uint8_t {
-    kComputeRead,      // storage buffer, texel buffer or storage image
+    kComputeRead,  // storage buffer, texel buffer or storage image
     kComputeWrite,
     kComputeReadWrite,
-    kComputeSample,    // sampled image
-    kRasterRead,       // the same from vertex and fragment shaders
+    kComputeSample,  // sampled image
+    kRasterRead,     // the same from vertex and fragment shaders
     kRasterSample,
-    kColorClear,       // attachments: cleared, or loaded and drawn over
+    kColorClear,  // attachments: cleared, or loaded and drawn over
     kColorLoad,
     kDepthClear,
     kDepthLoad,
-    kDepthTest,        // read only
+    kDepthTest,  // read only
     kIndirect,
     kTransferRead,
     kTransferWrite,
@@ -60,12 +60,15 @@ constexpr std::array<Access, size_t(UseKind::kCount)> kAccessTable = {{
     {kDepthTests, kDepthRead, kDepthWrite, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
     {kDepthTests, kDepthRead, kDepthWrite, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
     {kDepthTests, kDepthRead, 0, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL},
-    {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED},
+    {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0,
+     VK_IMAGE_LAYOUT_UNDEFINED},
     {kTransferStage, VK_ACCESS_2_TRANSFER_READ_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
     {kTransferStage, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL},
 }};
 
-constexpr const Access& accessOf(UseKind kind) { return kAccessTable[size_t(kind)]; }
+constexpr const Access& accessOf(UseKind kind) {
+    return kAccessTable[size_t(kind)];
+}
 
 // Whether the pass depends on what the resource held before.
 constexpr bool readsOld(UseKind kind) {
@@ -73,11 +76,15 @@ constexpr bool readsOld(UseKind kind) {
         case UseKind::kComputeWrite:
         case UseKind::kColorClear:
         case UseKind::kDepthClear:
-        case UseKind::kTransferWrite: return false;
-        default: return true;
+        case UseKind::kTransferWrite:
+            return false;
+        default:
+            return true;
     }
 }
 
-constexpr bool writes(UseKind kind) { return accessOf(kind).writes != 0; }
+constexpr bool writes(UseKind kind) {
+    return accessOf(kind).writes != 0;
+}
 
 }  // namespace ag

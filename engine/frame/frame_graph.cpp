@@ -23,8 +23,10 @@ FrameGraph::~FrameGraph() {
     if (!impl_->device) return;
     const VkDevice device = impl_->device->handle();
     impl_->device->waitIdle();
-    for (VkDescriptorPool pool : impl_->pools) vkDestroyDescriptorPool(device, pool, nullptr);
-    for (VkSampler sampler : impl_->samplers) vkDestroySampler(device, sampler, nullptr);
+    for (VkDescriptorPool pool : impl_->pools)
+        vkDestroyDescriptorPool(device, pool, nullptr);
+    for (VkSampler sampler : impl_->samplers)
+        vkDestroySampler(device, sampler, nullptr);
     vkDestroyCommandPool(device, impl_->ownPool, nullptr);
     impl_->slots.clear();
     impl_->device->collect();
@@ -69,14 +71,16 @@ uint32_t FrameGraph::Impl::declare(std::string_view name, bool isImage, const Im
     const bool unchanged = !added && slot.isImage == isImage && slot.isHistory == history &&
                            (isImage ? same(slot.image, image) : same(slot.buffer, buffer));
     if (!unchanged) {
-        bucketsStale = bucketsStale || slot.bucket != ~0u || (isImage && image.lifetime == Lifetime::kScratch);
+        bucketsStale =
+            bucketsStale || slot.bucket != ~0u || (isImage && image.lifetime == Lifetime::kScratch);
         retireMemory(slot);
         slot.isImage = isImage;
         slot.isHistory = history;
         slot.image = image;
         slot.buffer = buffer;
     }
-    Resource resource{.name = name, .isImage = isImage, .image = image, .buffer = buffer, .slot = entry->second};
+    Resource resource{
+        .name = name, .isImage = isImage, .image = image, .buffer = buffer, .slot = entry->second};
     resources.push_back(resource);
     return uint32_t(resources.size() - 1);
 }
@@ -138,7 +142,8 @@ ImageHandle FrameGraph::importImage(std::string_view name, const gpu::Image& ima
 
 BufferHandle FrameGraph::importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version) {
     const BufferInfo info{.sizeBytes = buffer.sizeBytes(), .texelFormat = buffer.desc().texelFormat};
-    return {impl_->import({.name = name, .buffer = info, .importedBuffer = &buffer, .importVersion = version})};
+    return {
+        impl_->import({.name = name, .buffer = info, .importedBuffer = &buffer, .importVersion = version})};
 }
 
 ImageHandle FrameGraph::importImage(std::string_view name, const ImageInfo& info, uint64_t version) {
@@ -149,8 +154,12 @@ BufferHandle FrameGraph::importBuffer(std::string_view name, const BufferInfo& i
     return {impl_->import({.name = name, .buffer = info, .importVersion = version})};
 }
 
-const ImageInfo& FrameGraph::info(ImageHandle image) const { return impl_->resources[image.index].image; }
-const BufferInfo& FrameGraph::info(BufferHandle buffer) const { return impl_->resources[buffer.index].buffer; }
+const ImageInfo& FrameGraph::info(ImageHandle image) const {
+    return impl_->resources[image.index].image;
+}
+const BufferInfo& FrameGraph::info(BufferHandle buffer) const {
+    return impl_->resources[buffer.index].buffer;
+}
 
 uint32_t FrameGraph::Impl::statsFor(std::string_view name) {
     const auto [entry, added] = statsOfName.try_emplace(hashText(name), uint32_t(stats.size()));
@@ -165,7 +174,8 @@ Pass& FrameGraph::Impl::addPass(std::string_view name, PassKind kind) {
     pass.firstUse = uint32_t(uses.size());
     pass.firstDraw = uint32_t(draws.size());
     pass.stats = statsFor(name);
-    for (const Pass& other : passes) AG_CHECK_MSG(other.stats != pass.stats, "pass added twice: " + std::string(name));
+    for (const Pass& other : passes)
+        AG_CHECK_MSG(other.stats != pass.stats, "pass added twice: " + std::string(name));
     passes.push_back(pass);
     return passes.back();
 }
@@ -192,8 +202,8 @@ PassBuilder FrameGraph::fullscreen(std::string_view name, std::string_view fragm
     return PassBuilder(*this);
 }
 
-PassBuilder FrameGraph::raster(std::string_view name, std::string_view vertexShader, std::string_view fragmentShader,
-                               gpu::VertexLayout layout) {
+PassBuilder FrameGraph::raster(std::string_view name, std::string_view vertexShader,
+                               std::string_view fragmentShader, gpu::VertexLayout layout) {
     Pass& pass = impl_->addPass(name, PassKind::kRaster);
     pass.vertexShader = vertexShader;
     pass.shader = fragmentShader;
@@ -228,13 +238,17 @@ void FrameGraph::output(ImageHandle image, VkImageLayout layout) {
     resource.outputLayout = layout;
 }
 
-void FrameGraph::output(BufferHandle buffer) { impl_->resources[buffer.index].isOutput = true; }
+void FrameGraph::output(BufferHandle buffer) {
+    impl_->resources[buffer.index].isOutput = true;
+}
 
 // --- PassBuilder ---
 
 namespace {
 
-bool isCompute(const Pass& pass) { return pass.kind == PassKind::kCompute; }
+bool isCompute(const Pass& pass) {
+    return pass.kind == PassKind::kCompute;
+}
 
 }  // namespace
 
@@ -285,10 +299,14 @@ PassBuilder& PassBuilder::readPrevious(std::string_view name, const HistoryBuffe
     return *this;
 }
 
-PassBuilder& PassBuilder::samplePrevious(std::string_view name, const HistoryImage& history, Sampler sampler) {
+PassBuilder& PassBuilder::samplePrevious(std::string_view name, const HistoryImage& history,
+                                         Sampler sampler) {
     const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeSample : UseKind::kRasterSample;
-    graph_->impl_->addUse(
-        {.resource = history.previous.index, .kind = kind, .name = name, .sampler = sampler, .previous = true});
+    graph_->impl_->addUse({.resource = history.previous.index,
+                           .kind = kind,
+                           .name = name,
+                           .sampler = sampler,
+                           .previous = true});
     return *this;
 }
 
@@ -361,7 +379,9 @@ PassBuilder& PassBuilder::spec(uint32_t id, uint32_t value) {
     return *this;
 }
 
-PassBuilder& PassBuilder::step(uint64_t value) { return key(combineHash(1, value)); }
+PassBuilder& PassBuilder::step(uint64_t value) {
+    return key(combineHash(1, value));
+}
 
 PassBuilder& PassBuilder::key(uint64_t value) {
     AG_PASS.extraKey = combineHash(AG_PASS.extraKey, value);
@@ -396,8 +416,9 @@ PassBuilder& PassBuilder::draw(const RasterDraw& draw) {
     impl.draws.push_back(draw);
     ++AG_PASS.drawCount;
     const auto uses = impl.usesOf(AG_PASS);
-    const bool known = std::ranges::any_of(
-        uses, [&](const Use& u) { return u.resource == draw.commands.index && u.kind == UseKind::kIndirect; });
+    const bool known = std::ranges::any_of(uses, [&](const Use& u) {
+        return u.resource == draw.commands.index && u.kind == UseKind::kIndirect;
+    });
     // A draw with a version of its own range stands for the buffer's contents in the key.
     if (!known)
         impl.addUse({.resource = draw.commands.index,

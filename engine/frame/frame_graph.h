@@ -1,15 +1,17 @@
 // The GPU half of "a frame is a build": passes in program order that say what they read and write.
 //
-// From the declarations the graph derives barriers and image layouts, the memory of transients, and what runs:
+// From the declarations the graph derives barriers and image layouts, the memory of transients, and what
+// runs:
 //  - Every resource has a content version. An import's version comes from outside; the version of a pass's
 //    output is a hash of the pass's key (its inputs' versions, push data, draws, pipeline) — as in a build
 //    with content keys, and therefore the same from frame to frame when nothing changed.
-//  - Backwards from the outputs of the frame: a pass runs if a running pass (or the outside) needs something it
-//    writes and the memory does not hold that version already. Otherwise it is `skipped` (contents are current) or
-//    `dropped` (nobody needs them).
+//  - Backwards from the outputs of the frame: a pass runs if a running pass (or the outside) needs something
+//  it
+//    writes and the memory does not hold that version already. Otherwise it is `skipped` (contents are
+//    current) or `dropped` (nobody needs them).
 //  - A history resource is two halves. A pass that writes `current` and reads `previous` is keyed without
-//    `previous`; it steps only when the rest of its key changed (or its .step() did). Then the halves swap and the
-//    output's version is hash(key, version of previous).
+//    `previous`; it steps only when the rest of its key changed (or its .step() did). Then the halves swap
+//    and the output's version is hash(key, version of previous).
 //
 // Nothing reorders. One queue. A steady frame allocates nothing on the heap: names must be string literals or
 // outlive the graph, and lists keep their capacity from frame to frame.
@@ -48,8 +50,8 @@ struct BufferHandle {
     bool operator==(const BufferHandle&) const = default;
 };
 
-// kKept contents survive the frame, so that an unchanged pass can be skipped. kScratch images share memory where
-// their uses do not overlap: contents are made again whenever a running pass needs them.
+// kKept contents survive the frame, so that an unchanged pass can be skipped. kScratch images share memory
+// where their uses do not overlap: contents are made again whenever a running pass needs them.
 enum class Lifetime : uint32_t { kKept, kScratch };
 
 struct ImageInfo {
@@ -81,13 +83,13 @@ struct RasterDraw {
     std::array<gpu::SpecConstant, 4> spec{};  // the variant: added to the pass's own constants
     uint32_t specCount = 0;
     gpu::CullMode cull = gpu::CullMode::kBack;
-    glm::uvec4 viewport{0};           // x, y, width, height in pixels; all zero: the whole target
+    glm::uvec4 viewport{0};  // x, y, width, height in pixels; all zero: the whole target
     std::array<std::byte, 128> push{};
     uint32_t pushSizeBytes = 0;
-    BufferHandle commands;            // VkDrawIndexedIndirectCommand records
+    BufferHandle commands;  // VkDrawIndexedIndirectCommand records
     uint64_t commandsOffsetBytes = 0;
     uint32_t commandCount = 0;
-    uint64_t commandsVersion = 0;     // version of just this range (0: that of the whole buffer)
+    uint64_t commandsVersion = 0;  // version of just this range (0: that of the whole buffer)
 };
 
 // Where a raster pass takes its triangles from.
@@ -103,8 +105,9 @@ class FrameGraph;
 // Fluent declaration of the pass last added; valid until the next pass is added.
 class PassBuilder {
   public:
-    // Bound under their GLSL names. A buffer read binds as SSBO, uniform buffer or texel buffer, whichever the
-    // shader declares. Reading, writing and kind are checked against reflection when the pipeline is made.
+    // Bound under their GLSL names. A buffer read binds as SSBO, uniform buffer or texel buffer, whichever
+    // the shader declares. Reading, writing and kind are checked against reflection when the pipeline is
+    // made.
     PassBuilder& read(std::string_view name, BufferHandle buffer);
     PassBuilder& read(std::string_view name, ImageHandle image);  // storage image
     PassBuilder& write(std::string_view name, BufferHandle buffer);
@@ -156,8 +159,8 @@ enum class PassOutcome : uint8_t { kRan, kSkipped, kDropped };
 struct PassReport {
     std::string_view name;
     PassOutcome outcome = PassOutcome::kDropped;
-    double gpuMs = 0;   // of the last frame whose timestamps arrived, 0 if it did not run then
-    double cpuMs = 0;   // process CPU time, only in TimingMode::kProcessCpu
+    double gpuMs = 0;       // of the last frame whose timestamps arrived, 0 if it did not run then
+    double cpuMs = 0;       // process CPU time, only in TimingMode::kProcessCpu
     uint64_t runCount = 0;  // since the graph was made
 };
 
@@ -180,15 +183,15 @@ struct PassRecord {
 };
 
 struct FrameGraphOptions {
-    bool skip = true;    // engine.skip: false runs every needed pass; images are the same bit for bit
-    bool alias = true;   // scratch resources share memory
+    bool skip = true;   // engine.skip: false runs every needed pass; images are the same bit for bit
+    bool alias = true;  // scratch resources share memory
     TimingMode timing = TimingMode::kTimestamps;
 };
 
 class FrameGraph {
   public:
-    // Null device and library: nothing is recorded or allocated; barriers, placement and skips are still computed
-    // (pipelines then count by shader name).
+    // Null device and library: nothing is recorded or allocated; barriers, placement and skips are still
+    // computed (pipelines then count by shader name).
     FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines);
     ~FrameGraph();
     FrameGraph(const FrameGraph&) = delete;
@@ -197,15 +200,16 @@ class FrameGraph {
     // --- Declaring a frame ---
     void beginFrame(const FrameGraphOptions& options);
 
-    // Names are unique within a frame and identify the resource from frame to frame; a changed info makes it anew.
+    // Names are unique within a frame and identify the resource from frame to frame; a changed info makes it
+    // anew.
     ImageHandle image(std::string_view name, const ImageInfo& info);
     BufferHandle buffer(std::string_view name, const BufferInfo& info);
     HistoryImage historyImage(std::string_view name, const ImageInfo& info);
     HistoryBuffer historyBuffer(std::string_view name, const BufferInfo& info);
     void resetHistory(std::string_view name);  // e.g. camera cut: `valid` is false in the next frame declared
 
-    // Imports: read-only, owned outside, contents identified by `version` (never 0). `layout` is what the image
-    // is in and stays in.
+    // Imports: read-only, owned outside, contents identified by `version` (never 0). `layout` is what the
+    // image is in and stays in.
     ImageHandle importImage(std::string_view name, const gpu::Image& image, uint64_t version,
                             VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     BufferHandle importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version);
@@ -224,7 +228,8 @@ class FrameGraph {
     void fill(std::string_view name, BufferHandle buffer, uint32_t word);
     // Host data (at most 64 KiB, copied now) into a buffer; keyed by its bytes.
     void upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes);
-    void copyImage(std::string_view name, ImageHandle from, ImageHandle to);  // blit with nearest filter if sizes differ
+    void copyImage(std::string_view name, ImageHandle from,
+                   ImageHandle to);  // blit with nearest filter if sizes differ
 
     // What the frame is for: must be current when it ends. An output image is left in `layout`.
     void output(ImageHandle image, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);

@@ -28,13 +28,16 @@ void endLabel(VkCommandBuffer commands) {
     if (vkCmdEndDebugUtilsLabelEXT) vkCmdEndDebugUtilsLabelEXT(commands);
 }
 
-VkExtent2D extentOf(glm::uvec2 size) { return {size.x, size.y}; }
+VkExtent2D extentOf(glm::uvec2 size) {
+    return {size.x, size.y};
+}
 
 }  // namespace
 
 // A dependency on what was done to the resource before, if this access needs one.
 void FrameGraph::Impl::addBarrier(Resource& r, const Access& access, bool discard, PassRecord* record) {
-    if (r.kind == ResourceKind::kImport) return;  // read-only, in its layout: made visible by whoever wrote it
+    if (r.kind == ResourceKind::kImport)
+        return;  // read-only, in its layout: made visible by whoever wrote it
     Memory& memory = slots[r.slot].halves[r.half];
     SyncState& s = memory.sync;
     VkPipelineStageFlags2 srcStages = s.writeStages;
@@ -143,7 +146,8 @@ void FrameGraph::Impl::synchronizeOutputs(VkCommandBuffer commands) {
     for (Resource& r : resources) {
         if (!r.isOutput || !r.isImage || r.kind == ResourceKind::kImport) continue;
         if (slots[r.slot].halves[r.half].version == 0) continue;
-        const Access access{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, 0, r.outputLayout};
+        const Access access{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, 0,
+                            r.outputLayout};
         addBarrier(r, access, false, nullptr);
     }
     if (commands) flushBarriers(commands);
@@ -153,14 +157,16 @@ void FrameGraph::Impl::recordCompute(VkCommandBuffer commands, const Pass& pass)
     const gpu::Pipeline& pipeline = *pass.pipeline;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
     if (const VkDescriptorSet set = descriptorSet(pass, pipeline))
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0, nullptr);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
+                                nullptr);
     if (pipeline.pushSizeBytes > 0)
         vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
                            pass.push.data());
     if (pass.dispatchIndirect) {
         const auto all = usesOf(pass);
         const auto arguments = std::ranges::find(all, UseKind::kIndirect, &Use::kind);
-        vkCmdDispatchIndirect(commands, bufferOf(resources[arguments->resource]).handle(), pass.indirectOffset);
+        vkCmdDispatchIndirect(commands, bufferOf(resources[arguments->resource]).handle(),
+                              pass.indirectOffset);
         return;
     }
     const glm::uvec3 size = pass.threads ? pipeline.workgroupSize : glm::uvec3(1);
@@ -195,7 +201,8 @@ void setViewport(VkCommandBuffer commands, glm::uvec4 rect) {
 
 void bindGeometry(VkCommandBuffer commands, const Geometry& g) {
     if (!g.positions) return;
-    const VkBuffer buffers[] = {g.positions->handle(), g.attributes ? g.attributes->handle() : g.positions->handle()};
+    const VkBuffer buffers[] = {g.positions->handle(),
+                                g.attributes ? g.attributes->handle() : g.positions->handle()};
     const VkDeviceSize offsets[] = {0, 0};
     vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
     vkCmdBindIndexBuffer(commands, g.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
@@ -235,7 +242,8 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
                                     nullptr);
         if (pipeline.pushSizeBytes > 0) {
             AG_CHECK_EQ(pipeline.pushSizeBytes, push.size());
-            vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes, push.data());
+            vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
+                               push.data());
         }
         setViewport(commands, rect == glm::uvec4(0) ? whole : rect);
     };
@@ -247,7 +255,8 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
     for (const RasterDraw& draw : drawsOf(pass)) {
         bind(pipelines->get(requestFor(pass, &draw)), {draw.push.data(), draw.pushSizeBytes}, draw.viewport);
         vkCmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
-                                 draw.commandsOffsetBytes, draw.commandCount, sizeof(VkDrawIndexedIndirectCommand));
+                                 draw.commandsOffsetBytes, draw.commandCount,
+                                 sizeof(VkDrawIndexedIndirectCommand));
     }
     vkCmdEndRendering(commands);
 }
@@ -263,7 +272,8 @@ void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass
     } else {
         const gpu::Image& source = imageOf(resources[usesOf(pass).front().resource]);
         const gpu::Image& target = imageOf(resources[to.resource]);
-        VkImageBlit region{.srcSubresource = {source.aspect(), 0, 0, 1}, .dstSubresource = {target.aspect(), 0, 0, 1}};
+        VkImageBlit region{.srcSubresource = {source.aspect(), 0, 0, 1},
+                           .dstSubresource = {target.aspect(), 0, 0, 1}};
         region.srcOffsets[1] = {int32_t(source.desc().size.x), int32_t(source.desc().size.y), 1};
         region.dstOffsets[1] = {int32_t(target.desc().size.x), int32_t(target.desc().size.y), 1};
         vkCmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(),
@@ -274,10 +284,16 @@ void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass
 void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
     beginLabel(commands, pass.name);
     switch (pass.kind) {
-        case PassKind::kCompute: recordCompute(commands, pass); break;
+        case PassKind::kCompute:
+            recordCompute(commands, pass);
+            break;
         case PassKind::kFullscreen:
-        case PassKind::kRaster: recordRaster(commands, pass); break;
-        default: recordTransfer(commands, pass); break;
+        case PassKind::kRaster:
+            recordRaster(commands, pass);
+            break;
+        default:
+            recordTransfer(commands, pass);
+            break;
     }
     endLabel(commands);
 }
@@ -285,7 +301,9 @@ void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
 void FrameGraph::Impl::finishPass(const Pass& pass) {
     ++stats[pass.stats].runCount;
     for (const Use& use : usesOf(pass))
-        if (writes(use.kind)) slots[resources[use.resource].slot].halves[resources[use.resource].half].version = use.versionAfter;
+        if (writes(use.kind))
+            slots[resources[use.resource].slot].halves[resources[use.resource].half].version =
+                use.versionAfter;
 }
 
 namespace {

@@ -1,4 +1,5 @@
-// The frame graph's inside: what a frame declares, what lasts from frame to frame. Shared by the files beside it only.
+// The frame graph's inside: what a frame declares, what lasts from frame to frame. Shared by the files beside
+// it only.
 #pragma once
 
 #include <deque>
@@ -38,8 +39,8 @@ struct Memory {
 struct AliasBucket {
     gpu::MemoryRange range;
     VkMemoryRequirements requirements{};
-    uint32_t lastUser = ~0u;        // slot whose image was used last
-    uint32_t busyUntil = 0;         // while placing: the last pass that uses it
+    uint32_t lastUser = ~0u;  // slot whose image was used last
+    uint32_t busyUntil = 0;   // while placing: the last pass that uses it
     std::vector<uint32_t> slots;
 };
 
@@ -51,11 +52,11 @@ struct Slot {
     ImageInfo image;
     BufferInfo buffer;
     std::array<Memory, 2> halves;
-    uint32_t current = 0;      // half that holds the newest contents
-    uint64_t stepKey = 0;      // of the step that made them
-    uint64_t lastFrame = 0;    // declared last in
-    uint32_t bucket = ~0u;     // of a scratch image
-    bool fresh = true;         // has no device objects for its info yet
+    uint32_t current = 0;    // half that holds the newest contents
+    uint64_t stepKey = 0;    // of the step that made them
+    uint64_t lastFrame = 0;  // declared last in
+    uint32_t bucket = ~0u;   // of a scratch image
+    bool fresh = true;       // has no device objects for its info yet
 };
 
 enum class ResourceKind : uint8_t { kOwned, kHistoryPrevious, kImport };
@@ -75,10 +76,10 @@ struct Resource {
     bool isOutput = false;
     VkImageLayout outputLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     // Planning
-    uint64_t version = 0;      // at the current point of the walk
-    bool needed = false;       // the version at the current point is needed by something that runs
-    bool wanted = false;       // or is by something reachable from the outputs
-    bool clobbered = false;    // a running pass writes it
+    uint64_t version = 0;    // at the current point of the walk
+    bool needed = false;     // the version at the current point is needed by something that runs
+    bool wanted = false;     // or is by something reachable from the outputs
+    bool clobbered = false;  // a running pass writes it
     uint32_t firstPass = ~0u, lastPass = 0;
 };
 
@@ -89,8 +90,8 @@ struct Use {
     Sampler sampler = Sampler::kNearestClamp;
     uint32_t mip = 0;
     bool wholeImage = true;
-    bool previous = false;      // half of a history: not part of the step's key
-    bool keyed = true;          // false: its version reaches the key another way
+    bool previous = false;  // half of a history: not part of the step's key
+    bool keyed = true;      // false: its version reaches the key another way
     glm::vec4 clear{0};
     uint64_t versionAfter = 0;  // of a write
 };
@@ -156,7 +157,7 @@ struct FrameGraph::Impl {
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
     std::unique_ptr<FrameTimer> timer;
-    VkCommandPool ownPool = VK_NULL_HANDLE;  // TimingMode::kProcessCpu
+    VkCommandPool ownPool = VK_NULL_HANDLE;              // TimingMode::kProcessCpu
     std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
 
@@ -205,7 +206,9 @@ struct FrameGraph::Impl {
     void finishPass(const Pass& pass);
 
     std::span<Use> usesOf(const Pass& pass) { return {uses.data() + pass.firstUse, pass.useCount}; }
-    std::span<const Use> usesOf(const Pass& pass) const { return {uses.data() + pass.firstUse, pass.useCount}; }
+    std::span<const Use> usesOf(const Pass& pass) const {
+        return {uses.data() + pass.firstUse, pass.useCount};
+    }
     std::span<const RasterDraw> drawsOf(const Pass& pass) const {
         return {draws.data() + pass.firstDraw, pass.drawCount};
     }

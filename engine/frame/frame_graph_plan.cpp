@@ -69,7 +69,8 @@ uint64_t FrameGraph::Impl::passKey(const Pass& pass, bool withPrevious) const {
     key = hashValue(pass.dispatch, key);
     key = combineHash(combineHash(key, pass.indirectOffset), pass.geometry.version);
     if (pass.dataSize > 0) key = hashBytes({data.data() + pass.dataOffset, pass.dataSize}, key);
-    for (const RasterDraw& draw : drawsOf(pass)) key = hashDraw(key, draw);
+    for (const RasterDraw& draw : drawsOf(pass))
+        key = hashDraw(key, draw);
     for (const Use& use : usesOf(pass)) {
         if (writes(use.kind)) key = hashValue(use.clear, combineHash(key, use.mip));
         if (readsOld(use.kind) && use.keyed && (withPrevious || !use.previous))
@@ -78,8 +79,8 @@ uint64_t FrameGraph::Impl::passKey(const Pass& pass, bool withPrevious) const {
     return key;
 }
 
-// Forward over the passes: what each resource will hold after each of them. Without `previous` for the keys by which
-// histories decide whether to step, with it for the versions proper.
+// Forward over the passes: what each resource will hold after each of them. Without `previous` for the keys
+// by which histories decide whether to step, with it for the versions proper.
 void FrameGraph::Impl::walkVersions(bool withPrevious) {
     for (Resource& r : resources) {
         r.version = r.importVersion;
@@ -129,9 +130,12 @@ bool FrameGraph::Impl::available(Resource& r, uint64_t version) {
     if (!options.alias || slots[r.slot].bucket == ~0u) return true;
     // Scratch: gone as soon as any sharer is written in this frame.
     const AliasBucket& bucket = buckets[slots[r.slot].bucket];
-    return std::ranges::none_of(resources, [&](const Resource& other) {
-        return other.clobbered && other.slot != ~0u && slots[other.slot].bucket == slots[r.slot].bucket;
-    }) && (bucket.lastUser == ~0u || bucket.lastUser == r.slot);
+    return std::ranges::none_of(resources,
+                                [&](const Resource& other) {
+                                    return other.clobbered && other.slot != ~0u &&
+                                           slots[other.slot].bucket == slots[r.slot].bucket;
+                                }) &&
+           (bucket.lastUser == ~0u || bucket.lastUser == r.slot);
 }
 
 void FrameGraph::Impl::markWanted() {
@@ -141,7 +145,8 @@ void FrameGraph::Impl::markWanted() {
     }
     for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
         pass->wanted = pass->runs = false;
-        for (const Use& use : usesOf(*pass)) pass->wanted |= writes(use.kind) && resources[use.resource].wanted;
+        for (const Use& use : usesOf(*pass))
+            pass->wanted |= writes(use.kind) && resources[use.resource].wanted;
         if (!pass->wanted) continue;
         for (const Use& use : usesOf(*pass))
             if (writes(use.kind) && !readsOld(use.kind)) resources[use.resource].wanted = false;
@@ -150,11 +155,12 @@ void FrameGraph::Impl::markWanted() {
     }
 }
 
-// One walk backward; true if it found more to run. Running only ever grows, so repeating it ends: a pass that runs
-// overwrites its outputs, which may take away what a later pass counted on.
+// One walk backward; true if it found more to run. Running only ever grows, so repeating it ends: a pass that
+// runs overwrites its outputs, which may take away what a later pass counted on.
 bool FrameGraph::Impl::markRunning() {
     bool changed = false;
-    for (Resource& r : resources) r.needed = r.isOutput;
+    for (Resource& r : resources)
+        r.needed = r.isOutput;
     for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
         bool run = pass->runs || (!options.skip && pass->wanted);
         for (const Use& use : usesOf(*pass)) {

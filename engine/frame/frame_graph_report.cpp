@@ -37,12 +37,17 @@ std::vector<std::string_view> FrameGraph::resourceNames() const {
     return names;
 }
 
-std::span<const PassReport> FrameGraph::report() const { return impl_->report; }
-std::span<const PassRecord> FrameGraph::nullRecords() const { return impl_->records; }
+std::span<const PassReport> FrameGraph::report() const {
+    return impl_->report;
+}
+std::span<const PassRecord> FrameGraph::nullRecords() const {
+    return impl_->records;
+}
 
 uint64_t FrameGraph::transientBytes() const {
     uint64_t bytes = 0;
-    for (const AliasBucket& bucket : impl_->buckets) bytes += bucket.range.sizeBytes;
+    for (const AliasBucket& bucket : impl_->buckets)
+        bytes += bucket.range.sizeBytes;
     for (const Slot& slot : impl_->slots) {
         for (const Memory& half : slot.halves) {
             if (half.buffer) bytes += half.buffer->sizeBytes();

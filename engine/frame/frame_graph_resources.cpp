@@ -8,9 +8,9 @@
 namespace ag {
 namespace {
 
-constexpr uint64_t kFramesKept = 16;      // a resource not declared for so long is given back
+constexpr uint64_t kFramesKept = 16;  // a resource not declared for so long is given back
 constexpr uint32_t kSetsPerPool = 256;
-constexpr size_t kMostSets = 8192;        // then the cache starts anew
+constexpr size_t kMostSets = 8192;  // then the cache starts anew
 
 [[noreturn]] void fatal(const std::string& sentence) {
     spdlog::critical("{}", sentence);
@@ -76,15 +76,16 @@ void FrameGraph::Impl::retireUnused() {
     }
 }
 
-// Scratch images into buckets: first fit by the span of passes that use them, in declaration order, so that the
-// placement is the same every frame however much of it is skipped.
+// Scratch images into buckets: first fit by the span of passes that use them, in declaration order, so that
+// the placement is the same every frame however much of it is skipped.
 void FrameGraph::Impl::placeScratch() {
     const auto scratch = [&](const Resource& r) {
         return r.kind == ResourceKind::kOwned && r.isImage && r.image.lifetime == Lifetime::kScratch &&
                r.firstPass != ~0u && !slots[r.slot].isHistory;
     };
     bool overlap = false;  // uses moved so that sharers would meet
-    for (AliasBucket& bucket : buckets) bucket.busyUntil = 0;
+    for (AliasBucket& bucket : buckets)
+        bucket.busyUntil = 0;
     for (Resource& r : resources) {
         if (!scratch(r)) continue;
         const uint32_t b = slots[r.slot].bucket;
@@ -111,7 +112,8 @@ void FrameGraph::Impl::placeScratch() {
         Slot& slot = slots[r.slot];
         retireMemory(slot);
         uint32_t found = 0;
-        while (found < buckets.size() && (!options.alias || r.firstPass + 1 <= buckets[found].busyUntil)) ++found;
+        while (found < buckets.size() && (!options.alias || r.firstPass + 1 <= buckets[found].busyUntil))
+            ++found;
         if (found == buckets.size()) buckets.emplace_back();
         AliasBucket& bucket = buckets[found];
         bucket.busyUntil = r.lastPass + 1;
@@ -133,7 +135,8 @@ void FrameGraph::Impl::placeScratch() {
 
 void FrameGraph::Impl::createResources() {
     if (!samplers[0])
-        for (size_t i = 0; i < samplers.size(); ++i) samplers[i] = makeSampler(*device, Sampler(i));
+        for (size_t i = 0; i < samplers.size(); ++i)
+            samplers[i] = makeSampler(*device, Sampler(i));
     for (const Resource& r : resources) {
         if (r.slot == ~0u || !slots[r.slot].fresh || r.firstPass == ~0u) continue;
         Slot& slot = slots[r.slot];
@@ -153,7 +156,9 @@ void FrameGraph::Impl::zeroNewHistories(VkCommandBuffer commands) {
     for (Slot& slot : slots) {
         for (Memory& half : slot.halves) {
             if (!std::exchange(half.needsZero, false)) continue;
-            Resource r{.name = slot.name, .isImage = slot.isImage, .slot = uint32_t(&slot - slots.data()),
+            Resource r{.name = slot.name,
+                       .isImage = slot.isImage,
+                       .slot = uint32_t(&slot - slots.data()),
                        .half = uint32_t(&half - slot.halves.data())};
             addBarrier(r, accessOf(UseKind::kTransferWrite), true, nullptr);
             flushBarriers(commands);
@@ -164,7 +169,8 @@ void FrameGraph::Impl::zeroNewHistories(VkCommandBuffer commands) {
             const VkClearColorValue zero{};
             const VkImageSubresourceRange all{half.image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
                                               VK_REMAINING_ARRAY_LAYERS};
-            vkCmdClearColorImage(commands, half.image->handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1, &all);
+            vkCmdClearColorImage(commands, half.image->handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero,
+                                 1, &all);
         }
     }
 }
@@ -182,19 +188,22 @@ const gpu::Buffer& FrameGraph::Impl::bufferOf(const Resource& r) const {
 }
 
 void FrameGraph::Impl::checkBindings(const Pass& pass, const gpu::Pipeline& pipeline) {
-    const std::string where = "pass " + std::string(pass.name) + ", shader " + std::string(pass.shader) + ": ";
+    const std::string where =
+        "pass " + std::string(pass.name) + ", shader " + std::string(pass.shader) + ": ";
     for (const Use& use : usesOf(pass)) {
         if (use.name.empty()) continue;
         const auto b = std::ranges::find(pipeline.bindings, use.name, &gpu::ShaderBinding::name);
         const std::string what = where + std::string(use.name);
         if (b == pipeline.bindings.end()) fatal(what + " is declared but the shader has no such binding");
         const Resource& r = resources[use.resource];
-        if (isBuffer(b->kind) == r.isImage) fatal(what + " is a buffer on one side and an image on the other");
+        if (isBuffer(b->kind) == r.isImage)
+            fatal(what + " is a buffer on one side and an image on the other");
         if (writes(use.kind) && !b->writes) fatal(what + " is declared written but the shader only reads it");
         if (!writes(use.kind) && b->writes) fatal(what + " is declared read but the shader writes it");
-        const bool texel =
-            b->kind == gpu::BindingKind::kUniformTexelBuffer || b->kind == gpu::BindingKind::kStorageTexelBuffer;
-        if (texel && r.buffer.texelFormat == VK_FORMAT_UNDEFINED) fatal(what + " needs a buffer with a texel format");
+        const bool texel = b->kind == gpu::BindingKind::kUniformTexelBuffer ||
+                           b->kind == gpu::BindingKind::kStorageTexelBuffer;
+        if (texel && r.buffer.texelFormat == VK_FORMAT_UNDEFINED)
+            fatal(what + " needs a buffer with a texel format");
     }
     for (const gpu::ShaderBinding& b : pipeline.bindings)
         if (std::ranges::find(usesOf(pass), b.name, &Use::name) == usesOf(pass).end())
@@ -207,11 +216,13 @@ void FrameGraph::Impl::checkBindings(const Pass& pass, const gpu::Pipeline& pipe
 namespace {
 
 VkDescriptorPool makePool(gpu::Device& device) {
-    constexpr std::array kTypes = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                   VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,   VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER,
-                                   VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    constexpr std::array kTypes = {
+        VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+        VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,   VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER,
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     std::array<VkDescriptorPoolSize, kTypes.size()> sizes{};
-    for (size_t i = 0; i < kTypes.size(); ++i) sizes[i] = {kTypes[i], kSetsPerPool * 10};
+    for (size_t i = 0; i < kTypes.size(); ++i)
+        sizes[i] = {kTypes[i], kSetsPerPool * 10};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = kSetsPerPool,
                                           .poolSizeCount = uint32_t(sizes.size()),
@@ -232,7 +243,8 @@ VkDescriptorSet tryAllocate(gpu::Device& device, VkDescriptorPool pool, VkDescri
 
 }  // namespace
 
-// Sets are written once and found again by what they bind (ids are never reused, so a stale one is never found).
+// Sets are written once and found again by what they bind (ids are never reused, so a stale one is never
+// found).
 VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pipeline& pipeline) {
     if (pipeline.bindings.empty()) return VK_NULL_HANDLE;
     constexpr size_t kMostBindings = 24;
@@ -257,7 +269,8 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
         sets.clear();
     }
 
-    VkDescriptorSet set = pools.empty() ? VK_NULL_HANDLE : tryAllocate(*device, pools.back(), pipeline.setLayout);
+    VkDescriptorSet set =
+        pools.empty() ? VK_NULL_HANDLE : tryAllocate(*device, pools.back(), pipeline.setLayout);
     if (!set) {
         pools.push_back(makePool(*device));
         set = tryAllocate(*device, pools.back(), pipeline.setLayout);
@@ -271,13 +284,13 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
         const gpu::ShaderBinding& b = pipeline.bindings[i];
         const Resource& r = resources[bound[i]->resource];
         writes_[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                                .dstSet = set,
-                                                .dstBinding = b.binding,
-                                                .descriptorCount = 1,
-                                                .descriptorType = gpu::descriptorType(b.kind),
-                                                .pImageInfo = &imageInfos[i],
-                                                .pBufferInfo = &bufferInfos[i],
-                                                .pTexelBufferView = &views[i]};
+                      .dstSet = set,
+                      .dstBinding = b.binding,
+                      .descriptorCount = 1,
+                      .descriptorType = gpu::descriptorType(b.kind),
+                      .pImageInfo = &imageInfos[i],
+                      .pBufferInfo = &bufferInfos[i],
+                      .pTexelBufferView = &views[i]};
         if (r.isImage) {
             const gpu::Image& image = imageOf(r);
             const bool sampled = b.kind == gpu::BindingKind::kSampledImage;

@@ -19,7 +19,8 @@ FrameTimer::FrameTimer(gpu::Device& device) : device_(device), periodNs_(device.
 }
 
 FrameTimer::~FrameTimer() {
-    for (Ring& ring : rings_) vkDestroyQueryPool(device_.handle(), ring.pool, nullptr);
+    for (Ring& ring : rings_)
+        vkDestroyQueryPool(device_.handle(), ring.pool, nullptr);
 }
 
 bool FrameTimer::readBack(Ring& ring) {

@@ -1,5 +1,6 @@
-// GPU time of passes by timestamps, read a few frames later without stalling. A full barrier stands on both sides of
-// each timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is taken.
+// GPU time of passes by timestamps, read a few frames later without stalling. A full barrier stands on both
+// sides of each timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is
+// taken.
 #pragma once
 
 #include <volk.h>
@@ -21,8 +22,8 @@ class FrameTimer {
     FrameTimer(const FrameTimer&) = delete;
     FrameTimer& operator=(const FrameTimer&) = delete;
 
-    // Reads the results of the frame that used this slot before: calls back with (tag, ms) for each pass. Its work
-    // must have finished.
+    // Reads the results of the frame that used this slot before: calls back with (tag, ms) for each pass. Its
+    // work must have finished.
     template <class F>
     void beginFrame(VkCommandBuffer commands, F&& result) {
         Ring& ring = rings_[next_];

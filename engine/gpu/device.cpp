@@ -60,8 +60,10 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(const void* next) {
 
 std::filesystem::path cacheFile() {
     if (const char* dir = std::getenv("AFTERGLOW_CACHE_DIR")) return std::filesystem::path(dir) / "pipelines";
-    if (const char* dir = std::getenv("XDG_CACHE_HOME")) return std::filesystem::path(dir) / "afterglow/pipelines";
-    if (const char* home = std::getenv("HOME")) return std::filesystem::path(home) / ".cache/afterglow/pipelines";
+    if (const char* dir = std::getenv("XDG_CACHE_HOME"))
+        return std::filesystem::path(dir) / "afterglow/pipelines";
+    if (const char* home = std::getenv("HOME"))
+        return std::filesystem::path(home) / ".cache/afterglow/pipelines";
     return {};
 }
 
@@ -102,7 +104,8 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
     if (volkInitialize() != VK_SUCCESS) return Error{"no Vulkan loader found (Debian package libvulkan1)"};
     static constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
     if (options.validation && !hasLayer(kLayer))
-        return Error{"validation was asked for, but its layer is missing (Debian package vulkan-validationlayers)"};
+        return Error{
+            "validation was asked for, but its layer is missing (Debian package vulkan-validationlayers)"};
     std::vector<const char*> extensions;
     if (options.window) {
         uint32_t count = 0;
@@ -113,7 +116,8 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
     debugNames = hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (debugNames) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
-    const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeatureEnableEXT synchronization =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT validation{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                              .enabledValidationFeatureCount = 1,
                                              .pEnabledValidationFeatures = &synchronization};
@@ -181,7 +185,8 @@ void Device::Impl::savePipelineCache() const {
     std::error_code ignored;  // a cache that cannot be written is only slower
     std::filesystem::create_directories(path.parent_path(), ignored);
     const std::filesystem::path temporary = path.string() + ".new";
-    if (std::ofstream out(temporary, std::ios::binary); !out.write(data.data(), std::streamsize(size))) return;
+    if (std::ofstream out(temporary, std::ios::binary); !out.write(data.data(), std::streamsize(size)))
+        return;
     std::filesystem::rename(temporary, path, ignored);
 }
 
@@ -212,15 +217,33 @@ Device::~Device() {
     if (d.instance) vkDestroyInstance(d.instance, nullptr);
 }
 
-VkInstance Device::instance() const { return impl_->instance; }
-VkPhysicalDevice Device::physical() const { return impl_->choice.physical; }
-VkDevice Device::handle() const { return impl_->device; }
-VkQueue Device::queue() const { return impl_->queue; }
-uint32_t Device::queueFamily() const { return impl_->choice.queueFamily; }
-VkSurfaceKHR Device::surface() const { return impl_->surface; }
-VkPipelineCache Device::pipelineCache() const { return impl_->pipelineCache; }
-const DeviceInfo& Device::info() const { return impl_->choice.info; }
-MemoryAllocator& Device::memory() { return *impl_->memory; }
+VkInstance Device::instance() const {
+    return impl_->instance;
+}
+VkPhysicalDevice Device::physical() const {
+    return impl_->choice.physical;
+}
+VkDevice Device::handle() const {
+    return impl_->device;
+}
+VkQueue Device::queue() const {
+    return impl_->queue;
+}
+uint32_t Device::queueFamily() const {
+    return impl_->choice.queueFamily;
+}
+VkSurfaceKHR Device::surface() const {
+    return impl_->surface;
+}
+VkPipelineCache Device::pipelineCache() const {
+    return impl_->pipelineCache;
+}
+const DeviceInfo& Device::info() const {
+    return impl_->choice.info;
+}
+MemoryAllocator& Device::memory() {
+    return *impl_->memory;
+}
 
 uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore waitBinary, VkSemaphore signalBinary) {
     const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
@@ -252,7 +275,9 @@ uint64_t Device::completedValue() const {
     return value;
 }
 
-uint64_t Device::submittedValue() const { return impl_->submitted; }
+uint64_t Device::submittedValue() const {
+    return impl_->submitted;
+}
 
 void Device::waitFor(uint64_t timelineValue) {
     const VkSemaphoreWaitInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
@@ -262,7 +287,9 @@ void Device::waitFor(uint64_t timelineValue) {
     AG_VK(vkWaitSemaphores(impl_->device, &info, UINT64_MAX));
 }
 
-void Device::waitIdle() { AG_VK(vkDeviceWaitIdle(impl_->device)); }
+void Device::waitIdle() {
+    AG_VK(vkDeviceWaitIdle(impl_->device));
+}
 
 void Device::retire(std::function<void()> destroy) {
     impl_->retired.push_back({impl_->submitted, std::move(destroy)});
@@ -305,8 +332,12 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
     vkFreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
 }
 
-int Device::validationMessageCount() const { return gValidationMessages - impl_->messagesBefore; }
-int totalValidationMessages() { return gValidationMessages; }
+int Device::validationMessageCount() const {
+    return gValidationMessages - impl_->messagesBefore;
+}
+int totalValidationMessages() {
+    return gValidationMessages;
+}
 
 void Device::setDebugName(VkObjectType type, uint64_t handle, const std::string& name) {
     if (!impl_->debugNames || name.empty()) return;

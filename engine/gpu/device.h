@@ -1,6 +1,7 @@
 // One Vulkan 1.3 device with one queue (graphics, compute, transfer). Loaded through volk.
 // Required features: dynamicRendering, synchronization2, timelineSemaphore, scalarBlockLayout,
-// hostQueryReset, multiDrawIndirect, drawIndirectFirstInstance; subgroup shuffle, ballot and arithmetic in compute. bufferDeviceAddress stays off so that RenderDoc can capture on lavapipe.
+// hostQueryReset, multiDrawIndirect, drawIndirectFirstInstance; subgroup shuffle, ballot and arithmetic in
+// compute. bufferDeviceAddress stays off so that RenderDoc can capture on lavapipe.
 #pragma once
 
 #include <volk.h>
@@ -19,21 +20,21 @@ struct GLFWwindow;
 namespace ag::gpu {
 
 struct DeviceOptions {
-    bool validation = false;      // core and synchronization validation; messages are counted
-    GLFWwindow* window = nullptr; // null: headless, no surface or swapchain extension
-    std::string deviceName;       // part of a device name to prefer; empty: discrete, integrated, then CPU
+    bool validation = false;       // core and synchronization validation; messages are counted
+    GLFWwindow* window = nullptr;  // null: headless, no surface or swapchain extension
+    std::string deviceName;        // part of a device name to prefer; empty: discrete, integrated, then CPU
 };
 
 struct DeviceInfo {
-    std::string name;             // "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string driver;           // driver name and version
+    std::string name;    // "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driver;  // driver name and version
     uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
     float timestampPeriodNs = 0;  // 0: no timestamps
     bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
     VkPhysicalDeviceLimits limits{};
-    std::vector<std::string> enabled;    // feature and extension names switched on
-    std::vector<std::string> missing;    // "name: what is done without it"
+    std::vector<std::string> enabled;  // feature and extension names switched on
+    std::vector<std::string> missing;  // "name: what is done without it"
 };
 
 class Device {

@@ -25,8 +25,10 @@ struct RequiredFeature {
     VkBool32& (*field)(Features&);
 };
 
-#define AG_FEATURE(part, member) \
-    RequiredFeature { #member, [](Features& f) -> VkBool32& { return f.part.member; } }
+#define AG_FEATURE(part, member)                                         \
+    RequiredFeature {                                                    \
+#member, [](Features & f) -> VkBool32& { return f.part.member; } \
+    }
 
 const std::array kRequired = {AG_FEATURE(core.features, multiDrawIndirect),
                               AG_FEATURE(core.features, drawIndirectFirstInstance),
@@ -52,10 +54,12 @@ std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical, VkSurfaceKHR 
 }
 
 DeviceInfo describe(VkPhysicalDevice physical) {
-    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType =
+                                                    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
                                             .pNext = &subgroup};
-    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical, &properties);
     DeviceInfo info;
     info.name = properties.properties.deviceName;
@@ -65,8 +69,8 @@ DeviceInfo describe(VkPhysicalDevice physical) {
     info.limits = properties.properties.limits;
     info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     info.timestampPeriodNs = info.limits.timestampComputeAndGraphics ? info.limits.timestampPeriod : 0;
-    constexpr VkSubgroupFeatureFlags kSubgroup = VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
-                                                 VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    constexpr VkSubgroupFeatureFlags kSubgroup =
+        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
     const bool has = (subgroup.supportedOperations & kSubgroup) == kSubgroup &&
                      (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
     (has ? info.enabled : info.missing).push_back("subgroup shuffle, ballot and arithmetic");
@@ -97,7 +101,8 @@ int score(VkPhysicalDevice physical, const DeviceInfo& info, const std::string& 
 
 }  // namespace
 
-Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName) {
+Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface,
+                                  const std::string& preferredName) {
     uint32_t count = 0;
     vkEnumeratePhysicalDevices(instance, &count, nullptr);
     std::vector<VkPhysicalDevice> devices(count);
@@ -128,7 +133,8 @@ Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, con
 
 Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain) {
     Features features;
-    for (const RequiredFeature& feature : kRequired) feature.field(features) = VK_TRUE;
+    for (const RequiredFeature& feature : kRequired)
+        feature.field(features) = VK_TRUE;
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = choice.queueFamily,

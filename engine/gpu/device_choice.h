@@ -12,7 +12,8 @@ struct DeviceChoice {
 };
 
 // The best device that has everything required; otherwise a sentence saying what each one lacks.
-Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName);
+Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface,
+                                  const std::string& preferredName);
 
 // Device with one queue of the chosen family and the required features.
 Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain);

@@ -10,7 +10,9 @@ namespace {
 
 constexpr uint64_t kBlockBytes = uint64_t(64) << 20;
 
-uint64_t alignUp(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
+uint64_t alignUp(uint64_t value, uint64_t alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
 
 }  // namespace
 
@@ -27,8 +29,9 @@ uint32_t MemoryAllocator::findType(uint32_t allowed, bool hostVisible) const {
     constexpr VkMemoryPropertyFlags kHost =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const VkMemoryPropertyFlags required = hostVisible ? kHost : 0;
-    const VkMemoryPropertyFlags liked = hostVisible ? VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
-                                                    : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    const VkMemoryPropertyFlags liked = hostVisible
+                                            ? VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_HOST_CACHED_BIT)
+                                            : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     for (const VkMemoryPropertyFlags wanted : {liked | required, required})
         for (uint32_t i = 0; i < properties_.memoryTypeCount; ++i)
             if ((allowed >> i & 1) && (properties_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
@@ -55,8 +58,9 @@ bool MemoryAllocator::takeFrom(Block& block, const VkMemoryRequirements& require
 
 uint32_t MemoryAllocator::addBlock(uint64_t sizeBytes, uint32_t type, bool hostVisible, MemoryUse use) {
     Block block{.sizeBytes = sizeBytes, .type = type, .use = use, .gaps = {{0, sizeBytes}}};
-    const VkMemoryAllocateInfo info{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = sizeBytes, .memoryTypeIndex = type};
+    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    .allocationSize = sizeBytes,
+                                    .memoryTypeIndex = type};
     AG_VK(vkAllocateMemory(device_, &info, nullptr, &block.memory));
     if (hostVisible) {
         void* mapped = nullptr;
@@ -72,13 +76,15 @@ uint32_t MemoryAllocator::addBlock(uint64_t sizeBytes, uint32_t type, bool hostV
     return uint32_t(blocks_.size() - 1);
 }
 
-MemoryRange MemoryAllocator::allocate(const VkMemoryRequirements& requirements, bool hostVisible, MemoryUse use) {
+MemoryRange MemoryAllocator::allocate(const VkMemoryRequirements& requirements, bool hostVisible,
+                                      MemoryUse use) {
     const std::lock_guard lock(mutex_);
     const uint32_t type = findType(requirements.memoryTypeBits, hostVisible);
     MemoryRange range;
     liveBytes_ += requirements.size;
     for (Block& block : blocks_) {
-        const bool fits = block.memory && block.type == type && block.use == use && bool(block.mapped) == hostVisible;
+        const bool fits =
+            block.memory && block.type == type && block.use == use && bool(block.mapped) == hostVisible;
         if (fits && takeFrom(block, requirements, range)) return range;
     }
     const uint32_t added = addBlock(std::max(kBlockBytes, requirements.size), type, hostVisible, use);
@@ -112,7 +118,8 @@ uint64_t MemoryAllocator::liveBytes() const {
 
 uint64_t MemoryAllocator::blockCount() const {
     const std::lock_guard lock(mutex_);
-    return uint64_t(std::ranges::count_if(blocks_, [](const Block& b) { return b.memory != VK_NULL_HANDLE; }));
+    return uint64_t(
+        std::ranges::count_if(blocks_, [](const Block& b) { return b.memory != VK_NULL_HANDLE; }));
 }
 
 }  // namespace ag::gpu

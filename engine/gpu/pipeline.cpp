@@ -23,12 +23,15 @@ uint64_t requestHash(const PipelineRequest& r) {
     hash = hashText(r.vertexShader, hash);
     hash = hashText(r.fragmentShader, hash);
     const RasterState& s = r.raster;
-    for (uint64_t field : {uint64_t(s.vertexLayout), uint64_t(s.cull), uint64_t(s.blend), uint64_t(s.depthTest),
-                           uint64_t(s.depthWrite), uint64_t(s.colorCount), uint64_t(s.depthFormat)})
+    for (uint64_t field :
+         {uint64_t(s.vertexLayout), uint64_t(s.cull), uint64_t(s.blend), uint64_t(s.depthTest),
+          uint64_t(s.depthWrite), uint64_t(s.colorCount), uint64_t(s.depthFormat)})
         hash = combineHash(hash, field);
     hash = hashValue(s.depthBiasSlope, hash);
-    for (uint32_t i = 0; i < s.colorCount; ++i) hash = combineHash(hash, uint64_t(s.colorFormats[i]));
-    for (uint32_t i = 0; i < r.specCount; ++i) hash = combineHash(combineHash(hash, r.spec[i].id), r.spec[i].value);
+    for (uint32_t i = 0; i < s.colorCount; ++i)
+        hash = combineHash(hash, uint64_t(s.colorFormats[i]));
+    for (uint32_t i = 0; i < r.specCount; ++i)
+        hash = combineHash(combineHash(hash, r.spec[i].id), r.spec[i].value);
     return hash;
 }
 
@@ -64,12 +67,18 @@ VertexInput vertexInput(VertexLayout layout) {
 
 VkDescriptorType descriptorType(BindingKind kind) {
     switch (kind) {
-        case BindingKind::kUniformBuffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        case BindingKind::kStorageBuffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        case BindingKind::kUniformTexelBuffer: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-        case BindingKind::kStorageTexelBuffer: return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
-        case BindingKind::kSampledImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        case BindingKind::kStorageImage: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        case BindingKind::kUniformBuffer:
+            return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        case BindingKind::kStorageBuffer:
+            return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        case BindingKind::kUniformTexelBuffer:
+            return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+        case BindingKind::kStorageTexelBuffer:
+            return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+        case BindingKind::kSampledImage:
+            return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        case BindingKind::kStorageImage:
+            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
     return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
@@ -130,7 +139,8 @@ void PipelineLibrary::Impl::mergeBindings(Pipeline& pipeline, const Shader& shad
         if (same != pipeline.bindings.end() && (same->binding != b.binding || same->kind != b.kind))
             fatal("shader " + shader.module.path + ": binding " + b.name + " differs between stages");
         if (same == pipeline.bindings.end() && place != pipeline.bindings.end())
-            fatal("shader " + shader.module.path + ": bindings " + b.name + " and " + place->name + " share a number");
+            fatal("shader " + shader.module.path + ": bindings " + b.name + " and " + place->name +
+                  " share a number");
         if (same == pipeline.bindings.end()) {
             pipeline.bindings.push_back(b);
         } else {
@@ -148,9 +158,10 @@ void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash)
         std::vector<VkDescriptorSetLayoutBinding> bindings;
         for (const ShaderBinding& b : pipeline.bindings)
             bindings.push_back({b.binding, descriptorType(b.kind), 1, VK_SHADER_STAGE_ALL, nullptr});
-        const VkDescriptorSetLayoutCreateInfo set{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                  .bindingCount = uint32_t(bindings.size()),
-                                                  .pBindings = bindings.data()};
+        const VkDescriptorSetLayoutCreateInfo set{
+            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+            .bindingCount = uint32_t(bindings.size()),
+            .pBindings = bindings.data()};
         AG_VK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &layout.set));
         const VkPushConstantRange push{pipeline.pushStages, 0, pipeline.pushSizeBytes};
         const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -179,7 +190,8 @@ struct Specialization {
             entries[count] = {id, count * 4, 4};
             values[count++] = value;
         };
-        for (uint32_t i = 0; i < request.specCount; ++i) add(request.spec[i].id, request.spec[i].value);
+        for (uint32_t i = 0; i < request.specCount; ++i)
+            add(request.spec[i].id, request.spec[i].value);
         add(kSpecSubgroupSize, device.subgroupSize);
         add(kSpecLaneParallel, device.isCpu);
         info = {count, entries.data(), count * 4, values.data()};
@@ -209,7 +221,8 @@ void PipelineLibrary::Impl::makeCompute(const PipelineRequest& request, Pipeline
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = stageInfo(compute.handle, compute.module, specialization),
                                            .layout = pipeline.layout};
-    AG_VK(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline.handle));
+    AG_VK(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
+                                   &pipeline.handle));
 }
 
 void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline& pipeline) {
@@ -220,13 +233,15 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
     if (hasFragment) mergeBindings(pipeline, fragment);
     makeLayout(pipeline, combineHash(vertex.hash, hasFragment ? fragment.hash : 0));
     pipeline.bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    pipeline.id = combineHash(combineHash(vertex.hash, hasFragment ? fragment.hash : 0), requestHash(request));
+    pipeline.id =
+        combineHash(combineHash(vertex.hash, hasFragment ? fragment.hash : 0), requestHash(request));
 
     const RasterState& state = request.raster;
     const Specialization vertexConstants(request, vertex.module, device.info());
     const Specialization fragmentConstants(request, fragment.module, device.info());
-    const VkPipelineShaderStageCreateInfo stages[] = {stageInfo(vertex.handle, vertex.module, vertexConstants),
-                                                      stageInfo(fragment.handle, fragment.module, fragmentConstants)};
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        stageInfo(vertex.handle, vertex.module, vertexConstants),
+        stageInfo(fragment.handle, fragment.module, fragmentConstants)};
     const VertexInput in = vertexInput(state.vertexLayout);
     const VkPipelineVertexInputStateCreateInfo vertices{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
@@ -237,13 +252,15 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-                                                     .viewportCount = 1,
-                                                     .scissorCount = 1};
+    const VkPipelineViewportStateCreateInfo viewport{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .scissorCount = 1};
     // Projections turn y over, so glTF's counter-clockwise fronts stay counter-clockwise on screen.
     const VkPipelineRasterizationStateCreateInfo raster{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .cullMode = VkCullModeFlags(state.cull == CullMode::kBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
+        .cullMode =
+            VkCullModeFlags(state.cull == CullMode::kBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
         .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .depthBiasEnable = state.depthBiasSlope != 0,
         .depthBiasSlopeFactor = state.depthBiasSlope,
@@ -264,13 +281,15 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
              .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
              .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
              .colorWriteMask = 0xf};
-    const VkPipelineColorBlendStateCreateInfo blend{.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                                                    .attachmentCount = state.colorCount,
-                                                    .pAttachments = attachments.data()};
+    const VkPipelineColorBlendStateCreateInfo blend{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = state.colorCount,
+        .pAttachments = attachments.data()};
     const VkDynamicState dynamics[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    const VkPipelineDynamicStateCreateInfo dynamic{.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-                                                   .dynamicStateCount = 2,
-                                                   .pDynamicStates = dynamics};
+    const VkPipelineDynamicStateCreateInfo dynamic{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .dynamicStateCount = 2,
+        .pDynamicStates = dynamics};
     const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                   .colorAttachmentCount = state.colorCount,
                                                   .pColorAttachmentFormats = state.colorFormats.data(),
@@ -288,7 +307,8 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
                                             .pColorBlendState = &blend,
                                             .pDynamicState = &dynamic,
                                             .layout = pipeline.layout};
-    AG_VK(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline.handle));
+    AG_VK(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
+                                    &pipeline.handle));
 }
 
 PipelineLibrary::PipelineLibrary(Device& device) : impl_(new Impl{.device = device}) {}
@@ -296,12 +316,14 @@ PipelineLibrary::PipelineLibrary(Device& device) : impl_(new Impl{.device = devi
 PipelineLibrary::~PipelineLibrary() {
     const VkDevice device = impl_->device.handle();
     impl_->device.waitIdle();
-    for (auto& [hash, pipeline] : impl_->pipelines) vkDestroyPipeline(device, pipeline->handle, nullptr);
+    for (auto& [hash, pipeline] : impl_->pipelines)
+        vkDestroyPipeline(device, pipeline->handle, nullptr);
     for (auto& [hash, layout] : impl_->layouts) {
         vkDestroyPipelineLayout(device, layout.pipeline, nullptr);
         vkDestroyDescriptorSetLayout(device, layout.set, nullptr);
     }
-    for (auto& [path, shader] : impl_->shaders) vkDestroyShaderModule(device, shader.handle, nullptr);
+    for (auto& [path, shader] : impl_->shaders)
+        vkDestroyShaderModule(device, shader.handle, nullptr);
 }
 
 const Pipeline& PipelineLibrary::get(const PipelineRequest& request) {
@@ -341,6 +363,8 @@ int PipelineLibrary::reloadChanged(std::vector<std::string>* errors) {
     return changed;
 }
 
-size_t PipelineLibrary::size() const { return impl_->pipelines.size(); }
+size_t PipelineLibrary::size() const {
+    return impl_->pipelines.size();
+}
 
 }  // namespace ag::gpu

@@ -1,4 +1,5 @@
-// Pipelines made from shaders on first request and kept: one per (shaders, specialisation, target formats, state).
+// Pipelines made from shaders on first request and kept: one per (shaders, specialisation, target formats,
+// state).
 #pragma once
 
 #include <volk.h>
@@ -25,33 +26,33 @@ constexpr size_t kMaxSpecConstants = 8;
 constexpr size_t kMaxColorTargets = 4;
 
 // Ids every shader may declare; filled in from the device.
-constexpr uint32_t kSpecSubgroupSize = 100;   // uint: lanes of a subgroup
-constexpr uint32_t kSpecLaneParallel = 101;   // bool: load one light a lane and shuffle (CPU devices)
+constexpr uint32_t kSpecSubgroupSize = 100;  // uint: lanes of a subgroup
+constexpr uint32_t kSpecLaneParallel = 101;  // bool: load one light a lane and shuffle (CPU devices)
 
 enum class CullMode : uint32_t { kNone, kBack };
 enum class BlendMode : uint32_t { kNone, kAlpha };
 enum class VertexLayout : uint32_t {
-    kNone,           // full-screen triangle, vertices from gl_VertexIndex
-    kPositions,      // binding 0: vec3 position
+    kNone,                    // full-screen triangle, vertices from gl_VertexIndex
+    kPositions,               // binding 0: vec3 position
     kPositionsAndAttributes,  // + binding 1: vec3 normal, vec4 tangent, vec2 uv (36 bytes)
-    kImGui,          // binding 0: vec2 position, vec2 uv, unorm8x4 colour (20 bytes)
+    kImGui,                   // binding 0: vec2 position, vec2 uv, unorm8x4 colour (20 bytes)
 };
 
 struct RasterState {
     VertexLayout vertexLayout = VertexLayout::kNone;
     CullMode cull = CullMode::kNone;
     BlendMode blend = BlendMode::kNone;
-    bool depthTest = false;   // reversed depth: nearer is greater
+    bool depthTest = false;  // reversed depth: nearer is greater
     bool depthWrite = false;
-    float depthBiasSlope = 0; // for shadow maps; reversed depth, so negative pushes away
+    float depthBiasSlope = 0;  // for shadow maps; reversed depth, so negative pushes away
     std::array<VkFormat, kMaxColorTargets> colorFormats{};
     uint32_t colorCount = 0;
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
 };
 
 struct PipelineRequest {
-    std::string_view computeShader;   // either this,
-    std::string_view vertexShader;    // or these two (fragment may be empty: depth only)
+    std::string_view computeShader;  // either this,
+    std::string_view vertexShader;   // or these two (fragment may be empty: depth only)
     std::string_view fragmentShader;
     RasterState raster;
     std::array<SpecConstant, kMaxSpecConstants> spec{};

@@ -39,7 +39,8 @@ BindingKind kindOf(spvc_compiler compiler, const spvc_reflected_resource& r, Bin
     const bool image = listed == BindingKind::kSampledImage || listed == BindingKind::kStorageImage ||
                        listed == BindingKind::kUniformTexelBuffer;
     if (!image || spvc_type_get_image_dimension(type) != SpvDimBuffer) return listed;
-    return listed == BindingKind::kStorageImage ? BindingKind::kStorageTexelBuffer : BindingKind::kUniformTexelBuffer;
+    return listed == BindingKind::kStorageImage ? BindingKind::kStorageTexelBuffer
+                                                : BindingKind::kUniformTexelBuffer;
 }
 
 void addBindings(spvc_compiler compiler, spvc_resources resources, const KindRow& row, ShaderModule& module) {
@@ -49,7 +50,8 @@ void addBindings(spvc_compiler compiler, spvc_resources resources, const KindRow
     for (size_t i = 0; i < count; ++i) {
         const spvc_reflected_resource& r = list[i];
         ShaderBinding binding;
-        const char* instance = spvc_compiler_get_name(compiler, r.id);  // of the variable; r.name is the block's
+        const char* instance =
+            spvc_compiler_get_name(compiler, r.id);  // of the variable; r.name is the block's
         binding.name = instance && *instance ? instance : r.name;
         binding.kind = kindOf(compiler, r, row.kind);
         binding.set = spvc_compiler_get_decoration(compiler, r.id, SpvDecorationDescriptorSet);
@@ -80,10 +82,12 @@ void addStructs(spvc_compiler compiler, spvc_type_id id, ShaderModule& module) {
         s.members.push_back({spvc_compiler_get_member_name(compiler, base, i), offset, uint32_t(size)});
     }
     module.structs.push_back(std::move(s));
-    for (unsigned i = 0; i < members; ++i) addStructs(compiler, spvc_type_get_member_type(type, i), module);
+    for (unsigned i = 0; i < members; ++i)
+        addStructs(compiler, spvc_type_get_member_type(type, i), module);
 }
 
-void addBlocks(spvc_compiler compiler, spvc_resources resources, spvc_resource_type kind, ShaderModule& module) {
+void addBlocks(spvc_compiler compiler, spvc_resources resources, spvc_resource_type kind,
+               ShaderModule& module) {
     const spvc_reflected_resource* list = nullptr;
     size_t count = 0;
     spvc_resources_get_resource_list_for_type(resources, kind, &list, &count);
@@ -99,9 +103,12 @@ void addBlocks(spvc_compiler compiler, spvc_resources resources, spvc_resource_t
 
 VkShaderStageFlagBits stageOf(spvc_compiler compiler) {
     switch (spvc_compiler_get_execution_model(compiler)) {
-        case SpvExecutionModelVertex: return VK_SHADER_STAGE_VERTEX_BIT;
-        case SpvExecutionModelFragment: return VK_SHADER_STAGE_FRAGMENT_BIT;
-        default: return VK_SHADER_STAGE_COMPUTE_BIT;
+        case SpvExecutionModelVertex:
+            return VK_SHADER_STAGE_VERTEX_BIT;
+        case SpvExecutionModelFragment:
+            return VK_SHADER_STAGE_FRAGMENT_BIT;
+        default:
+            return VK_SHADER_STAGE_COMPUTE_BIT;
     }
 }
 
@@ -111,18 +118,21 @@ Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS) return Error{"SPIRV-Cross cannot start"};
     const Context context(raw);
-    const auto fail = [&] { return Error{"shader " + path + ": " + spvc_context_get_last_error_string(raw)}; };
+    const auto fail = [&] {
+        return Error{"shader " + path + ": " + spvc_context_get_last_error_string(raw)};
+    };
     spvc_parsed_ir ir = nullptr;
     spvc_compiler compiler = nullptr;
     spvc_resources resources = nullptr;
     if (spvc_context_parse_spirv(raw, spirv.data(), spirv.size(), &ir) != SPVC_SUCCESS) return fail();
-    if (spvc_context_create_compiler(raw, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler) !=
-        SPVC_SUCCESS)
+    if (spvc_context_create_compiler(raw, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
+                                     &compiler) != SPVC_SUCCESS)
         return fail();
     if (spvc_compiler_create_shader_resources(compiler, &resources) != SPVC_SUCCESS) return fail();
 
     ShaderModule module{.path = std::move(path), .stage = stageOf(compiler), .spirv = std::move(spirv)};
-    for (const KindRow& row : kKinds) addBindings(compiler, resources, row, module);
+    for (const KindRow& row : kKinds)
+        addBindings(compiler, resources, row, module);
     addBlocks(compiler, resources, SPVC_RESOURCE_TYPE_STORAGE_BUFFER, module);
     addBlocks(compiler, resources, SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, module);
     addBlocks(compiler, resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT, module);
@@ -133,7 +143,8 @@ Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv
     const spvc_specialization_constant* constants = nullptr;
     size_t count = 0;
     spvc_compiler_get_specialization_constants(compiler, &constants, &count);
-    for (size_t i = 0; i < count; ++i) module.specConstantIds.push_back(constants[i].constant_id);
+    for (size_t i = 0; i < count; ++i)
+        module.specConstantIds.push_back(constants[i].constant_id);
     return module;
 }
 

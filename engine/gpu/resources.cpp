@@ -58,7 +58,8 @@ VkImageView makeView(Device& device, const Image& image, uint32_t firstMip, uint
 }  // namespace
 
 bool isDepthFormat(VkFormat format) {
-    return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_D24_UNORM_S8_UINT;
+    return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM ||
+           format == VK_FORMAT_D24_UNORM_S8_UINT;
 }
 
 Buffer::Buffer(Device& device, const BufferDesc& desc) : device_(device), desc_(desc), id_(nextId()) {
@@ -87,7 +88,8 @@ Buffer::~Buffer() {
     device_.memory().free(memory_);
 }
 
-Image::Image(Device& device, const ImageDesc& desc, const MemoryRange* memory) : device_(device), desc_(desc), id_(nextId()) {
+Image::Image(Device& device, const ImageDesc& desc, const MemoryRange* memory)
+    : device_(device), desc_(desc), id_(nextId()) {
     AG_CHECK_MSG(desc.size.x > 0 && desc.size.y > 0, desc.name);
     handle_ = makeImage(device, desc);
     MemoryRange place;
@@ -102,11 +104,13 @@ Image::Image(Device& device, const ImageDesc& desc, const MemoryRange* memory) :
     device.setDebugName(VK_OBJECT_TYPE_IMAGE, uint64_t(handle_), desc.name);
     view_ = makeView(device, *this, 0, desc.mips);
     mipViews_ = std::make_unique<VkImageView[]>(desc.mips);
-    for (uint32_t mip = 0; mip < desc.mips; ++mip) mipViews_[mip] = makeView(device, *this, mip, 1);
+    for (uint32_t mip = 0; mip < desc.mips; ++mip)
+        mipViews_[mip] = makeView(device, *this, mip, 1);
 }
 
 Image::~Image() {
-    for (uint32_t mip = 0; mip < desc_.mips; ++mip) vkDestroyImageView(device_.handle(), mipViews_[mip], nullptr);
+    for (uint32_t mip = 0; mip < desc_.mips; ++mip)
+        vkDestroyImageView(device_.handle(), mipViews_[mip], nullptr);
     vkDestroyImageView(device_.handle(), view_, nullptr);
     vkDestroyImage(device_.handle(), handle_, nullptr);
     if (memory_) device_.memory().free(memory_);

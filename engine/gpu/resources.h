@@ -1,5 +1,5 @@
-// Buffers and images with their memory. Plain owners: destroying one frees it at once, so the caller makes sure
-// the device no longer uses it (FrameGraph retires its own through Device::retire).
+// Buffers and images with their memory. Plain owners: destroying one frees it at once, so the caller makes
+// sure the device no longer uses it (FrameGraph retires its own through Device::retire).
 #pragma once
 
 #include <volk.h>
@@ -21,9 +21,9 @@ class Device;
 struct BufferDesc {
     std::string name;
     uint64_t sizeBytes = 0;
-    bool hostVisible = false;     // mapped for the CPU: staging, readback, per-frame uploads
-    bool indirect = false;        // may feed draw or dispatch indirect
-    bool vertexOrIndex = false;   // may be bound as vertex or index buffer
+    bool hostVisible = false;                    // mapped for the CPU: staging, readback, per-frame uploads
+    bool indirect = false;                       // may feed draw or dispatch indirect
+    bool vertexOrIndex = false;                  // may be bound as vertex or index buffer
     VkFormat texelFormat = VK_FORMAT_UNDEFINED;  // with a format: also readable as a texel buffer
 };
 
@@ -98,7 +98,8 @@ void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> byt
 void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> bytes, uint64_t offset = 0);
 // Texels of mip 0 of one layer, tightly packed rows; fills the remaining mips by blits when `makeMips`.
 // Leaves the image in SHADER_READ_ONLY_OPTIMAL.
-void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels, bool makeMips);
+void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels,
+                 bool makeMips);
 // `layout`: the layout the image is in, and is left in.
 void downloadImage(Device& device, const Image& image, VkImageLayout layout, std::span<std::byte> texels);
 uint32_t texelSizeBytes(VkFormat format);

@@ -55,9 +55,12 @@ Swapchain::~Swapchain() {
 }
 
 void Swapchain::destroyImages() {
-    for (VkSemaphore s : rendered_) vkDestroySemaphore(device_.handle(), s, nullptr);
-    for (VkSemaphore s : acquired_) vkDestroySemaphore(device_.handle(), s, nullptr);
-    for (VkImageView v : views_) vkDestroyImageView(device_.handle(), v, nullptr);
+    for (VkSemaphore s : rendered_)
+        vkDestroySemaphore(device_.handle(), s, nullptr);
+    for (VkSemaphore s : acquired_)
+        vkDestroySemaphore(device_.handle(), s, nullptr);
+    for (VkImageView v : views_)
+        vkDestroyImageView(device_.handle(), v, nullptr);
     views_.clear();
     rendered_.clear();
     acquired_.clear();
@@ -79,20 +82,20 @@ void Swapchain::create(glm::uvec2 wanted) {
     device_.waitIdle();
     destroyImages();
     const uint32_t most = caps.maxImageCount ? caps.maxImageCount : UINT32_MAX;
-    const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
-                                        .surface = device_.surface(),
-                                        .minImageCount = std::min(std::max(caps.minImageCount, 3u), most),
-                                        .imageFormat = format_,
-                                        .imageColorSpace = colorSpace_,
-                                        .imageExtent = extent,
-                                        .imageArrayLayers = 1,
-                                        .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                                                      VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                                        .preTransform = caps.currentTransform,
-                                        .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
-                                        .presentMode = presentMode_,
-                                        .clipped = VK_TRUE,
-                                        .oldSwapchain = handle_};
+    const VkSwapchainCreateInfoKHR info{
+        .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
+        .surface = device_.surface(),
+        .minImageCount = std::min(std::max(caps.minImageCount, 3u), most),
+        .imageFormat = format_,
+        .imageColorSpace = colorSpace_,
+        .imageExtent = extent,
+        .imageArrayLayers = 1,
+        .imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .preTransform = caps.currentTransform,
+        .compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
+        .presentMode = presentMode_,
+        .clipped = VK_TRUE,
+        .oldSwapchain = handle_};
     VkSwapchainKHR fresh = VK_NULL_HANDLE;
     AG_VK(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh));
     vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
@@ -101,9 +104,12 @@ void Swapchain::create(glm::uvec2 wanted) {
     vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr);
     images_.resize(count);
     vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data());
-    for (VkImage image : images_) views_.push_back(makeView(device_, image, format_));
-    for (uint32_t i = 0; i < count; ++i) rendered_.push_back(makeSemaphore(device_));
-    for (uint32_t i = 0; i <= count; ++i) acquired_.push_back(makeSemaphore(device_));
+    for (VkImage image : images_)
+        views_.push_back(makeView(device_, image, format_));
+    for (uint32_t i = 0; i < count; ++i)
+        rendered_.push_back(makeSemaphore(device_));
+    for (uint32_t i = 0; i <= count; ++i)
+        acquired_.push_back(makeSemaphore(device_));
     nextAcquire_ = 0;
 }
 

@@ -45,11 +45,11 @@ class Swapchain {
     VkPresentModeKHR presentMode_ = VK_PRESENT_MODE_FIFO_KHR;
     glm::uvec2 size_{0};
     glm::uvec2 requested_{0};  // the window's size when the images were made
-    bool stale_ = false;  // the surface said it no longer fits
+    bool stale_ = false;       // the surface said it no longer fits
     std::vector<VkImage> images_;
     std::vector<VkImageView> views_;
-    std::vector<VkSemaphore> rendered_;   // one an image: free again when the image is acquired again
-    std::vector<VkSemaphore> acquired_;   // one more than images, in turn
+    std::vector<VkSemaphore> rendered_;  // one an image: free again when the image is acquired again
+    std::vector<VkSemaphore> acquired_;  // one more than images, in turn
     size_t nextAcquire_ = 0;
 };
 

@@ -78,17 +78,19 @@ void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> b
     std::memcpy(bytes.data(), staging.mapped(), bytes.size());
 }
 
-void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels, bool makeMips) {
+void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels,
+                 bool makeMips) {
     const ImageDesc& desc = image.desc();
     AG_CHECK_EQ(texels.size(), size_t(desc.size.x) * desc.size.y * texelSizeBytes(desc.format));
     Buffer staging(device, {.name = "transfer.upload", .sizeBytes = texels.size(), .hostVisible = true});
     std::memcpy(staging.mapped(), texels.data(), texels.size());
     device.runOnce([&](VkCommandBuffer commands) {
-        barrier(commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        barrier(commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_UNDEFINED,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, layer, 1},
                                        .imageExtent = {desc.size.x, desc.size.y, 1}};
-        vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                               &region);
+        vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(),
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
         if (makeMips)
             blitMips(commands, image, layer);
         else
@@ -105,8 +107,8 @@ void downloadImage(Device& device, const Image& image, VkImageLayout layout, std
         barrier(commands, image, 0, 0, 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, 0, 1},
                                        .imageExtent = {desc.size.x, desc.size.y, 1}};
-        vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, staging.handle(), 1,
-                               &region);
+        vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                               staging.handle(), 1, &region);
         barrier(commands, image, 0, 0, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
     });
     std::memcpy(texels.data(), staging.mapped(), texels.size());
@@ -114,17 +116,23 @@ void downloadImage(Device& device, const Image& image, VkImageLayout layout, std
 
 uint32_t texelSizeBytes(VkFormat format) {
     switch (format) {
-        case VK_FORMAT_R8_UNORM: return 1;
-        case VK_FORMAT_R16_SFLOAT: return 2;
+        case VK_FORMAT_R8_UNORM:
+            return 1;
+        case VK_FORMAT_R16_SFLOAT:
+            return 2;
         case VK_FORMAT_R8G8B8A8_UNORM:
         case VK_FORMAT_R8G8B8A8_SRGB:
         case VK_FORMAT_B8G8R8A8_UNORM:
         case VK_FORMAT_R32_SFLOAT:
         case VK_FORMAT_R32_UINT:
-        case VK_FORMAT_D32_SFLOAT: return 4;
-        case VK_FORMAT_R16G16B16A16_SFLOAT: return 8;
-        case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
-        default: AG_CHECK_MSG(false, "a format without a row in texelSizeBytes");
+        case VK_FORMAT_D32_SFLOAT:
+            return 4;
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+            return 8;
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            return 16;
+        default:
+            AG_CHECK_MSG(false, "a format without a row in texelSizeBytes");
     }
     return 0;
 }

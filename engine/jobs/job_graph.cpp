@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <thread>
 
 #include "engine/core/check.h"
@@ -32,14 +33,16 @@ void JobGraph::edge(uint32_t before, uint32_t after) {
 
 bool JobGraph::reaches(uint32_t before, uint32_t after) const {
     if (before == after) return true;
-    return std::ranges::any_of(nodes[before].next, [&](uint32_t n) { return n <= after && reaches(n, after); });
+    return std::ranges::any_of(nodes[before].next,
+                               [&](uint32_t n) { return n <= after && reaches(n, after); });
 }
 
 std::string JobGraph::graphviz() const {
     std::string out = "digraph jobs {\n  rankdir=LR;\n  node [shape=box, fontname=sans];\n";
     for (size_t i = 0; i < nodes.size(); ++i) {
         out += fmt::format("  n{} [label=\"{}\"];\n", i, nodes[i].name);
-        for (uint32_t next : nodes[i].next) out += fmt::format("  n{} -> n{};\n", i, next);
+        for (uint32_t next : nodes[i].next)
+            out += fmt::format("  n{} -> n{};\n", i, next);
     }
     return out + "}\n";
 }
@@ -49,8 +52,12 @@ struct JobRunner::Impl {
 #ifdef AFTERGLOW_JOBS_STD_THREAD
     explicit Impl(uint32_t threads) : pool(threads) {}
     ThreadPool pool;
-    void spawn(std::function<void()> task) { pool.spawn(std::move(task)); }
-    void wait() { pool.wait(); }
+    void spawn(std::function<void()> task) {
+        pool.spawn(std::move(task));
+    }
+    void wait() {
+        pool.wait();
+    }
 #else
     explicit Impl(uint32_t threads) : arena(int(threads)) {}
     tbb::task_arena arena;
@@ -59,13 +66,15 @@ struct JobRunner::Impl {
     void spawn(F&& task) {
         group.run(std::forward<F>(task));
     }
-    void wait() { group.wait(); }
+    void wait() {
+        group.wait();
+    }
 #endif
-    void finish(const JobGraph& graph, uint32_t node, const std::function<void(uint32_t)>& run);
+    void finish(const JobGraph& graph, uint32_t node, FunctionRef<void(uint32_t)> run);
 };
 
 // Runs a node and then, itself, the first of those it makes ready; others become tasks.
-void JobRunner::Impl::finish(const JobGraph& graph, uint32_t node, const std::function<void(uint32_t)>& run) {
+void JobRunner::Impl::finish(const JobGraph& graph, uint32_t node, FunctionRef<void(uint32_t)> run) {
     constexpr uint32_t kNone = ~0u;
     while (node != kNone) {
         run(node);
@@ -75,7 +84,7 @@ void JobRunner::Impl::finish(const JobGraph& graph, uint32_t node, const std::fu
             if (mine == kNone)
                 mine = next;
             else
-                spawn([this, &graph, next, &run] { finish(graph, next, run); });
+                spawn([this, &graph, next, run] { finish(graph, next, run); });
         }
         node = mine;
     }
@@ -86,17 +95,20 @@ JobRunner::JobRunner(uint32_t threads)
       impl_(std::make_unique<Impl>(threads_)) {}
 JobRunner::~JobRunner() = default;
 
-void JobRunner::run(const JobGraph& graph, const std::function<void(uint32_t)>& run) {
+void JobRunner::run(const JobGraph& graph, FunctionRef<void(uint32_t)> run) {
     const auto count = uint32_t(graph.nodes.size());
     if (threads_ == 1) {
-        for (uint32_t i = 0; i < count; ++i) run(i);
+        for (uint32_t i = 0; i < count; ++i)
+            run(i);
         return;
     }
     if (impl_->waiting.size() < count) impl_->waiting = std::vector<std::atomic<uint32_t>>(count);
-    for (uint32_t i = 0; i < count; ++i) impl_->waiting[i].store(graph.nodes[i].waitsFor, std::memory_order_relaxed);
+    for (uint32_t i = 0; i < count; ++i)
+        impl_->waiting[i].store(graph.nodes[i].waitsFor, std::memory_order_relaxed);
     const auto start = [&] {
         for (uint32_t i = 0; i < count; ++i)
-            if (graph.nodes[i].waitsFor == 0) impl_->spawn([this, &graph, i, &run] { impl_->finish(graph, i, run); });
+            if (graph.nodes[i].waitsFor == 0)
+                impl_->spawn([this, &graph, i, run] { impl_->finish(graph, i, run); });
         impl_->wait();
     };
 #ifdef AFTERGLOW_JOBS_STD_THREAD
@@ -106,19 +118,22 @@ void JobRunner::run(const JobGraph& graph, const std::function<void(uint32_t)>& 
 #endif
 }
 
-void JobRunner::parallelFor(uint32_t count, uint32_t grain, const std::function<void(uint32_t, uint32_t)>& body) {
+void JobRunner::parallelFor(uint32_t count, uint32_t grain, FunctionRef<void(uint32_t, uint32_t)> body) {
     grain = std::max(grain, 1u);
     const uint32_t pieces = (count + grain - 1) / grain;
     const auto piece = [&](uint32_t i) { body(i * grain, std::min(count, (i + 1) * grain)); };
     if (threads_ == 1 || pieces <= 1) {
-        for (uint32_t i = 0; i < pieces; ++i) piece(i);
+        for (uint32_t i = 0; i < pieces; ++i)
+            piece(i);
         return;
     }
 #ifdef AFTERGLOW_JOBS_STD_THREAD
     impl_->pool.forEach(pieces, piece);
 #else
-    impl_->arena.execute(
-        [&] { tbb::parallel_for(0u, pieces, [&](uint32_t i) { piece(i); }, tbb::simple_partitioner{}); });
+    impl_->arena.execute([&] {
+        tbb::parallel_for(
+            0u, pieces, [&](uint32_t i) { piece(i); }, tbb::simple_partitioner{});
+    });
 #endif
 }
 

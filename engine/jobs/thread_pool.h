@@ -24,7 +24,8 @@ class ThreadPool {
             closing_ = true;
         }
         wake_.notify_all();
-        for (std::thread& worker : workers_) worker.join();
+        for (std::thread& worker : workers_)
+            worker.join();
     }
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;

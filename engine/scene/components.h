@@ -9,14 +9,14 @@
 
 namespace ag {
 
-struct LocalTransform {  // relative to the parent
-    glm::dvec3 translation{0};        // m
+struct LocalTransform {         // relative to the parent
+    glm::dvec3 translation{0};  // m
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1};
-    uint32_t node = ~0u;              // of the asset it came from
+    uint32_t node = ~0u;  // of the asset it came from
 };
 
-struct WorldTransform {  // derived by the transform systems
+struct WorldTransform {         // derived by the transform systems
     glm::dvec3 translation{0};  // m
     glm::mat3 linear{1};        // rotation and scale
     float handedness = 1;       // -1 where a mirrored scale turns triangles over
@@ -35,10 +35,10 @@ struct MeshInstance {
     uint32_t firstPrimitive = 0, primitiveCount = 0;
 };
 
-struct PunctualLight {  // shines along -Z
-    glm::vec3 intensity{1};              // W/sr; directional: W/m²
-    float range = 0;                     // m, 0: none
-    float innerConeAngle = 0;            // radians
+struct PunctualLight {         // shines along -Z
+    glm::vec3 intensity{1};    // W/sr; directional: W/m²
+    float range = 0;           // m, 0: none
+    float innerConeAngle = 0;  // radians
     float outerConeAngle = 0.785398f;
     LightKind kind = LightKind::kPoint;
     uint32_t castsShadow = 1;

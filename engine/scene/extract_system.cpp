@@ -35,7 +35,8 @@ void refreshBounds(RenderScene& scene) {
     for (const RenderInstance& instance : scene.instances) {
         const Bounds& local = scene.geometry->primitives[instance.primitive].boundsLocal;
         const glm::mat4x3& m = instance.worldFromLocal;
-        const glm::vec3 c = m * glm::vec4((local.min + local.max) * 0.5f, 1.0f), h = (local.max - local.min) * 0.5f;
+        const glm::vec3 c = m * glm::vec4((local.min + local.max) * 0.5f, 1.0f),
+                        h = (local.max - local.min) * 0.5f;
         const glm::vec3 e = glm::abs(m[0]) * h.x + glm::abs(m[1]) * h.y + glm::abs(m[2]) * h.z;
         scene.bounds.add({c - e, c + e});
     }
@@ -45,7 +46,8 @@ void refreshBounds(RenderScene& scene) {
 void extractInstances(InstanceView& instances, ExtractState& state, RenderScene& scene, bool all) {
     state.seen.clear();
     instances.each([&](Entity entity, const WorldTransform&, const MeshInstance& mesh) {
-        for (uint32_t p = 0; p < mesh.primitiveCount; ++p) state.seen.push_back(entity);
+        for (uint32_t p = 0; p < mesh.primitiveCount; ++p)
+            state.seen.push_back(entity);
     });
     const bool same = !all && state.seen == state.rows;
     if (!same) {

@@ -1,5 +1,6 @@
-// World to RenderScene: the one place where entities become what the renderer sees. Versions move only when contents
-// do. The render origin follows the camera in steps of 1,024 m, so that single precision is always near.
+// World to RenderScene: the one place where entities become what the renderer sees. Versions move only when
+// contents do. The render origin follows the camera in steps of 1,024 m, so that single precision is always
+// near.
 #pragma once
 
 #include "engine/ecs/view.h"
@@ -13,11 +14,11 @@ struct ActiveCamera {  // resource: what the player looks through
     glm::uvec2 size{640, 360};  // pixels
 };
 
-struct ExtractState {  // resource: which entity each row stands for
-    std::vector<Entity> rows;        // entity of each instance row
-    std::vector<Entity> seen;        // scratch
-    uint32_t entityCount = 0;        // instances at the last look
-    bool placed = false;             // the origin was chosen
+struct ExtractState {          // resource: which entity each row stands for
+    std::vector<Entity> rows;  // entity of each instance row
+    std::vector<Entity> seen;  // scratch
+    uint32_t entityCount = 0;  // instances at the last look
+    bool placed = false;       // the origin was chosen
 };
 
 using InstanceView = View<const WorldTransform, const MeshInstance>;

@@ -32,9 +32,12 @@ double component(const unsigned char* at, int type, bool normalized) {
             const double v = loadAs<uint16_t>(at);
             return normalized ? v / 65535.0 : v;
         }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return loadAs<uint32_t>(at);
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return double(loadAs<float>(at));
-        default: return 0;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return loadAs<uint32_t>(at);
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return double(loadAs<float>(at));
+        default:
+            return 0;
     }
 }
 
@@ -44,7 +47,8 @@ const unsigned char* viewData(const tinygltf::Model& model, int view, size_t off
 }
 
 template <class T>
-void readElements(const tinygltf::Accessor& a, const unsigned char* at, size_t stride, int components, T* out) {
+void readElements(const tinygltf::Accessor& a, const unsigned char* at, size_t stride, int components,
+                  T* out) {
     const int given = tinygltf::GetNumComponentsInType(uint32_t(a.type));
     const int size = tinygltf::GetComponentSizeInBytes(uint32_t(a.componentType));
     for (size_t i = 0; i < a.count; ++i)
@@ -61,18 +65,22 @@ std::vector<T> readAll(const tinygltf::Model& model, int index, int components) 
     const size_t element = size_t(given * tinygltf::GetComponentSizeInBytes(uint32_t(a.componentType)));
     if (a.bufferView >= 0) {
         const size_t stride = model.bufferViews[size_t(a.bufferView)].byteStride;
-        readElements(a, viewData(model, a.bufferView, a.byteOffset), stride ? stride : element, components, out.data());
+        readElements(a, viewData(model, a.bufferView, a.byteOffset), stride ? stride : element, components,
+                     out.data());
     }
     if (!a.sparse.isSparse) return out;
     const int indexType = a.sparse.indices.componentType;
     const size_t indexSize = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(indexType)));
-    const unsigned char* indices = viewData(model, a.sparse.indices.bufferView, size_t(a.sparse.indices.byteOffset));
-    const unsigned char* values = viewData(model, a.sparse.values.bufferView, size_t(a.sparse.values.byteOffset));
+    const unsigned char* indices =
+        viewData(model, a.sparse.indices.bufferView, size_t(a.sparse.indices.byteOffset));
+    const unsigned char* values =
+        viewData(model, a.sparse.values.bufferView, size_t(a.sparse.values.byteOffset));
     tinygltf::Accessor one = a;
     one.count = 1;
     for (size_t i = 0; i < size_t(a.sparse.count); ++i) {
         const auto row = size_t(component(indices + i * indexSize, indexType, false));
-        if (row < a.count) readElements(one, values + i * element, element, components, &out[row * size_t(components)]);
+        if (row < a.count)
+            readElements(one, values + i * element, element, components, &out[row * size_t(components)]);
     }
     return out;
 }

@@ -9,12 +9,15 @@
 namespace ag {
 namespace {
 
-tinygltf::Value number(double v) { return tinygltf::Value(v); }
+tinygltf::Value number(double v) {
+    return tinygltf::Value(v);
+}
 
 template <class V>
 std::vector<double> doubles(const V& v) {
     std::vector<double> out;
-    for (int i = 0; i < V::length(); ++i) out.push_back(double(v[i]));
+    for (int i = 0; i < V::length(); ++i)
+        out.push_back(double(v[i]));
     return out;
 }
 
@@ -51,8 +54,10 @@ int addAccessor(tinygltf::Model& model, const std::vector<T>& items, int compone
 
 tinygltf::Primitive primitiveOf(tinygltf::Model& model, const GeometryArrays& g, const Primitive& p) {
     uint32_t vertices = 0;
-    std::vector<uint32_t> indices(g.indices.begin() + p.firstIndex, g.indices.begin() + p.firstIndex + p.indexCount);
-    for (uint32_t i : indices) vertices = std::max(vertices, i + 1);
+    std::vector<uint32_t> indices(g.indices.begin() + p.firstIndex,
+                                  g.indices.begin() + p.firstIndex + p.indexCount);
+    for (uint32_t i : indices)
+        vertices = std::max(vertices, i + 1);
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> uvs;
@@ -104,7 +109,8 @@ tinygltf::Node nodeOf(const SceneNode& n) {
                     double(n.local.rotation.w)};
     out.scale = doubles(n.local.scale);
     if (n.light >= 0)
-        out.extensions["KHR_lights_punctual"] = tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(n.light)}});
+        out.extensions["KHR_lights_punctual"] =
+            tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(n.light)}});
     const NodeExtras& e = n.extras;
     tinygltf::Value::Object extras;
     if (e.collider) extras["collider"] = tinygltf::Value(true);
@@ -112,7 +118,8 @@ tinygltf::Node nodeOf(const SceneNode& n) {
     if (e.spinSpeed != 0) extras["spinSpeed"] = number(double(e.spinSpeed));
     if (e.moveExtent != glm::vec3(0)) {
         tinygltf::Value::Array extent;
-        for (int i = 0; i < 3; ++i) extent.push_back(number(double(e.moveExtent[i])));
+        for (int i = 0; i < 3; ++i)
+            extent.push_back(number(double(e.moveExtent[i])));
         extras["moveExtent"] = tinygltf::Value(extent);
     }
     if (!extras.empty()) out.extras = tinygltf::Value(extras);
@@ -149,12 +156,14 @@ tinygltf::Camera cameraOf(const SceneCamera& c) {
 Status exportGlb(const SceneAsset& asset, const std::string& path) {
     if (!asset.skins.empty()) return Error{path + ": scenes with skins are not written"};
     for (const Material& m : asset.geometry.materials)
-        if (m.textureClass != TextureClass::kNone) return Error{path + ": scenes with textures are not written"};
+        if (m.textureClass != TextureClass::kNone)
+            return Error{path + ": scenes with textures are not written"};
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "Afterglow";
     model.buffers.emplace_back();
-    for (const Material& m : asset.geometry.materials) model.materials.push_back(materialOf(m));
+    for (const Material& m : asset.geometry.materials)
+        model.materials.push_back(materialOf(m));
     for (const SceneMesh& mesh : asset.meshes) {
         tinygltf::Mesh out;
         out.name = mesh.name;
@@ -171,9 +180,12 @@ Status exportGlb(const SceneAsset& asset, const std::string& path) {
         else
             scene.nodes.push_back(int(i));
     }
-    for (const SceneLight& l : asset.lights) model.lights.push_back(lightOf(l));
-    for (const SceneCamera& c : asset.cameras) model.cameras.push_back(cameraOf(c));
-    for (const char* name : {"KHR_lights_punctual", "KHR_materials_specular", "KHR_materials_emissive_strength"})
+    for (const SceneLight& l : asset.lights)
+        model.lights.push_back(lightOf(l));
+    for (const SceneCamera& c : asset.cameras)
+        model.cameras.push_back(cameraOf(c));
+    for (const char* name :
+         {"KHR_lights_punctual", "KHR_materials_specular", "KHR_materials_emissive_strength"})
         model.extensionsUsed.push_back(name);
     model.scenes.push_back(scene);
     model.defaultScene = 0;

@@ -33,7 +33,9 @@ bool fileExists(const std::string& file, void* user) {
     return staysInside(*static_cast<Folder*>(user), file) && fs::is_regular_file(file, error);
 }
 
-std::string expandPath(const std::string& file, void*) { return file; }
+std::string expandPath(const std::string& file, void*) {
+    return file;
+}
 
 bool readWhole(std::vector<unsigned char>* out, std::string* error, const std::string& file, void* user) {
     const Folder& folder = *static_cast<Folder*>(user);
@@ -49,7 +51,9 @@ bool readWhole(std::vector<unsigned char>* out, std::string* error, const std::s
     return bool(in);
 }
 
-bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+}
 
 // Refuses images by their header before decoding them.
 bool decodeImage(tinygltf::Image* image, const int index, std::string* error, std::string*, int, int,
@@ -96,7 +100,8 @@ Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limit
     if (!fs::is_regular_file(path, code)) return Error{path + ": it is not a file"};
     Folder folder{fs::weakly_canonical(fs::absolute(path), code).parent_path(), limits.fileBytes};
     std::vector<unsigned char> bytes;
-    if (fs::file_size(path, code) > limits.fileBytes) return Error{path + ": the file is larger than the limit"};
+    if (fs::file_size(path, code) > limits.fileBytes)
+        return Error{path + ": the file is larger than the limit"};
     if (!readWhole(&bytes, nullptr, path, &folder)) return Error{path + ": the file cannot be read"};
     if (bytes.empty()) return Error{path + ": the file is empty"};
 
@@ -108,10 +113,10 @@ Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limit
     std::string error, warning;
     const std::string base = folder.root.string();
     const auto size = static_cast<unsigned int>(bytes.size());
-    const bool parsed = isBinary(bytes)
-                            ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
-                            : loader.LoadASCIIFromString(&model, &error, &warning,
-                                                         reinterpret_cast<const char*>(bytes.data()), size, base);
+    const bool parsed =
+        isBinary(bytes) ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
+                        : loader.LoadASCIIFromString(&model, &error, &warning,
+                                                     reinterpret_cast<const char*>(bytes.data()), size, base);
     if (!parsed) return Error{fmt::format("{}: {}", path, firstLine(error))};
     return model;
 }

@@ -1,5 +1,6 @@
-// glTF 2.0 files (.gltf, .glb) to a SceneAsset. tinygltf parses; everything it lets pass is checked here, so that a
-// hostile file gives a sentence and nothing else. URIs never leave the file's own folder. Animations are not imported.
+// glTF 2.0 files (.gltf, .glb) to a SceneAsset. tinygltf parses; everything it lets pass is checked here, so
+// that a hostile file gives a sentence and nothing else. URIs never leave the file's own folder. Animations
+// are not imported.
 #pragma once
 
 #include <string>

@@ -16,8 +16,8 @@ using Fault = std::optional<std::string>;  // what is wrong, without the file's 
 // Everything an index, a count or an offset could break.
 Fault validate(const tinygltf::Model& model, const ImportLimits& limits);
 
-// Elements of a validated accessor as floats (normalised integers converted), `components` of each kept or padded
-// with zero; sparse values applied.
+// Elements of a validated accessor as floats (normalised integers converted), `components` of each kept or
+// padded with zero; sparse values applied.
 std::vector<float> readFloats(const tinygltf::Model& model, int accessor, int components);
 std::vector<uint32_t> readUints(const tinygltf::Model& model, int accessor, int components);
 

@@ -18,7 +18,8 @@ const tinygltf::Value* extensionOf(const tinygltf::ExtensionMap& extensions, con
 }
 
 double element(const tinygltf::Value& object, const char* key, size_t i, double fallback) {
-    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsArray() || object.Get(key).ArrayLen() <= i)
+    if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsArray() ||
+        object.Get(key).ArrayLen() <= i)
         return fallback;
     const tinygltf::Value& value = object.Get(key).Get(int(i));
     return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
@@ -87,8 +88,8 @@ std::vector<uint8_t> resample(const tinygltf::Image& image, int side, bool srgb)
     std::vector<uint8_t> source = toRgba(image);
     if (image.width == side && image.height == side) return source;
     std::vector<uint8_t> out(size_t(side) * size_t(side) * 4);
-    stbir_resize_uint8_generic(source.data(), image.width, image.height, 0, out.data(), side, side, 0, 4, 3, 0,
-                               STBIR_EDGE_WRAP, STBIR_FILTER_DEFAULT,
+    stbir_resize_uint8_generic(source.data(), image.width, image.height, 0, out.data(), side, side, 0, 4, 3,
+                               0, STBIR_EDGE_WRAP, STBIR_FILTER_DEFAULT,
                                srgb ? STBIR_COLORSPACE_SRGB : STBIR_COLORSPACE_LINEAR, nullptr);
     return out;
 }
@@ -118,7 +119,8 @@ class LayerMaker {
 }  // namespace
 
 void importMaterials(const tinygltf::Model& model, SceneAsset& asset) {
-    for (const tinygltf::Material& m : model.materials) asset.geometry.materials.push_back(materialOf(m));
+    for (const tinygltf::Material& m : model.materials)
+        asset.geometry.materials.push_back(materialOf(m));
     asset.geometry.materials.push_back({.name = "default"});  // for primitives without one
 }
 
@@ -128,8 +130,8 @@ Fault importTextures(const tinygltf::Model& model, SceneAsset& asset) {
     for (size_t i = 0; i < model.materials.size(); ++i) {
         const tinygltf::Material& m = model.materials[i];
         const int base = m.pbrMetallicRoughness.baseColorTexture.index,
-                  rough = m.pbrMetallicRoughness.metallicRoughnessTexture.index, normal = m.normalTexture.index,
-                  emissive = m.emissiveTexture.index;
+                  rough = m.pbrMetallicRoughness.metallicRoughnessTexture.index,
+                  normal = m.normalTexture.index, emissive = m.emissiveTexture.index;
         int side = 0;
         for (int texture : {base, rough, normal, emissive}) {
             if (texture < 0) continue;

@@ -21,7 +21,9 @@ int attribute(const tinygltf::Primitive& p, const char* name) {
     return found == p.attributes.end() ? -1 : found->second;
 }
 
-bool finite(glm::vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool finite(glm::vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 template <class V, class F>
 void fill(const tinygltf::Model& model, int accessor, size_t vertices, F&& set) {
@@ -30,7 +32,8 @@ void fill(const tinygltf::Model& model, int accessor, size_t vertices, F&& set) 
     const std::vector<float> values = readFloats(model, accessor, kComponents);
     for (size_t i = 0; i < vertices; ++i) {
         V v;
-        for (int c = 0; c < kComponents; ++c) v[c] = values[i * size_t(kComponents) + size_t(c)];
+        for (int c = 0; c < kComponents; ++c)
+            v[c] = values[i * size_t(kComponents) + size_t(c)];
         set(i, v);
     }
 }
@@ -38,7 +41,8 @@ void fill(const tinygltf::Model& model, int accessor, size_t vertices, F&& set) 
 std::vector<uint32_t> indicesOf(const tinygltf::Model& model, const tinygltf::Primitive& p, size_t vertices) {
     if (p.indices >= 0) return readUints(model, p.indices, 1);
     std::vector<uint32_t> all(vertices);
-    for (size_t i = 0; i < vertices; ++i) all[i] = uint32_t(i);
+    for (size_t i = 0; i < vertices; ++i)
+        all[i] = uint32_t(i);
     return all;
 }
 
@@ -62,10 +66,12 @@ std::vector<uint32_t> toList(std::vector<uint32_t> in, int mode) {
 size_t dropDegenerate(Triangles& t) {
     size_t kept = 0;
     for (size_t i = 0; i + 2 < t.indices.size(); i += 3) {
-        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]], c = t.positions[t.indices[i + 2]];
+        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]],
+                        c = t.positions[t.indices[i + 2]];
         const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
         if (!(glm::dot(n, n) > 0)) continue;
-        for (size_t k = 0; k < 3; ++k) t.indices[kept++] = t.indices[i + k];
+        for (size_t k = 0; k < 3; ++k)
+            t.indices[kept++] = t.indices[i + k];
     }
     const size_t dropped = (t.indices.size() - kept) / 3;
     t.indices.resize(kept);
@@ -76,8 +82,10 @@ size_t dropDegenerate(Triangles& t) {
 void makeFlatNormals(Triangles& t) {
     Triangles flat;
     for (size_t i = 0; i + 2 < t.indices.size(); i += 3) {
-        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]], c = t.positions[t.indices[i + 2]];
-        const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a))));
+        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]],
+                        c = t.positions[t.indices[i + 2]];
+        const glm::vec3 normal(
+            glm::normalize(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a))));
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t old = t.indices[i + k];
             flat.indices.push_back(uint32_t(flat.positions.size()));
@@ -104,9 +112,11 @@ size_t repairNormals(Triangles& t) {
     }
     if (repaired == 0) return 0;
     for (size_t i = 0; i + 2 < t.indices.size(); i += 3) {
-        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]], c = t.positions[t.indices[i + 2]];
+        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]],
+                        c = t.positions[t.indices[i + 2]];
         for (size_t k = 0; k < 3; ++k)
-            if (broken[t.indices[i + k]]) t.attributes[t.indices[i + k]].normal = glm::normalize(glm::cross(b - a, c - a));
+            if (broken[t.indices[i + k]])
+                t.attributes[t.indices[i + k]].normal = glm::normalize(glm::cross(b - a, c - a));
     }
     return repaired;
 }
@@ -117,27 +127,34 @@ void readSkin(const tinygltf::Model& model, const tinygltf::Primitive& p, Triang
     const std::vector<uint32_t> j = readUints(model, joints, 4);
     t.skin.resize(t.positions.size());
     for (size_t i = 0; i < t.positions.size(); ++i)
-        for (int c = 0; c < 4; ++c) t.skin[i].joints[c] = uint16_t(j[i * 4 + size_t(c)]);
-    fill<glm::vec4>(model, weights, t.positions.size(), [&](size_t i, glm::vec4 w) { t.skin[i].weights = w; });
+        for (int c = 0; c < 4; ++c)
+            t.skin[i].joints[c] = uint16_t(j[i * 4 + size_t(c)]);
+    fill<glm::vec4>(model, weights, t.positions.size(),
+                    [&](size_t i, glm::vec4 w) { t.skin[i].weights = w; });
 }
 
-Fault readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& p, const std::string& what, Triangles& t,
-                    std::vector<std::string>& warnings) {
+Fault readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& p, const std::string& what,
+                    Triangles& t, std::vector<std::string>& warnings) {
     const int position = attribute(p, "POSITION");
     const size_t vertices = model.accessors[size_t(position)].count;
     t.positions.resize(vertices);
     t.attributes.resize(vertices, {.normal = glm::vec3(0), .tangent = glm::vec4(0)});
     fill<glm::vec3>(model, position, vertices, [&](size_t i, glm::vec3 v) { t.positions[i] = v; });
     for (size_t i = 0; i < vertices; ++i)
-        if (!finite(t.positions[i])) return fmt::format("{} has a position that is not finite (vertex {})", what, i);
-    fill<glm::vec3>(model, attribute(p, "NORMAL"), vertices, [&](size_t i, glm::vec3 v) { t.attributes[i].normal = v; });
-    fill<glm::vec4>(model, attribute(p, "TANGENT"), vertices, [&](size_t i, glm::vec4 v) { t.attributes[i].tangent = v; });
-    fill<glm::vec2>(model, attribute(p, "TEXCOORD_0"), vertices, [&](size_t i, glm::vec2 v) { t.attributes[i].uv = v; });
+        if (!finite(t.positions[i]))
+            return fmt::format("{} has a position that is not finite (vertex {})", what, i);
+    fill<glm::vec3>(model, attribute(p, "NORMAL"), vertices,
+                    [&](size_t i, glm::vec3 v) { t.attributes[i].normal = v; });
+    fill<glm::vec4>(model, attribute(p, "TANGENT"), vertices,
+                    [&](size_t i, glm::vec4 v) { t.attributes[i].tangent = v; });
+    fill<glm::vec2>(model, attribute(p, "TEXCOORD_0"), vertices,
+                    [&](size_t i, glm::vec2 v) { t.attributes[i].uv = v; });
     readSkin(model, p, t);
 
     t.indices = toList(indicesOf(model, p, vertices), p.mode);
     for (uint32_t index : t.indices)
-        if (index >= vertices) return fmt::format("{} has index {}, but only {} vertices", what, index, vertices);
+        if (index >= vertices)
+            return fmt::format("{} has index {}, but only {} vertices", what, index, vertices);
     if (t.indices.empty()) warnings.push_back(what + " holds no triangles and is left out");
     if (const size_t dropped = dropDegenerate(t))
         warnings.push_back(fmt::format("{}: {} triangles without area are left out", what, dropped));
@@ -154,7 +171,8 @@ void append(Triangles&& t, uint32_t material, bool skinned, SceneAsset& asset) {
                         .indexCount = uint32_t(t.indices.size()),
                         .vertexOffset = int32_t(g.positions.size()),
                         .material = material};
-    for (uint32_t index : t.indices) primitive.boundsLocal.add(t.positions[index]);
+    for (uint32_t index : t.indices)
+        primitive.boundsLocal.add(t.positions[index]);
     g.positions.insert(g.positions.end(), t.positions.begin(), t.positions.end());
     g.attributes.insert(g.attributes.end(), t.attributes.begin(), t.attributes.end());
     g.indices.insert(g.indices.end(), t.indices.begin(), t.indices.end());
@@ -174,12 +192,15 @@ Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset, const Import
         for (size_t i = 0; i < model.meshes[m].primitives.size(); ++i) {
             const tinygltf::Primitive& p = model.meshes[m].primitives[i];
             Triangles triangles;
-            if (Fault f = readTriangles(model, p, fmt::format("mesh {} primitive {}", m, i), triangles, asset.warnings))
+            if (Fault f = readTriangles(model, p, fmt::format("mesh {} primitive {}", m, i), triangles,
+                                        asset.warnings))
                 return f;
             if (triangles.indices.empty()) continue;
-            append(std::move(triangles), p.material < 0 ? fallback : uint32_t(p.material), !model.skins.empty(), asset);
+            append(std::move(triangles), p.material < 0 ? fallback : uint32_t(p.material),
+                   !model.skins.empty(), asset);
             ++mesh.primitiveCount;
-            if (asset.geometry.positions.size() > limits.vertices || asset.geometry.indices.size() > limits.indices)
+            if (asset.geometry.positions.size() > limits.vertices ||
+                asset.geometry.indices.size() > limits.indices)
                 return "it has more vertices or indices than the limit";
         }
         asset.meshes.push_back(std::move(mesh));

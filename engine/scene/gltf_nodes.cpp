@@ -12,7 +12,8 @@ namespace {
 NodeTransform decompose(const std::vector<double>& m) {
     glm::dmat3 linear;
     for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) linear[c][r] = m[size_t(c * 4 + r)];
+        for (int r = 0; r < 3; ++r)
+            linear[c][r] = m[size_t(c * 4 + r)];
     NodeTransform out;
     out.translation = {m[12], m[13], m[14]};
     for (int c = 0; c < 3; ++c) {
@@ -33,7 +34,8 @@ NodeTransform transformOf(const tinygltf::Node& n) {
     NodeTransform out;
     if (n.translation.size() == 3) out.translation = {n.translation[0], n.translation[1], n.translation[2]};
     if (n.rotation.size() == 4) {
-        const glm::quat q(float(n.rotation[3]), float(n.rotation[0]), float(n.rotation[1]), float(n.rotation[2]));
+        const glm::quat q(float(n.rotation[3]), float(n.rotation[0]), float(n.rotation[1]),
+                          float(n.rotation[2]));
         out.rotation = glm::length(q) > 1e-6f ? glm::normalize(q) : glm::quat(1, 0, 0, 0);
     }
     if (n.scale.size() == 3) out.scale = {float(n.scale[0]), float(n.scale[1]), float(n.scale[2])};
@@ -43,9 +45,12 @@ NodeTransform transformOf(const tinygltf::Node& n) {
 NodeExtras extrasOf(const tinygltf::Value& extras) {
     NodeExtras out;
     if (!extras.IsObject()) return out;
-    if (extras.Has("collider") && extras.Get("collider").IsBool()) out.collider = extras.Get("collider").Get<bool>();
-    if (extras.Has("moveExtent") && extras.Get("moveExtent").IsArray() && extras.Get("moveExtent").ArrayLen() == 3)
-        for (int i = 0; i < 3; ++i) out.moveExtent[i] = float(extras.Get("moveExtent").Get(i).GetNumberAsDouble());
+    if (extras.Has("collider") && extras.Get("collider").IsBool())
+        out.collider = extras.Get("collider").Get<bool>();
+    if (extras.Has("moveExtent") && extras.Get("moveExtent").IsArray() &&
+        extras.Get("moveExtent").ArrayLen() == 3)
+        for (int i = 0; i < 3; ++i)
+            out.moveExtent[i] = float(extras.Get("moveExtent").Get(i).GetNumberAsDouble());
     out.movePeriod = float(numberOf(extras, "movePeriod", 0));
     out.spinSpeed = float(numberOf(extras, "spinSpeed", 0));
     return out;
@@ -58,8 +63,11 @@ int lightOf(const tinygltf::Node& n) {
 
 SceneLight lightFrom(const tinygltf::Light& l) {
     SceneLight out{.name = l.name, .intensity = glm::vec3(float(l.intensity)), .range = float(l.range)};
-    out.kind = l.type == "directional" ? LightKind::kDirectional : l.type == "spot" ? LightKind::kSpot : LightKind::kPoint;
-    for (int c = 0; c < 3 && l.color.size() == 3; ++c) out.intensity[c] *= float(l.color[size_t(c)]);
+    out.kind = l.type == "directional" ? LightKind::kDirectional
+               : l.type == "spot"      ? LightKind::kSpot
+                                       : LightKind::kPoint;
+    for (int c = 0; c < 3 && l.color.size() == 3; ++c)
+        out.intensity[c] *= float(l.color[size_t(c)]);
     if (out.kind == LightKind::kSpot) {
         out.innerConeAngle = float(l.spot.innerConeAngle);
         out.outerConeAngle = float(l.spot.outerConeAngle);
@@ -78,12 +86,14 @@ SceneCamera cameraFrom(const tinygltf::Camera& c) {
 void importSkins(const tinygltf::Model& model, const std::vector<int32_t>& newIndex, SceneAsset& asset) {
     for (const tinygltf::Skin& s : model.skins) {
         SceneSkin skin{.name = s.name};
-        for (int joint : s.joints) skin.joints.push_back(uint32_t(std::max(newIndex[size_t(joint)], 0)));
+        for (int joint : s.joints)
+            skin.joints.push_back(uint32_t(std::max(newIndex[size_t(joint)], 0)));
         skin.inverseBind.resize(s.joints.size(), glm::mat4(1));
         if (s.inverseBindMatrices >= 0) {
             const std::vector<float> values = readFloats(model, s.inverseBindMatrices, 16);
             for (size_t j = 0; j < s.joints.size(); ++j)
-                for (int k = 0; k < 16; ++k) skin.inverseBind[j][k / 4][k % 4] = values[j * 16 + size_t(k)];
+                for (int k = 0; k < 16; ++k)
+                    skin.inverseBind[j][k / 4][k % 4] = values[j * 16 + size_t(k)];
         }
         asset.skins.push_back(std::move(skin));
     }
@@ -101,11 +111,13 @@ Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, const ImportL
     } else {
         std::vector<bool> isChild(model.nodes.size(), false);
         for (const tinygltf::Node& n : model.nodes)
-            for (int child : n.children) isChild[size_t(child)] = true;
+            for (int child : n.children)
+                isChild[size_t(child)] = true;
         for (size_t i = 0; i < model.nodes.size(); ++i)
             if (!isChild[i]) roots.push_back(int(i));
     }
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, -1});
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        pending.push_back({*root, -1});
 
     std::vector<int32_t> newIndex(model.nodes.size(), -1);
     while (!pending.empty()) {
@@ -126,8 +138,10 @@ Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, const ImportL
         for (auto child = n.children.rbegin(); child != n.children.rend(); ++child)
             pending.push_back({*child, newIndex[size_t(old)]});
     }
-    for (const tinygltf::Light& l : model.lights) asset.lights.push_back(lightFrom(l));
-    for (const tinygltf::Camera& c : model.cameras) asset.cameras.push_back(cameraFrom(c));
+    for (const tinygltf::Light& l : model.lights)
+        asset.lights.push_back(lightFrom(l));
+    for (const tinygltf::Camera& c : model.cameras)
+        asset.cameras.push_back(cameraFrom(c));
     importSkins(model, newIndex, asset);
     return std::nullopt;
 }

@@ -26,7 +26,8 @@ bool insideOrNone(int index, const std::vector<T>& list) {
 // Bytes [offset, offset + stride (count - 1) + element) must lie in the view.
 Fault checkRange(const tinygltf::Model& model, int view, uint64_t offset, uint64_t stride, uint64_t count,
                  uint64_t element, const std::string& what) {
-    if (!inside(view, model.bufferViews)) return fmt::format("{} names buffer view {}, which does not exist", what, view);
+    if (!inside(view, model.bufferViews))
+        return fmt::format("{} names buffer view {}, which does not exist", what, view);
     if (count == 0) return std::nullopt;
     const uint64_t length = model.bufferViews[size_t(view)].byteLength;
     const bool fits = offset <= length && element <= length - offset &&
@@ -47,18 +48,20 @@ Fault checkViews(const tinygltf::Model& model) {
     return std::nullopt;
 }
 
-Fault checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& a, uint64_t element, const std::string& what) {
+Fault checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& a, uint64_t element,
+                  const std::string& what) {
     const auto& sparse = a.sparse;
-    if (sparse.count < 0 || uint64_t(sparse.count) > a.count) return what + " has more sparse values than elements";
+    if (sparse.count < 0 || uint64_t(sparse.count) > a.count)
+        return what + " has more sparse values than elements";
     const int indexSize = tinygltf::GetComponentSizeInBytes(uint32_t(sparse.indices.componentType));
     if (indexSize <= 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
         return what + " has a bad sparse index type or offset";
     const uint64_t count = uint64_t(sparse.count);
-    if (Fault f = checkRange(model, sparse.indices.bufferView, uint64_t(sparse.indices.byteOffset), uint64_t(indexSize),
-                             count, uint64_t(indexSize), what + " (sparse indices)"))
+    if (Fault f = checkRange(model, sparse.indices.bufferView, uint64_t(sparse.indices.byteOffset),
+                             uint64_t(indexSize), count, uint64_t(indexSize), what + " (sparse indices)"))
         return f;
-    return checkRange(model, sparse.values.bufferView, uint64_t(sparse.values.byteOffset), element, count, element,
-                      what + " (sparse values)");
+    return checkRange(model, sparse.values.bufferView, uint64_t(sparse.values.byteOffset), element, count,
+                      element, what + " (sparse values)");
 }
 
 Fault checkAccessors(const tinygltf::Model& model, const ImportLimits& limits) {
@@ -68,7 +71,8 @@ Fault checkAccessors(const tinygltf::Model& model, const ImportLimits& limits) {
         const int component = tinygltf::GetComponentSizeInBytes(uint32_t(a.componentType));
         const int components = tinygltf::GetNumComponentsInType(uint32_t(a.type));
         if (component <= 0 || components <= 0) return what + " has an unknown component or element type";
-        if (a.count > limits.indices) return fmt::format("{} holds {} elements, more than the limit", what, a.count);
+        if (a.count > limits.indices)
+            return fmt::format("{} holds {} elements, more than the limit", what, a.count);
         const uint64_t element = uint64_t(component) * uint64_t(components);
         if (a.sparse.isSparse)
             if (Fault f = checkSparse(model, a, element, what)) return f;
@@ -77,7 +81,8 @@ Fault checkAccessors(const tinygltf::Model& model, const ImportLimits& limits) {
             return fmt::format("{} names buffer view {}, which does not exist", what, a.bufferView);
         const uint64_t given = model.bufferViews[size_t(a.bufferView)].byteStride;
         if (given != 0 && given < element) return what + " has a stride smaller than its elements";
-        if (Fault f = checkRange(model, a.bufferView, a.byteOffset, given ? given : element, a.count, element, what))
+        if (Fault f = checkRange(model, a.bufferView, a.byteOffset, given ? given : element, a.count, element,
+                                 what))
             return f;
     }
     return std::nullopt;
@@ -108,14 +113,16 @@ Fault checkPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p,
     const bool whole = i.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                        i.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                        i.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (i.type != TINYGLTF_TYPE_SCALAR || !whole) return what + " has indices that are not unsigned whole numbers";
+    if (i.type != TINYGLTF_TYPE_SCALAR || !whole)
+        return what + " has indices that are not unsigned whole numbers";
     return std::nullopt;
 }
 
 Fault checkMeshes(const tinygltf::Model& model) {
     for (size_t m = 0; m < model.meshes.size(); ++m)
         for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
-            if (Fault f = checkPrimitive(model, model.meshes[m].primitives[p], fmt::format("mesh {} primitive {}", m, p)))
+            if (Fault f = checkPrimitive(model, model.meshes[m].primitives[p],
+                                         fmt::format("mesh {} primitive {}", m, p)))
                 return f;
     return std::nullopt;
 }
@@ -142,22 +149,28 @@ Fault checkMaterials(const tinygltf::Model& model) {
 }
 
 Fault checkNodes(const tinygltf::Model& model, const ImportLimits& limits) {
-    if (model.nodes.size() > limits.nodes) return fmt::format("it has {} nodes, more than the limit", model.nodes.size());
+    if (model.nodes.size() > limits.nodes)
+        return fmt::format("it has {} nodes, more than the limit", model.nodes.size());
     std::vector<int> parent(model.nodes.size(), -1);
     for (size_t i = 0; i < model.nodes.size(); ++i) {
         const tinygltf::Node& n = model.nodes[i];
-        if (!insideOrNone(n.mesh, model.meshes)) return fmt::format("node {} names mesh {}, which does not exist", i, n.mesh);
+        if (!insideOrNone(n.mesh, model.meshes))
+            return fmt::format("node {} names mesh {}, which does not exist", i, n.mesh);
         if (!insideOrNone(n.camera, model.cameras))
             return fmt::format("node {} names camera {}, which does not exist", i, n.camera);
-        if (!insideOrNone(n.skin, model.skins)) return fmt::format("node {} names skin {}, which does not exist", i, n.skin);
-        const bool shape = (n.matrix.empty() || n.matrix.size() == 16) && (n.translation.empty() || n.translation.size() == 3) &&
-                           (n.rotation.empty() || n.rotation.size() == 4) && (n.scale.empty() || n.scale.size() == 3);
+        if (!insideOrNone(n.skin, model.skins))
+            return fmt::format("node {} names skin {}, which does not exist", i, n.skin);
+        const bool shape = (n.matrix.empty() || n.matrix.size() == 16) &&
+                           (n.translation.empty() || n.translation.size() == 3) &&
+                           (n.rotation.empty() || n.rotation.size() == 4) &&
+                           (n.scale.empty() || n.scale.size() == 3);
         if (!shape) return fmt::format("node {} has a transform of the wrong length", i);
         for (const auto* list : {&n.matrix, &n.translation, &n.rotation, &n.scale})
             if (!std::ranges::all_of(*list, [](double v) { return std::isfinite(v) && std::abs(v) < 1e12; }))
                 return fmt::format("node {} has a transform that is not finite", i);
         for (int child : n.children) {
-            if (!inside(child, model.nodes)) return fmt::format("node {} names child {}, which does not exist", i, child);
+            if (!inside(child, model.nodes))
+                return fmt::format("node {} names child {}, which does not exist", i, child);
             if (parent[size_t(child)] != -1) return fmt::format("node {} has two parents", child);
             parent[size_t(child)] = int(i);
         }
@@ -165,11 +178,13 @@ Fault checkNodes(const tinygltf::Model& model, const ImportLimits& limits) {
     for (size_t i = 0; i < parent.size(); ++i) {
         uint32_t depth = 0;
         for (int at = parent[i]; at != -1; at = parent[size_t(at)])
-            if (++depth > limits.nodeDepth) return fmt::format("node {} lies in a cycle or deeper than {}", i, limits.nodeDepth);
+            if (++depth > limits.nodeDepth)
+                return fmt::format("node {} lies in a cycle or deeper than {}", i, limits.nodeDepth);
     }
     for (size_t s = 0; s < model.scenes.size(); ++s)
         for (int node : model.scenes[s].nodes)
-            if (!inside(node, model.nodes)) return fmt::format("scene {} names node {}, which does not exist", s, node);
+            if (!inside(node, model.nodes))
+                return fmt::format("scene {} names node {}, which does not exist", s, node);
     if (!insideOrNone(model.defaultScene, model.scenes))
         return fmt::format("the default scene {} does not exist", model.defaultScene);
     return std::nullopt;
@@ -179,7 +194,8 @@ Fault checkSkins(const tinygltf::Model& model) {
     for (size_t i = 0; i < model.skins.size(); ++i) {
         const tinygltf::Skin& s = model.skins[i];
         for (int joint : s.joints)
-            if (!inside(joint, model.nodes)) return fmt::format("skin {} names joint {}, which does not exist", i, joint);
+            if (!inside(joint, model.nodes))
+                return fmt::format("skin {} names joint {}, which does not exist", i, joint);
         if (s.inverseBindMatrices == -1) continue;
         if (!inside(s.inverseBindMatrices, model.accessors) ||
             model.accessors[size_t(s.inverseBindMatrices)].type != TINYGLTF_TYPE_MAT4 ||
@@ -194,18 +210,22 @@ Fault checkLights(const tinygltf::Model& model) {
         const auto found = model.nodes[i].extensions.find("KHR_lights_punctual");
         if (found == model.nodes[i].extensions.end()) continue;
         const int light = int(numberOf(found->second, "light", -1));
-        if (!inside(light, model.lights)) return fmt::format("node {} names light {}, which does not exist", i, light);
+        if (!inside(light, model.lights))
+            return fmt::format("node {} names light {}, which does not exist", i, light);
     }
     for (size_t i = 0; i < model.lights.size(); ++i) {
         const tinygltf::Light& l = model.lights[i];
-        const bool numbers = std::isfinite(l.intensity) && l.intensity >= 0 && std::isfinite(l.range) && l.range >= 0 &&
-                             (l.color.empty() || l.color.size() == 3) &&
-                             std::ranges::all_of(l.color, [](double c) { return std::isfinite(c) && c >= 0; });
-        if (!numbers) return fmt::format("light {} has a negative or non-finite intensity, colour or range", i);
+        const bool numbers =
+            std::isfinite(l.intensity) && l.intensity >= 0 && std::isfinite(l.range) && l.range >= 0 &&
+            (l.color.empty() || l.color.size() == 3) &&
+            std::ranges::all_of(l.color, [](double c) { return std::isfinite(c) && c >= 0; });
+        if (!numbers)
+            return fmt::format("light {} has a negative or non-finite intensity, colour or range", i);
         if (l.type != "directional" && l.type != "point" && l.type != "spot")
             return fmt::format("light {} is of unknown type '{}'", i, l.type);
-        if (l.type == "spot" && !(l.spot.innerConeAngle >= 0 && l.spot.innerConeAngle <= l.spot.outerConeAngle &&
-                                  l.spot.outerConeAngle <= 1.5707964))
+        if (l.type == "spot" &&
+            !(l.spot.innerConeAngle >= 0 && l.spot.innerConeAngle <= l.spot.outerConeAngle &&
+              l.spot.outerConeAngle <= 1.5707964))
             return fmt::format("light {} has impossible cone angles", i);
     }
     return std::nullopt;
@@ -215,8 +235,10 @@ Fault checkImages(const tinygltf::Model& model, const ImportLimits& limits) {
     uint64_t texels = 0;
     for (size_t i = 0; i < model.images.size(); ++i) {
         const tinygltf::Image& image = model.images[i];
-        const std::string name = image.uri.empty() ? fmt::format("image {}", i) : fmt::format("image {} ({})", i, image.uri);
-        if (image.width <= 0 || image.height <= 0 || image.image.empty()) return name + " is missing or cannot be decoded";
+        const std::string name =
+            image.uri.empty() ? fmt::format("image {}", i) : fmt::format("image {} ({})", i, image.uri);
+        if (image.width <= 0 || image.height <= 0 || image.image.empty())
+            return name + " is missing or cannot be decoded";
         if (uint32_t(image.width) > limits.imageSide || uint32_t(image.height) > limits.imageSide)
             return name + " is larger than the limit";
         texels += uint64_t(image.width) * uint64_t(image.height);
@@ -232,7 +254,8 @@ Fault checkImages(const tinygltf::Model& model, const ImportLimits& limits) {
 }  // namespace
 
 Fault validate(const tinygltf::Model& model, const ImportLimits& limits) {
-    if (model.asset.version.rfind("2", 0) != 0) return fmt::format("its version is '{}', not 2.x", model.asset.version);
+    if (model.asset.version.rfind("2", 0) != 0)
+        return fmt::format("its version is '{}', not 2.x", model.asset.version);
     for (const std::string& name : model.extensionsRequired)
         if (std::ranges::find(kSupported, name) == kSupported.end())
             return fmt::format("it requires the extension {}, which is not supported", name);

@@ -1,7 +1,8 @@
 // What the renderer sees: flat arrays, no ECS types. Written by extract_system, read by gi/.
 //
-// Positions are relative to `originWorld`, a double-precision point near the camera that moves rarely (in large
-// steps); when it does, everything is stamped anew. Each array carries a version that changes with its contents.
+// Positions are relative to `originWorld`, a double-precision point near the camera that moves rarely (in
+// large steps); when it does, everything is stamped anew. Each array carries a version that changes with its
+// contents.
 #pragma once
 
 #include <cstdint>
@@ -37,27 +38,29 @@ struct Primitive {
 // Square texture size classes: each is one array image, a material's textures all lie in one class.
 enum class TextureClass : uint32_t { kNone, k256, k512, k1024, k2048 };
 constexpr uint32_t kTextureClassCount = 5;
-constexpr uint32_t textureClassSize(TextureClass c) { return c == TextureClass::kNone ? 0 : 128u << uint32_t(c); }
+constexpr uint32_t textureClassSize(TextureClass c) {
+    return c == TextureClass::kNone ? 0 : 128u << uint32_t(c);
+}
 
 enum class AlphaMode : uint32_t { kOpaque, kMask, kBlend };
 
 struct Material {
     std::string name;
-    glm::vec4 baseColor{1};       // linear, factor
-    glm::vec3 emissive{0};        // W/(m² sr), factor x KHR_materials_emissive_strength
+    glm::vec4 baseColor{1};  // linear, factor
+    glm::vec3 emissive{0};   // W/(m² sr), factor x KHR_materials_emissive_strength
     float metallic = 1;
     float roughness = 1;
-    float specular = 1;           // KHR_materials_specular factor
+    float specular = 1;  // KHR_materials_specular factor
     float normalScale = 1;
     float alphaCutoff = 0.5f;
     AlphaMode alphaMode = AlphaMode::kOpaque;
     bool doubleSided = false;
     TextureClass textureClass = TextureClass::kNone;
     // Layers in the arrays of the class; -1: none.
-    int32_t baseColorLayer = -1;  // in the sRGB array
-    int32_t emissiveLayer = -1;   // in the sRGB array
-    int32_t normalLayer = -1;     // in the linear array
-    int32_t metallicRoughnessLayer = -1;  // in the linear array
+    int32_t baseColorLayer = -1;                // in the sRGB array
+    int32_t emissiveLayer = -1;                 // in the sRGB array
+    int32_t normalLayer = -1;                   // in the linear array
+    int32_t metallicRoughnessLayer = -1;        // in the linear array
     glm::mat3x2 uvTransform{1, 0, 0, 1, 0, 0};  // KHR_texture_transform of the base colour, used for all
 };
 
@@ -86,17 +89,17 @@ enum class LightKind : uint32_t { kDirectional, kPoint, kSpot };
 
 struct RenderLight {
     LightKind kind = LightKind::kPoint;
-    glm::vec3 position{0};            // m, relative to the origin
-    glm::vec3 direction{0, -1, 0};    // the way the light travels, unit
-    glm::vec3 intensity{1};           // W/sr; directional: W/m² on a plane facing the light
-    float range = 0;                  // m, 0: no limit
-    float innerConeAngle = 0;         // radians from the axis
+    glm::vec3 position{0};          // m, relative to the origin
+    glm::vec3 direction{0, -1, 0};  // the way the light travels, unit
+    glm::vec3 intensity{1};         // W/sr; directional: W/m² on a plane facing the light
+    float range = 0;                // m, 0: no limit
+    float innerConeAngle = 0;       // radians from the axis
     float outerConeAngle = 0.785398f;
-    bool bounces = false;             // has a BounceLight: gets an RSM
-    uint32_t rsmResolution = 256;     // texels of a square map, or of about as many on six faces
-    float budgetShare = 1;            // weight of its share of the cluster budget, times its flux
+    bool bounces = false;          // has a BounceLight: gets an RSM
+    uint32_t rsmResolution = 256;  // texels of a square map, or of about as many on six faces
+    float budgetShare = 1;         // weight of its share of the cluster budget, times its flux
     bool castsShadow = true;
-    uint64_t id = 0;                  // stable identity (entity handle), for carrying clusters over
+    uint64_t id = 0;  // stable identity (entity handle), for carrying clusters over
 
     bool operator==(const RenderLight&) const = default;
 };
@@ -104,10 +107,10 @@ struct RenderLight {
 struct RenderCamera {
     glm::mat4 clipFromWorld{1};  // reversed depth, infinite far plane; relative to the origin
     glm::mat4 worldFromClip{1};
-    glm::vec3 position{0};       // relative to the origin
+    glm::vec3 position{0};  // relative to the origin
     glm::vec3 forward{0, 0, -1};
-    float verticalFov = 0.8f;    // radians
-    float near = 0.05f;          // m
+    float verticalFov = 0.8f;  // radians
+    float near = 0.05f;        // m
 };
 
 struct RenderScene {
@@ -122,7 +125,7 @@ struct RenderScene {
     uint64_t instancesVersion = 1;  // any instance row
     uint64_t lightsVersion = 1;
     uint64_t cameraVersion = 1;
-    uint64_t originVersion = 1;     // the origin moved: histories in world space must be dropped
+    uint64_t originVersion = 1;  // the origin moved: histories in world space must be dropped
     // Rows of `instances` that changed since the version before, as half-open ranges; empty with
     // `allInstancesChanged` false means none.
     struct Range {

@@ -1,4 +1,5 @@
-// An imported or generated scene as plain data: geometry ready for the GPU, a node tree, lights, cameras, skins.
+// An imported or generated scene as plain data: geometry ready for the GPU, a node tree, lights, cameras,
+// skins.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,18 +12,18 @@
 
 namespace ag {
 
-struct NodeTransform {  // relative to the parent
-    glm::dvec3 translation{0};             // m
+struct NodeTransform {          // relative to the parent
+    glm::dvec3 translation{0};  // m
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1};
 };
 
 // What a node's glTF extras may say; the game reads it.
 struct NodeExtras {
-    bool collider = false;         // solid for the player
-    glm::vec3 moveExtent{0};       // m: slides to and fro by this much
-    float movePeriod = 0;          // s, 0: stands still
-    float spinSpeed = 0;           // rad/s about +Y
+    bool collider = false;    // solid for the player
+    glm::vec3 moveExtent{0};  // m: slides to and fro by this much
+    float movePeriod = 0;     // s, 0: stands still
+    float spinSpeed = 0;      // rad/s about +Y
 };
 
 struct SceneNode {
@@ -42,8 +43,8 @@ struct SceneMesh {
 struct SceneLight {  // KHR_lights_punctual; shines along the node's -Z
     std::string name;
     LightKind kind = LightKind::kPoint;
-    glm::vec3 intensity{1};  // W/sr; directional: W/m²
-    float range = 0;         // m, 0: none
+    glm::vec3 intensity{1};                                // W/sr; directional: W/m²
+    float range = 0;                                       // m, 0: none
     float innerConeAngle = 0, outerConeAngle = 0.785398f;  // radians
 };
 
@@ -55,8 +56,8 @@ struct SceneCamera {  // looks along the node's -Z
 
 struct SceneSkin {
     std::string name;
-    std::vector<uint32_t> joints;             // nodes
-    std::vector<glm::mat4> inverseBind;       // one a joint
+    std::vector<uint32_t> joints;        // nodes
+    std::vector<glm::mat4> inverseBind;  // one a joint
 };
 
 // Per vertex, only when the file has skins; parallel to the positions.

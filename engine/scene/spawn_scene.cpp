@@ -32,7 +32,8 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
     uint32_t deepest = 0;
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
-        const LocalTransform local{node.local.translation, node.local.rotation, node.local.scale, uint32_t(i)};
+        const LocalTransform local{node.local.translation, node.local.rotation, node.local.scale,
+                                   uint32_t(i)};
         const Entity entity = world.create(local, WorldTransform{});
         entities.push_back(entity);
         deepest = std::max(deepest, node.depth);
@@ -46,10 +47,12 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
         }
         if (node.light >= 0) {
             const SceneLight& l = asset.lights[size_t(node.light)];
-            world.add(entity, PunctualLight{l.intensity, l.range, l.innerConeAngle, l.outerConeAngle, l.kind, 1});
+            world.add(entity,
+                      PunctualLight{l.intensity, l.range, l.innerConeAngle, l.outerConeAngle, l.kind, 1});
         }
     }
-    for (size_t node : strongestLights(asset)) world.add(entities[node], BounceLight{});
+    for (size_t node : strongestLights(asset))
+        world.add(entities[node], BounceLight{});
     world.setResource<HierarchyLevels>(deepest);
     return entities;
 }

@@ -6,7 +6,8 @@
 
 namespace ag {
 
-// Entities parallel to the asset's nodes. Sets the resource HierarchyLevels. The eight strongest lights bounce.
+// Entities parallel to the asset's nodes. Sets the resource HierarchyLevels. The eight strongest lights
+// bounce.
 std::vector<Entity> spawnScene(World& world, const SceneAsset& asset);
 
 }  // namespace ag

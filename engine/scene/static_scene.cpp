@@ -45,9 +45,12 @@ float strength(const RenderLight& light) {
 
 void chooseBounceLights(std::vector<RenderLight>& lights) {
     std::vector<size_t> order(lights.size());
-    for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, [&](size_t a, size_t b) { return strength(lights[a]) > strength(lights[b]); });
-    for (size_t i = 0; i < std::min(order.size(), kMostBounceLights); ++i) lights[order[i]].bounces = true;
+    for (size_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    std::ranges::stable_sort(order,
+                             [&](size_t a, size_t b) { return strength(lights[a]) > strength(lights[b]); });
+    for (size_t i = 0; i < std::min(order.size(), kMostBounceLights); ++i)
+        lights[order[i]].bounces = true;
 }
 
 }  // namespace
@@ -92,8 +95,8 @@ CameraPose cameraOf(const SceneAsset& asset, size_t index) {
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         if (asset.nodes[i].camera != int32_t(index)) continue;
         const SceneCamera& camera = asset.cameras[index];
-        return {places[i].translation, glm::normalize(places[i].linear * glm::vec3(0, 0, -1)), camera.verticalFov,
-                camera.near};
+        return {places[i].translation, glm::normalize(places[i].linear * glm::vec3(0, 0, -1)),
+                camera.verticalFov, camera.near};
     }
     return framingCamera(staticScene(asset).bounds);
 }
@@ -105,7 +108,8 @@ RenderScene staticScene(const SceneAsset& asset) {
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
         if (node.light >= 0)
-            scene.lights.push_back(lightOf(asset.lights[size_t(node.light)], places[i], scene.lights.size() + 1));
+            scene.lights.push_back(
+                lightOf(asset.lights[size_t(node.light)], places[i], scene.lights.size() + 1));
         if (node.mesh < 0) continue;
         const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
         const glm::mat3& m = places[i].linear;
@@ -126,9 +130,12 @@ void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size) {
     const glm::vec3 right = glm::normalize(glm::cross(pose.forward, up));
     const glm::vec3 top = glm::cross(right, pose.forward);
     glm::dmat4 view(1);
-    for (int i = 0; i < 3; ++i) view[i] = glm::dvec4(right[i], top[i], -pose.forward[i], 0);
-    view[3] = glm::dvec4(-glm::dot(right, position), -glm::dot(top, position), glm::dot(pose.forward, position), 1);
-    const glm::dmat4 clip = glm::dmat4(reversedInfinitePerspective(pose.verticalFov, aspect, pose.near)) * view;
+    for (int i = 0; i < 3; ++i)
+        view[i] = glm::dvec4(right[i], top[i], -pose.forward[i], 0);
+    view[3] =
+        glm::dvec4(-glm::dot(right, position), -glm::dot(top, position), glm::dot(pose.forward, position), 1);
+    const glm::dmat4 clip =
+        glm::dmat4(reversedInfinitePerspective(pose.verticalFov, aspect, pose.near)) * view;
     const glm::mat4 clipFromWorld(clip);
     if (scene.camera.clipFromWorld == clipFromWorld && scene.camera.position == position) return;
     scene.camera = {.clipFromWorld = clipFromWorld,

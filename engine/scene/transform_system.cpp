@@ -21,11 +21,13 @@ bool update(WorldTransform& world, const WorldTransform& fresh) {
 }  // namespace
 
 void updateRootTransforms(View<Changed<const LocalTransform>, WorldTransform, Without<Parent>> roots) {
-    roots.each([](const LocalTransform& local, WorldTransform& world) { return update(world, place(local, {})); });
+    roots.each(
+        [](const LocalTransform& local, WorldTransform& world) { return update(world, place(local, {})); });
 }
 
-void updateChildTransforms(View<const LocalTransform, const Parent, const HierarchyDepth, WorldTransform> children,
-                           Lookup<const WorldTransform> parents, Res<const HierarchyLevels> levels) {
+void updateChildTransforms(
+    View<const LocalTransform, const Parent, const HierarchyDepth, WorldTransform> children,
+    Lookup<const WorldTransform> parents, Res<const HierarchyLevels> levels) {
     for (uint32_t depth = 1; depth <= levels->deepest; ++depth)
         children.each([&](const LocalTransform& local, const Parent& parent, const HierarchyDepth& at,
                           WorldTransform& world) {

@@ -12,7 +12,8 @@ struct HierarchyLevels {  // resource
 
 void updateRootTransforms(View<Changed<const LocalTransform>, WorldTransform, Without<Parent>> roots);
 // Writes a child only if its transform differs: what stands still stays unchanged for everyone after.
-void updateChildTransforms(View<const LocalTransform, const Parent, const HierarchyDepth, WorldTransform> children,
-                           Lookup<const WorldTransform> parents, Res<const HierarchyLevels> levels);
+void updateChildTransforms(
+    View<const LocalTransform, const Parent, const HierarchyDepth, WorldTransform> children,
+    Lookup<const WorldTransform> parents, Res<const HierarchyLevels> levels);
 
 }  // namespace ag

@@ -7,9 +7,9 @@ namespace ag::game {
 namespace {
 
 constexpr float kRadiansPerPixel = 0.0025f;
-constexpr float kMostPitch = 1.45f;      // rad
-constexpr double kWalkSpeed = 2.2;       // m/s
-constexpr double kBodyRadius = 0.25;     // m
+constexpr float kMostPitch = 1.45f;   // rad
+constexpr double kWalkSpeed = 2.2;    // m/s
+constexpr double kBodyRadius = 0.25;  // m
 
 glm::quat lookAlong(float yaw, float pitch) {
     return glm::angleAxis(-yaw, glm::vec3(0, 1, 0)) * glm::angleAxis(pitch, glm::vec3(1, 0, 0));
@@ -33,10 +33,12 @@ glm::dvec2 pushOut(glm::dvec2 at, const LocalTransform& box, const Collider& col
 
 }  // namespace
 
-glm::vec3 viewDirection(float yaw, float pitch) { return lookAlong(yaw, pitch) * glm::vec3(0, 0, -1); }
+glm::vec3 viewDirection(float yaw, float pitch) {
+    return lookAlong(yaw, pitch) * glm::vec3(0, 0, -1);
+}
 
-void walkPlayer(View<const LocalTransform, const Collider> solids, Res<const Input> input, Res<const GameTime> time,
-                Res<const Walkable> walkable, Res<Player> player) {
+void walkPlayer(View<const LocalTransform, const Collider> solids, Res<const Input> input,
+                Res<const GameTime> time, Res<const Walkable> walkable, Res<Player> player) {
     if (!input->lampFree) {
         player->yaw = std::remainder(player->yaw + input->look.x * kRadiansPerPixel, 6.2831853f);
         player->pitch = std::clamp(player->pitch - input->look.y * kRadiansPerPixel, -kMostPitch, kMostPitch);
@@ -45,7 +47,8 @@ void walkPlayer(View<const LocalTransform, const Collider> solids, Res<const Inp
     glm::dvec2 way = ahead * double(input->forward) + glm::dvec2(-ahead.y, ahead.x) * double(input->right);
     if (const double length = glm::length(way); length > 1) way /= length;
     glm::dvec2 at = glm::dvec2(player->position.x, player->position.z) + way * (kWalkSpeed * time->step);
-    solids.each([&](const LocalTransform& box, const Collider& collider) { at = pushOut(at, box, collider); });
+    solids.each(
+        [&](const LocalTransform& box, const Collider& collider) { at = pushOut(at, box, collider); });
     at = glm::clamp(at, walkable->min + kBodyRadius, walkable->max - kBodyRadius);
     player->position.x = at.x;
     player->position.z = at.y;

@@ -9,8 +9,8 @@
 
 namespace ag::game {
 
-void walkPlayer(View<const LocalTransform, const Collider> solids, Res<const Input> input, Res<const GameTime> time,
-                Res<const Walkable> walkable, Res<Player> player);
+void walkPlayer(View<const LocalTransform, const Collider> solids, Res<const Input> input,
+                Res<const GameTime> time, Res<const Walkable> walkable, Res<Player> player);
 // The lamp in the hand: below and beside the eyes, along the view, moved on its own while the button is held.
 void aimLamp(View<LocalTransform, HandLamp> lamps, Res<const Input> input, Res<const Player> player);
 void followPlayer(Res<const Player> player, Res<ActiveCamera> camera);

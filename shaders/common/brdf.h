@@ -6,7 +6,9 @@
 
 AG_BEGIN
 
-AG_FUNCTION vec3 diffuseAlbedo(vec3 baseColor, float metallic) { return baseColor * (1.0f - metallic); }
+AG_FUNCTION vec3 diffuseAlbedo(vec3 baseColor, float metallic) {
+    return baseColor * (1.0f - metallic);
+}
 
 AG_END
 #endif

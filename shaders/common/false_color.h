@@ -10,7 +10,8 @@ AG_BEGIN
 AG_FUNCTION vec3 hueFromIndex(uint i) {
     float hue = fract(float(i % 1024u) * 0.61803399f);
     float value = 0.65f + 0.35f * hashToUnit(i);
-    vec3 wheel = abs(fract(vec3(hue) + vec3(0.0f, 2.0f / 3.0f, 1.0f / 3.0f)) * 6.0f - vec3(3.0f)) - vec3(1.0f);
+    vec3 wheel =
+        abs(fract(vec3(hue) + vec3(0.0f, 2.0f / 3.0f, 1.0f / 3.0f)) * 6.0f - vec3(3.0f)) - vec3(1.0f);
     return mix(vec3(1.0f), clamp(wheel, vec3(0.0f), vec3(1.0f)), 0.75f) * value;
 }
 

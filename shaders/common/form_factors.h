@@ -1,5 +1,6 @@
-// Irradiance terms of small diffuse emitters: E = flux x term, with flux in W and term in 1/m². Receiver at x with
-// normal n; emitter at c with normal m (method notes on virtual area lights; the rectangle after Lambert 1760).
+// Irradiance terms of small diffuse emitters: E = flux x term, with flux in W and term in 1/m². Receiver at x
+// with normal n; emitter at c with normal m (method notes on virtual area lights; the rectangle after Lambert
+// 1760).
 #ifndef AG_FORM_FACTORS_H
 #define AG_FORM_FACTORS_H
 
@@ -23,10 +24,10 @@ AG_FUNCTION float diskPublishedTerm(vec3 x, vec3 n, vec3 c, vec3 m, float area) 
     return cosines / (d2 * (kPi * d2 + area));
 }
 
-// The disk's vector irradiance in closed form: its length L times the receiver's cosine c, with a smooth horizon of
-// half width s = sqrt(L): L (c + s)² / (4 s) for |c| < s. With a = p² - r² and q² = a² + 4 r² h² the length is
-// L² = 4 r⁴ h² / (q (p² + r² + q) (q + a)); nothing cancels far away or at the disk's rim. Returns the form factor:
-// E = flux / area x factor.
+// The disk's vector irradiance in closed form: its length L times the receiver's cosine c, with a smooth
+// horizon of half width s = sqrt(L): L (c + s)² / (4 s) for |c| < s. With a = p² - r² and q² = a² + 4 r² h²
+// the length is L² = 4 r⁴ h² / (q (p² + r² + q) (q + a)); nothing cancels far away or at the disk's rim.
+// Returns the form factor: E = flux / area x factor.
 AG_FUNCTION float diskVectorFactor(vec3 x, vec3 n, vec3 c, vec3 m, float radiusSquared) {
     vec3 p = x - c;
     float h = dot(p, m);
@@ -37,9 +38,9 @@ AG_FUNCTION float diskVectorFactor(vec3 x, vec3 n, vec3 c, vec3 m, float radiusS
     float q = sqrt(a * a + 4.0f * r2 * h * h);
     float b = max(q + a, 1e-6f * r2);
     float scale = g / max(q * (p2 + r2 + q) * b, 1e-30f);
-    float l2 = min(scale * g, 1.0f);                     // L²
-    float lc = -(l2 * dot(n, m) + scale * b * dot(n, p)); // L c
-    float ls = sqrt(l2 * sqrt(max(l2, 1e-30f)));          // L s
+    float l2 = min(scale * g, 1.0f);                       // L²
+    float lc = -(l2 * dot(n, m) + scale * b * dot(n, p));  // L c
+    float ls = sqrt(l2 * sqrt(max(l2, 1e-30f)));           // L s
     float sum = max(lc + ls, 0.0f);
     float f = lc >= ls ? lc : 0.25f * sum * sum / max(ls, 1e-20f);
     return h > 0.0f ? f : 0.0f;
@@ -53,7 +54,8 @@ AG_FUNCTION float edgeTerm(vec3 a, vec3 b, vec3 n) {
     return acos(clamp(dot(a, b), -1.0f, 1.0f)) * dot(axis, n) / sine;
 }
 
-// Lambert's polygon form factor of a rectangle with half sides u, v about c, clipped at the receiver's horizon.
+// Lambert's polygon form factor of a rectangle with half sides u, v about c, clipped at the receiver's
+// horizon.
 AG_FUNCTION float rectangleTerm(vec3 x, vec3 n, vec3 c, vec3 m, vec3 u, vec3 v) {
     if (dot(x - c, m) <= 0.0f) return 0.0f;
     vec3 corner[4];

@@ -7,7 +7,8 @@
 AG_BEGIN
 
 AG_FUNCTION vec2 octFold(vec2 e) {
-    return vec2((1.0f - abs(e.y)) * (e.x >= 0.0f ? 1.0f : -1.0f), (1.0f - abs(e.x)) * (e.y >= 0.0f ? 1.0f : -1.0f));
+    return vec2((1.0f - abs(e.y)) * (e.x >= 0.0f ? 1.0f : -1.0f),
+                (1.0f - abs(e.x)) * (e.y >= 0.0f ? 1.0f : -1.0f));
 }
 
 AG_FUNCTION vec2 octEncode(vec3 n) {

@@ -9,9 +9,9 @@
 
 namespace ag::io {
 using uint = uint32_t;
-using glm::ivec4, glm::mat4, glm::uvec2, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using glm::abs, glm::clamp, glm::cross, glm::dot, glm::floor, glm::fract, glm::greaterThan, glm::inversesqrt,
     glm::length, glm::max, glm::min, glm::mix, glm::normalize, glm::sign;
+using glm::ivec4, glm::mat4, glm::uvec2, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 using std::acos, std::cos, std::exp2, std::log2, std::pow, std::sin, std::sqrt;
 }  // namespace ag::io
 #define AG_FUNCTION inline

@@ -26,9 +26,13 @@ AG_FUNCTION float radicalInverse3(uint index) {
     return min(result, 0.99999994f);
 }
 
-AG_FUNCTION vec2 halton23(uint index) { return vec2(radicalInverse2(index), radicalInverse3(index)); }
+AG_FUNCTION vec2 halton23(uint index) {
+    return vec2(radicalInverse2(index), radicalInverse3(index));
+}
 
-AG_FUNCTION vec2 hammersley(uint i, uint n) { return vec2((float(i) + 0.5f) / float(n), radicalInverse2(i)); }
+AG_FUNCTION vec2 hammersley(uint i, uint n) {
+    return vec2((float(i) + 0.5f) / float(n), radicalInverse2(i));
+}
 
 // A permutation-congruential mixer: neighbours in, unrelated numbers out.
 AG_FUNCTION uint hashUint(uint x) {
@@ -37,7 +41,9 @@ AG_FUNCTION uint hashUint(uint x) {
     return (word >> 22u) ^ word;
 }
 
-AG_FUNCTION float hashToUnit(uint x) { return float(hashUint(x) >> 8u) / 16777216.0f; }
+AG_FUNCTION float hashToUnit(uint x) {
+    return float(hashUint(x) >> 8u) / 16777216.0f;
+}
 
 // Two unit vectors that make a right-handed frame with n.
 AG_FUNCTION void orthonormalBasis(vec3 n, AG_OUT(vec3) t, AG_OUT(vec3) b) {

@@ -20,7 +20,9 @@ AG_FUNCTION vec3 linearFromSrgb(vec3 c) {
 }
 
 // Reinhard 2002, per channel.
-AG_FUNCTION vec3 tonemapReinhard(vec3 c) { return c / (vec3(1.0f) + c); }
+AG_FUNCTION vec3 tonemapReinhard(vec3 c) {
+    return c / (vec3(1.0f) + c);
+}
 
 // A rational curve near the ACES reference transform (Narkowicz 2015's coefficients).
 AG_FUNCTION vec3 tonemapAcesLike(vec3 c) {

@@ -8,18 +8,18 @@
 namespace ag::io {
 #endif
 
-const uint kImportanceBlock = 4;    // texels along a block's side
-const uint kViewPointCount = 256;   // G-buffer samples the view term averages over (RSMC: 256)
+const uint kImportanceBlock = 4;   // texels along a block's side
+const uint kViewPointCount = 256;  // G-buffer samples the view term averages over (RSMC: 256)
 
 struct ViewPoint {  // 2 vec4
     vec3 position;
     float weight;  // 1, or 0 where the pixel shows no surface
     vec3 normal;
-    float depth;   // reversed depth of the pixel, 0: sky
+    float depth;  // reversed depth of the pixel, 0: sky
 };
 
 struct ImportanceSettings {  // push constants
-    uvec2 atlasSize;     // texels
+    uvec2 atlasSize;         // texels
     uint faceCount;
     uint pyramidStride;  // floats a face
     float viewWeight;    // w_v of ACRSM eq. 4.3, 0: flux alone

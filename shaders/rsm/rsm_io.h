@@ -15,39 +15,39 @@ const uint kRsmTileSize = 16;  // texels; faces start and end on tile borders
 struct RsmFace {  // 9 vec4
     mat4 worldFromClip;
     mat4 clipFromWorld;
-    uvec2 origin;   // first texel in the atlas
-    uint size;      // texels along a side
-    uint map;       // which RsmMap it belongs to
+    uvec2 origin;  // first texel in the atlas
+    uint size;     // texels along a side
+    uint map;      // which RsmMap it belongs to
 };
 
-struct RsmMap {  // all faces of one bounce light
-    vec3 position;   // m
-    uint kind;       // kLightDirectional, kLightPoint, kLightSpot
+struct RsmMap {     // all faces of one bounce light
+    vec3 position;  // m
+    uint kind;      // kLightDirectional, kLightPoint, kLightSpot
     vec3 direction;
     float range;
     vec3 intensity;  // W/sr; directional: W/m²
     float cosInner;
     float cosOuter;
-    float tanHalf;     // of a perspective face's opening; directional: half its width in m
+    float tanHalf;  // of a perspective face's opening; directional: half its width in m
     uint firstFace;
     uint faceCount;
     uint firstCluster;
     uint clusterCount;
-    uint lightIdLow;   // stable identity, to carry clusters over
+    uint lightIdLow;       // stable identity, to carry clusters over
     uint candidateRadius;  // tiles: clusters this near to a texel's tile are candidates for it
 };
 
-struct RsmTexel {  // 3 vec4; a texel is a small emitter (method: RSM)
-    vec3 position;    // m
-    float area;       // m²
-    vec3 normal;      // unit
-    float weight;     // mean of the flux's channels, W; 0: unlit, no emitter
-    vec3 flux;        // reflected, W
+struct RsmTexel {         // 3 vec4; a texel is a small emitter (method: RSM)
+    vec3 position;        // m
+    float area;           // m²
+    vec3 normal;          // unit
+    float weight;         // mean of the flux's channels, W; 0: unlit, no emitter
+    vec3 flux;            // reflected, W
     float emitterCosine;  // light to normal at the texel, for diagnostics
 };
 
 struct RsmAtlas {  // push constants of the passes that walk the atlas
-    uvec2 size;      // texels, whole tiles
+    uvec2 size;    // texels, whole tiles
     uint faceCount;
     uint mapCount;
 };

@@ -1,5 +1,5 @@
-// The scene as the GPU sees it. Positions in metres relative to RenderScene::originWorld. Scalar layout; arrays
-// that shaders read through texel buffers are whole vec4s.
+// The scene as the GPU sees it. Positions in metres relative to RenderScene::originWorld. Scalar layout;
+// arrays that shaders read through texel buffers are whole vec4s.
 #ifndef AG_SCENE_IO_H
 #define AG_SCENE_IO_H
 
@@ -19,23 +19,23 @@ struct CameraConstants {
     uvec2 size;     // pixels
 };
 
-struct Instance {  // 4 vec4
+struct Instance {          // 4 vec4
     vec4 worldFromLocal0;  // rows of the 3x4 matrix
     vec4 worldFromLocal1;
     vec4 worldFromLocal2;
     uvec4 ids;  // x: material, y: primitive
 };
 
-struct Material {  // 6 vec4
-    vec4 baseColor;        // linear factor
-    vec3 emissive;         // W/(m² sr)
-    float alphaCutoff;     // 0 unless masked
+struct Material {       // 6 vec4
+    vec4 baseColor;     // linear factor
+    vec3 emissive;      // W/(m² sr)
+    float alphaCutoff;  // 0 unless masked
     float metallic;
     float roughness;
     float specular;
     float normalScale;
-    ivec4 layers;          // base colour, emissive, normal, metallic-roughness; -1: none
-    vec4 uvRow0;           // u' = dot(row.xy, uv) + row.z; row0.w: 1 if double sided
+    ivec4 layers;  // base colour, emissive, normal, metallic-roughness; -1: none
+    vec4 uvRow0;   // u' = dot(row.xy, uv) + row.z; row0.w: 1 if double sided
     vec4 uvRow1;
 };
 
@@ -43,8 +43,8 @@ const uint kLightDirectional = 0;
 const uint kLightPoint = 1;
 const uint kLightSpot = 2;
 
-struct Light {  // 4 vec4
-    vec3 position;   // m
+struct Light {      // 4 vec4
+    vec3 position;  // m
     uint kind;
     vec3 direction;  // the way the light travels, unit
     float range;     // m, 0: no limit

@@ -1,4 +1,5 @@
-// Shadow views: squares of a depth atlas, one for a spot light, six for a point light, one a cascade of the sun.
+// Shadow views: squares of a depth atlas, one for a spot light, six for a point light, one a cascade of the
+// sun.
 #ifndef AG_SHADOW_MAPS_IO_H
 #define AG_SHADOW_MAPS_IO_H
 
@@ -12,12 +13,12 @@ const uint kMaxShadowViews = 32;
 const uint kMaxCascades = 4;
 
 struct ShadowView {
-    mat4 clipFromWorld;  // reversed depth
-    uvec2 origin;        // first texel in the atlas
-    uint size;           // texels along a side
-    float texelSize;     // m: directional: of a texel; perspective: of a texel at 1 m
-    float depthPerMetre; // directional: reversed depth a metre takes; perspective: 0
-    float farDistance;   // m along the camera's axis this cascade reaches; 0: not a cascade
+    mat4 clipFromWorld;   // reversed depth
+    uvec2 origin;         // first texel in the atlas
+    uint size;            // texels along a side
+    float texelSize;      // m: directional: of a texel; perspective: of a texel at 1 m
+    float depthPerMetre;  // directional: reversed depth a metre takes; perspective: 0
+    float farDistance;    // m along the camera's axis this cascade reaches; 0: not a cascade
 };
 
 #ifdef __cplusplus

@@ -11,38 +11,38 @@ namespace ag::io {
 const uint kMaxClusters = 1024;
 const uint kMaxCandidates = 256;  // a tile considers at most so many clusters
 const uint kNoCluster = 0xffffffffu;
-const uint kPartialVec4s = 5;     // sums a tile keeps for each of its candidates
+const uint kPartialVec4s = 5;  // sums a tile keeps for each of its candidates
 
 struct ClusterSeed {  // 3 vec4: what a texel is compared with
-    vec3 position;  // m
-    uint tile;      // linear tile index in the atlas; kNoCluster: the seed is dead this frame
+    vec3 position;    // m
+    uint tile;        // linear tile index in the atlas; kNoCluster: the seed is dead this frame
     vec3 normal;
     uint map;
-    vec3 chroma;    // flux / |flux|
-    float age;      // steps since it was seeded
+    vec3 chroma;  // flux / |flux|
+    float age;    // steps since it was seeded
 };
 
-struct Cluster {  // 6 vec4: the state after a step
-    vec3 position;  // flux-weighted mean, m
-    float area;     // sum over its texels, m²
-    vec3 normal;    // unit
+struct Cluster {       // 6 vec4: the state after a step
+    vec3 position;     // flux-weighted mean, m
+    float area;        // sum over its texels, m²
+    vec3 normal;       // unit
     float texelCount;  // 0: empty, seeded anew in the next step
-    vec3 flux;      // sum over its texels, W
+    vec3 flux;         // sum over its texels, W
     uint lightIdLow;
     vec3 chroma;
-    float age;      // steps since seeded
+    float age;                // steps since seeded
     vec3 covarianceDiagonal;  // xx yy zz, m², flux-weighted
     uint map;
-    vec3 covarianceMixed;     // xy xz yz, m²
-    float cosineSpread;       // |mean of normals| before normalising: 1 flat, 0 all round
+    vec3 covarianceMixed;  // xy xz yz, m²
+    float cosineSpread;    // |mean of normals| before normalising: 1 flat, 0 all round
 };
 
 struct ClusterSettings {  // push constants
-    vec3 metricWeights;  // distance [1/m²], normal, chroma
+    vec3 metricWeights;   // distance [1/m²], normal, chroma
     uint clusterCount;
-    uvec2 atlasSize;     // texels
+    uvec2 atlasSize;  // texels
     uint mapCount;
-    uint step;           // counts clustering steps: varies the reseeding sequence
+    uint step;  // counts clustering steps: varies the reseeding sequence
 };
 
 #ifdef __cplusplus

@@ -8,7 +8,7 @@
 namespace ag::io {
 #endif
 
-struct Val {  // 3 vec4; black lights pad the list to whole subgroups
+struct Val {        // 3 vec4; black lights pad the list to whole subgroups
     vec3 position;  // m
     float area;     // m²
     vec3 normal;    // unit

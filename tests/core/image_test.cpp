@@ -14,11 +14,14 @@ namespace fs = std::filesystem;
 Image ramp(int width, int height) {
     Image image(width, height);
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) image.at(x, y) = {float(x) * 0.25f, float(y) * 3.0f, 1e-3f * float(x * y)};
+        for (int x = 0; x < width; ++x)
+            image.at(x, y) = {float(x) * 0.25f, float(y) * 3.0f, 1e-3f * float(x * y)};
     return image;
 }
 
-std::string file(const char* name) { return (fs::path(testing::TempDir()) / name).string(); }
+std::string file(const char* name) {
+    return (fs::path(testing::TempDir()) / name).string();
+}
 
 TEST(ImageFiles, FloatsSurviveExactly) {
     const Image image = ramp(17, 9);
@@ -47,8 +50,10 @@ TEST(ImageFiles, RefuseWithASentenceAndLeaveNothing) {
 
 TEST(ImageMetrics, KnownDifferences) {
     Image truth(10, 10), test(10, 10);
-    for (auto& p : truth.pixels) p = glm::vec3(2);
-    for (auto& p : test.pixels) p = glm::vec3(2.2f);
+    for (auto& p : truth.pixels)
+        p = glm::vec3(2);
+    for (auto& p : test.pixels)
+        p = glm::vec3(2.2f);
     const auto d = compareImages(truth, test);
     ASSERT_TRUE(d);
     EXPECT_NEAR(d->meanRatio, 1.1, 1e-6);

@@ -85,12 +85,24 @@ TEST(Ecs, BehavesLikeANaiveModel) {
         const auto it = pick();
         auto& [entity, m] = it->second;
         switch (what) {
-            case 2: world.destroy(entity), model.erase(it); break;
-            case 3: world.add(entity, Health{i}), m.health = Health{i}; break;
-            case 4: world.remove<Health>(entity), m.health.reset(); break;
-            case 5: world.add(entity, Frozen{}), m.frozen = true; break;
-            case 6: world.remove<Position>(entity), m.position.reset(); break;
-            default: world.add(entity, p), m.position = p; break;
+            case 2:
+                world.destroy(entity), model.erase(it);
+                break;
+            case 3:
+                world.add(entity, Health{i}), m.health = Health{i};
+                break;
+            case 4:
+                world.remove<Health>(entity), m.health.reset();
+                break;
+            case 5:
+                world.add(entity, Frozen{}), m.frozen = true;
+                break;
+            case 6:
+                world.remove<Position>(entity), m.position.reset();
+                break;
+            default:
+                world.add(entity, p), m.position = p;
+                break;
         }
     }
     ASSERT_EQ(world.entityCount(), model.size());
@@ -134,7 +146,8 @@ TEST(Ecs, ChangeIsSeenOnceAlsoFromALaterWriter) {
     World world;
     JobRunner one(1);
     world.setResource<Score>();
-    for (int i = 0; i < 3000; ++i) world.create(Position{}, Health{i});
+    for (int i = 0; i < 3000; ++i)
+        world.create(Position{}, Health{i});
     int seen = 0, writes = 1;
     Schedule s;
     s.add("read", [&seen](View<Changed<const Health>> changed) { seen += int(changed.count()); });
@@ -153,9 +166,11 @@ TEST(Ecs, ChangeIsSeenOnceAlsoFromALaterWriter) {
 
 TEST(Ecs, RowsThatSayTheyChangedAreMarked) {
     World world;
-    for (int i = 0; i < 100; ++i) world.create(Streamed{float(i)});
+    for (int i = 0; i < 100; ++i)
+        world.create(Streamed{float(i)});
     Archetype& archetype = world.archetypes().front();
-    for (auto& chunk : archetype.chunks) std::ranges::fill(chunk->dirtyRows, 0);
+    for (auto& chunk : archetype.chunks)
+        std::ranges::fill(chunk->dirtyRows, 0);
     View<Streamed>(world, {.version = 9999}).each([](Streamed& s) {
         const bool changed = s.value == 3 || s.value == 64;
         if (changed) s.value = -1;
@@ -179,13 +194,16 @@ void bury(View<const Health> all, Commands& commands) {
     all.each([&](Entity e, const Health& h) {
         if (h.points > 0) return;
         commands.destroy(e);
-        commands.create(Position{float(e.index), 0, 0}, Velocity{1, 2, 3}, Health{50 + int32_t(e.index % 37)});
+        commands.create(Position{float(e.index), 0, 0}, Velocity{1, 2, 3},
+                        Health{50 + int32_t(e.index % 37)});
     });
 }
 void fall(View<Velocity> all) {
     all.each([](Velocity& v) { v.y -= 0.01f; });
 }
-void land(World& world) { world.resource<Score>().total += int(world.entityCount()); }
+void land(World& world) {
+    world.resource<Score>().total += int(world.entityCount());
+}
 
 Schedule exampleSchedule() {
     Schedule s;
@@ -222,7 +240,8 @@ uint64_t simulate(uint32_t threads) {
     }
     Schedule s = exampleSchedule();
     JobRunner runner(threads);
-    for (int frame = 0; frame < 200; ++frame) s.run(world, runner);
+    for (int frame = 0; frame < 200; ++frame)
+        s.run(world, runner);
     EXPECT_NE(world.resource<Score>().total, 0);
     return world.stateHash() ^ uint64_t(world.resource<Score>().total);
 }
@@ -236,7 +255,8 @@ TEST(Schedule, ThreadsDoNotChangeTheWorld) {
 TEST(Schedule, ParallelLoopsGiveTheSameRows) {
     World a, b;
     for (World* w : {&a, &b})
-        for (int i = 0; i < 50000; ++i) w->create(Position{float(i), 0, 0}, Velocity{0.5f, 1, 2});
+        for (int i = 0; i < 50000; ++i)
+            w->create(Position{float(i), 0, 0}, Velocity{0.5f, 1, 2});
     const auto step = [](Position& p, const Velocity& v) { p.x = p.x * 0.5f + v.x, p.y += v.y; };
     JobRunner two(2);
     View<Position, const Velocity>(a, {.version = 5000}).each(step);
@@ -246,7 +266,8 @@ TEST(Schedule, ParallelLoopsGiveTheSameRows) {
 
 TEST(Jobs, RunInAnOrderTheEdgesAllow) {
     JobGraph graph;
-    for (int i = 0; i < 64; ++i) graph.add("job " + std::to_string(i));
+    for (int i = 0; i < 64; ++i)
+        graph.add("job " + std::to_string(i));
     for (uint32_t i = 0; i < 64; ++i)
         for (uint32_t j = i + 1; j < 64; ++j)
             if ((i * 7 + j) % 11 == 0) graph.edge(i, j);
@@ -260,7 +281,8 @@ TEST(Jobs, RunInAnOrderTheEdgesAllow) {
             done[node] = 1;
         });
         EXPECT_EQ(early, 0);
-        for (auto& d : done) EXPECT_EQ(d, 1);
+        for (auto& d : done)
+            EXPECT_EQ(d, 1);
     }
 }
 

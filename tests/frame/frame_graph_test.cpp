@@ -10,8 +10,8 @@ namespace ag {
 namespace {
 
 constexpr ImageInfo kImage{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = {64, 64}};
-constexpr ImageInfo kScratchImage{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = {64, 64},
-                                  .lifetime = Lifetime::kScratch};
+constexpr ImageInfo kScratchImage{
+    .format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = {64, 64}, .lifetime = Lifetime::kScratch};
 constexpr BufferInfo kBuffer{.sizeBytes = 1024};
 
 struct NullGraph : testing::Test {
@@ -21,7 +21,8 @@ struct NullGraph : testing::Test {
     std::map<std::string, PassOutcome> run() {
         g.execute(VK_NULL_HANDLE);
         std::map<std::string, PassOutcome> outcomes;
-        for (const PassReport& pass : g.report()) outcomes[std::string(pass.name)] = pass.outcome;
+        for (const PassReport& pass : g.report())
+            outcomes[std::string(pass.name)] = pass.outcome;
         return outcomes;
     }
     const PassRecord& record(std::string_view name) {
@@ -125,7 +126,8 @@ TEST_F(NullGraph, BarriersByKindOfUse) {
 void declareAccumulation(FrameGraph& g, uint64_t earlyVersion, uint64_t lateVersion) {
     const BufferHandle sum = g.buffer("sum", kBuffer), early = g.buffer("early", kBuffer),
                        late = g.buffer("late", kBuffer);
-    const BufferHandle e = g.importBuffer("e", kBuffer, earlyVersion), l = g.importBuffer("l", kBuffer, lateVersion);
+    const BufferHandle e = g.importBuffer("e", kBuffer, earlyVersion),
+                       l = g.importBuffer("l", kBuffer, lateVersion);
     g.fill("clear", sum, 0);
     g.compute("add", "add.comp").readWrite("sum", sum).dispatchThreads(1);
     g.compute("early", "early.comp").read("sum", sum).read("e", e).write("early", early).dispatchThreads(1);
@@ -138,7 +140,8 @@ void declareAccumulation(FrameGraph& g, uint64_t earlyVersion, uint64_t lateVers
 TEST_F(NullGraph, ChainsOfWritesRunFromTheirStartWhenAnEarlyVersionIsNeeded) {
     g.beginFrame(options);
     declareAccumulation(g, 1, 1);
-    for (const auto& [name, outcome] : run()) EXPECT_EQ(outcome, PassOutcome::kRan) << name;
+    for (const auto& [name, outcome] : run())
+        EXPECT_EQ(outcome, PassOutcome::kRan) << name;
 
     g.beginFrame(options);
     declareAccumulation(g, 1, 2);
@@ -168,8 +171,12 @@ void declareHistory(FrameGraph& g, uint64_t version, uint64_t step) {
     const BufferHandle source = g.importBuffer("source", kBuffer, version);
     const HistoryBuffer h = g.historyBuffer("history", kBuffer);
     const BufferHandle out = g.buffer("out", kBuffer);
-    g.compute("step", "step.comp").read("source", source).readPrevious("previous", h).write("current", h.current)
-        .step(step).dispatchThreads(1);
+    g.compute("step", "step.comp")
+        .read("source", source)
+        .readPrevious("previous", h)
+        .write("current", h.current)
+        .step(step)
+        .dispatchThreads(1);
     g.compute("use", "use.comp").read("current", h.current).write("out", out).dispatchThreads(1);
     g.output(out);
 }
@@ -185,7 +192,8 @@ TEST_F(NullGraph, HistoriesStepOnlyWhenTheirInputsDo) {
     EXPECT_EQ(frame(1, 1).at("step"), PassOutcome::kRan) << "a step asked for";
     EXPECT_EQ(frame(1, 1).at("use"), PassOutcome::kSkipped);
     EXPECT_EQ(frame(2, 1).at("use"), PassOutcome::kRan);
-    EXPECT_EQ(frame(1, 1).at("use"), PassOutcome::kRan) << "going back is a step too: the past is another one";
+    EXPECT_EQ(frame(1, 1).at("use"), PassOutcome::kRan)
+        << "going back is a step too: the past is another one";
 }
 
 TEST_F(NullGraph, ScratchIsMadeAgainOnlyForConsumersThatRun) {
@@ -193,7 +201,8 @@ TEST_F(NullGraph, ScratchIsMadeAgainOnlyForConsumersThatRun) {
         g.beginFrame(options);
         const ImageHandle s1 = g.image("s1", kScratchImage), s2 = g.image("s2", kScratchImage);
         const ImageHandle o1 = g.image("o1", kImage), o2 = g.image("o2", kImage);
-        const BufferHandle i1 = g.importBuffer("i1", kBuffer, first), i2 = g.importBuffer("i2", kBuffer, second);
+        const BufferHandle i1 = g.importBuffer("i1", kBuffer, first),
+                           i2 = g.importBuffer("i2", kBuffer, second);
         g.compute("fill.s1", "f.comp").write("s1", s1).dispatchThreads(1);
         g.compute("use.s1", "u.comp").read("s1", s1).read("i1", i1).write("o1", o1).dispatchThreads(1);
         g.compute("fill.s2", "f2.comp").write("s2", s2).dispatchThreads(1);
@@ -202,8 +211,10 @@ TEST_F(NullGraph, ScratchIsMadeAgainOnlyForConsumersThatRun) {
         g.output(o2);
         return run();
     };
-    for (const auto& [name, outcome] : declare(1, 1)) EXPECT_EQ(outcome, PassOutcome::kRan) << name;
-    for (const auto& [name, outcome] : declare(1, 1)) EXPECT_EQ(outcome, PassOutcome::kSkipped) << name;
+    for (const auto& [name, outcome] : declare(1, 1))
+        EXPECT_EQ(outcome, PassOutcome::kRan) << name;
+    for (const auto& [name, outcome] : declare(1, 1))
+        EXPECT_EQ(outcome, PassOutcome::kSkipped) << name;
     auto outcome = declare(2, 1);
     EXPECT_EQ(outcome.at("fill.s1"), PassOutcome::kRan) << "s2 took its memory";
     EXPECT_EQ(outcome.at("use.s1"), PassOutcome::kRan);

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the passes and
-// synchronization validation proves them.
+// A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
+// passes and synchronization validation proves them.
 struct Bench {
     explicit Bench(SceneAsset built, glm::uvec2 pixels = {160, 96})
         : asset(std::move(built)), scene(staticScene(asset)), size(pixels), renderer(test::device()) {
@@ -28,18 +28,19 @@ struct Bench {
         options.timing = TimingMode::kOff;
     }
     void frame() {
-        renderer.render(scene, size, settings, options,
-                        [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
-                            last = declared;
-                            graph.output(declared.outputs.display);
-                            graph.output(declared.outputs.radiance);
-                            if (declared.rsm.empty()) return;
-                            for (BufferHandle b : {declared.rsm.texels, declared.clusters.clusters,
-                                                   declared.clusters.seeds, declared.clusters.candidates,
-                                                   declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
-                                graph.output(b);
-                            graph.output(declared.bounce1.image);
-                        });
+        renderer.render(
+            scene, size, settings, options,
+            [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                last = declared;
+                graph.output(declared.outputs.display);
+                graph.output(declared.outputs.radiance);
+                if (declared.rsm.empty()) return;
+                for (BufferHandle b : {declared.rsm.texels, declared.clusters.clusters,
+                                       declared.clusters.seeds, declared.clusters.candidates,
+                                       declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
+                    graph.output(b);
+                graph.output(declared.bounce1.image);
+            });
     }
     template <class T>
     std::vector<T> read(BufferHandle buffer) {
@@ -51,7 +52,8 @@ struct Bench {
     }
     int passesRun() {
         int count = 0;
-        for (const PassReport& pass : renderer.graph().report()) count += pass.outcome == PassOutcome::kRan;
+        for (const PassReport& pass : renderer.graph().report())
+            count += pass.outcome == PassOutcome::kRan;
         return count;
     }
 
@@ -73,7 +75,8 @@ SceneAsset plane(float albedo) {
 
 double totalFlux(const std::vector<io::RsmTexel>& texels) {
     double sum = 0;
-    for (const io::RsmTexel& t : texels) sum += double(t.flux.x);
+    for (const io::RsmTexel& t : texels)
+        sum += double(t.flux.x);
     return sum;
 }
 
@@ -89,7 +92,8 @@ TEST(Rsm, SpotFluxOnAPlaneIsTheConesPower) {
                        .bounces = true,
                        .id = 1}};
     b.frame();
-    // Integral of t² over the cone, t linear in the cosine from outer to inner: a third of the rim's width counts.
+    // Integral of t² over the cone, t linear in the cosine from outer to inner: a third of the rim's width
+    // counts.
     const double rim = std::cos(inner) - std::cos(outer);
     const double truth = 0.6 * intensity * 2 * kPi * ((1 - std::cos(inner)) + rim / 3);
     EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels)) / truth, 1, 0.01);
@@ -108,7 +112,8 @@ TEST(Rsm, SunFluxOnAPlaneIsItsCrossSection) {
     const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
     EXPECT_NEAR(totalFlux(texels) / truth, 1, 0.01);
     double area = 0;
-    for (const io::RsmTexel& t : texels) area += t.weight > 0 ? double(t.area) : 0;
+    for (const io::RsmTexel& t : texels)
+        area += t.weight > 0 ? double(t.area) : 0;
     EXPECT_NEAR(area / 1600, 1, 0.01) << "texel areas add up to the plane's";
 }
 
@@ -164,7 +169,8 @@ void checkAssignmentTwin(Bench& b) {
                                      seed.chroma, weights);
         };
         float best = 1e30f;
-        for (uint32_t slot = 0; slot < counts[tile]; ++slot) best = std::min(best, metric(slot));
+        for (uint32_t slot = 0; slot < counts[tile]; ++slot)
+            best = std::min(best, metric(slot));
         ASSERT_NEAR(metric(slots[i]), best, 1e-5f + 1e-4f * best) << "texel " << i;
         ++checked;
     }
@@ -190,19 +196,21 @@ TEST(ValClustering, KeepsFluxAndMembershipWhileTheLightMoves) {
 
 TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
     Bench furnace(*scenegen::buildScene("furnace", 50));
-    for (int i = 0; i < 5; ++i) furnace.frame();
+    for (int i = 0; i < 5; ++i)
+        furnace.frame();
     checkClusters(furnace);
     checkAssignmentTwin(furnace);
 
     Bench few(*scenegen::buildScene("cornell", 0));
     few.settings.valClustering.count = 1024;  // more clusters than lit texels
     few.settings.rsm.resolution = 32;
-    for (int i = 0; i < 5; ++i) few.frame();
+    for (int i = 0; i < 5; ++i)
+        few.frame();
     checkClusters(few);
 }
 
-// Irradiance on the wall of `corner` at height y and depth z: a uniform Lambert rectangle [0,2] x [-1,1] of radiosity
-// 2 W/m² in the plane y = 0, by midpoint quadrature.
+// Irradiance on the wall of `corner` at height y and depth z: a uniform Lambert rectangle [0,2] x [-1,1] of
+// radiosity 2 W/m² in the plane y = 0, by midpoint quadrature.
 double cornerIrradiance(double y, double z) {
     constexpr int kSteps = 400;
     double sum = 0;
@@ -218,7 +226,8 @@ double cornerIrradiance(double y, double z) {
 TEST(FirstBounce, CornerAgainstQuadrature) {
     Bench b(*scenegen::buildScene("corner", 0), {320, 180});
     Image bounce;
-    for (int i = 0; i < 40; ++i) b.frame();
+    for (int i = 0; i < 40; ++i)
+        b.frame();
     bounce = readImage(b.renderer, b.last.bounce1.image);
     double squares = 0, mean = 0, ratio = 0;
     int count = 0;
@@ -242,7 +251,8 @@ TEST(FirstBounce, CornerAgainstQuadrature) {
 
 TEST(Frame, ColourBleedsAndNothingIsBlack) {
     Bench b(*scenegen::buildScene("cornell", 0));
-    for (int i = 0; i < 20; ++i) b.frame();
+    for (int i = 0; i < 20; ++i)
+        b.frame();
     const Image bounce = readImage(b.renderer, b.last.bounce1.image);
     const Image display = readImage(b.renderer, b.last.outputs.display);
     double left = 0, right = 0, lit = 0;
@@ -260,7 +270,8 @@ TEST(Frame, ColourBleedsAndNothingIsBlack) {
 TEST(Frame, SameFramesGiveTheSameBits) {
     const auto render = [] {
         Bench b(*scenegen::buildScene("cornell", 0));
-        for (int i = 0; i < 12; ++i) b.frame();
+        for (int i = 0; i < 12; ++i)
+            b.frame();
         return readImage(b.renderer, b.last.outputs.radiance).pixels;
     };
     EXPECT_EQ(render(), render());
@@ -269,7 +280,8 @@ TEST(Frame, SameFramesGiveTheSameBits) {
 TEST(Frame, NothingMovesNothingRuns) {
     Bench b(*scenegen::buildScene("gallery", 0));
     b.settings.valClustering.settleFrames = 4;
-    for (int i = 0; i < 6; ++i) b.frame();
+    for (int i = 0; i < 6; ++i)
+        b.frame();
     const auto before = readImage(b.renderer, b.last.outputs.display).pixels;
     for (int i = 0; i < 3; ++i) {
         b.frame();
@@ -281,7 +293,8 @@ TEST(Frame, NothingMovesNothingRuns) {
 TEST(Frame, CameraAloneLeavesTheLightMapsAlone) {
     Bench b(*scenegen::buildScene("gallery", 0));
     b.settings.valClustering.settleFrames = 2;
-    for (int i = 0; i < 4; ++i) b.frame();
+    for (int i = 0; i < 4; ++i)
+        b.frame();
     CameraPose pose = cameraOf(b.asset, 0);
     pose.position.x += 0.2;
     setCamera(b.scene, pose, b.size);

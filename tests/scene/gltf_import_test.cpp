@@ -23,7 +23,8 @@ std::string base64(const std::vector<unsigned char>& bytes) {
         uint32_t word = uint32_t(bytes[i]) << 16;
         if (i + 1 < bytes.size()) word |= uint32_t(bytes[i + 1]) << 8;
         if (i + 2 < bytes.size()) word |= bytes[i + 2];
-        for (int d = 0; d < 4; ++d) out += i + size_t(d) <= bytes.size() ? kDigits[word >> (18 - 6 * d) & 63] : '=';
+        for (int d = 0; d < 4; ++d)
+            out += i + size_t(d) <= bytes.size() ? kDigits[word >> (18 - 6 * d) & 63] : '=';
     }
     return out;
 }
@@ -42,8 +43,10 @@ json triangle(std::array<float, 9> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0}) {
             {"accessors",
              {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
               {{"bufferView", 1}, {"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}}}},
-            {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
-            {"buffers", {{{"byteLength", 42}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
+            {"bufferViews",
+             {{{"buffer", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
+            {"buffers",
+             {{{"byteLength", 42}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
 }
 
 fs::path folder() {
@@ -69,7 +72,8 @@ testing::AssertionResult refusedWith(const json& document, const std::string& wo
     if (fault.find("case.gltf: ") != std::string::npos && fault.find(words) != std::string::npos &&
         fault.find('\n') == std::string::npos)
         return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "said: '" << fault << "' instead of something with '" << words << "'";
+    return testing::AssertionFailure()
+           << "said: '" << fault << "' instead of something with '" << words << "'";
 }
 
 TEST(GltfImport, ReadsATriangle) {
@@ -83,9 +87,13 @@ TEST(GltfImport, ReadsATriangle) {
 }
 
 TEST(GltfImport, RefusesWhatIsNoGltf) {
-    for (const auto& [name, text] : std::map<std::string, std::string>{
-             {"empty.gltf", ""}, {"text.gltf", "hello"}, {"html.glb", "<html>"}, {"cut.glb", "glTF\x02"},
-             {"half.gltf", triangle().dump().substr(0, 200)}, {"array.gltf", "[1, 2]"}}) {
+    for (const auto& [name, text] :
+         std::map<std::string, std::string>{{"empty.gltf", ""},
+                                            {"text.gltf", "hello"},
+                                            {"html.glb", "<html>"},
+                                            {"cut.glb", "glTF\x02"},
+                                            {"half.gltf", triangle().dump().substr(0, 200)},
+                                            {"array.gltf", "[1, 2]"}}) {
         const auto asset = importGltf(write(name, text));
         ASSERT_FALSE(asset) << name;
         EXPECT_NE(asset.error().message.find(name), std::string::npos) << asset.error().message;
@@ -135,9 +143,10 @@ TEST(GltfImport, RefusesAccessorsPastTheirData) {
     d["bufferViews"][0]["byteStride"] = 4;
     EXPECT_NE(faultOf(d), "");
     d = triangle();
-    d["accessors"][0]["sparse"] = {{"count", 2},
-                                   {"indices", {{"bufferView", 1}, {"componentType", 5123}, {"byteOffset", 4}}},
-                                   {"values", {{"bufferView", 0}}}};
+    d["accessors"][0]["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", 1}, {"componentType", 5123}, {"byteOffset", 4}}},
+        {"values", {{"bufferView", 0}}}};
     EXPECT_TRUE(refusedWith(d, "sparse"));
 }
 
@@ -149,7 +158,8 @@ TEST(GltfImport, RefusesBadNodeTrees) {
     EXPECT_TRUE(refusedWith(d, "two parents"));
     d = triangle();
     json chain = json::array();
-    for (int i = 0; i < 3000; ++i) chain.push_back({{"children", {i + 1}}});
+    for (int i = 0; i < 3000; ++i)
+        chain.push_back({{"children", {i + 1}}});
     chain.push_back({{"mesh", 0}});
     d["nodes"] = chain;
     EXPECT_TRUE(refusedWith(d, "deeper"));
@@ -195,7 +205,8 @@ TEST(GltfImport, RefusesWhatItCannotHonour) {
 TEST(GltfImport, LightsTakeTheirDefaults) {
     json d = triangle();
     d["extensionsUsed"] = {"KHR_lights_punctual"};
-    d["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"intensity", 5}, {"spot", json::object()}}};
+    d["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"intensity", 5}, {"spot", json::object()}}};
     d["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
     const auto asset = importGltf(write("case.gltf", d.dump()));
     ASSERT_TRUE(asset) << asset.error().message;
@@ -218,7 +229,8 @@ TEST(GltfImport, SurvivesRandomDamage) {
     int loaded = 0;
     for (int i = 0; i < 1500; ++i) {
         std::string bad = good;
-        for (uint32_t edits = 1 + random() % 4; edits > 0; --edits) bad[random() % bad.size()] = char(random() % 256);
+        for (uint32_t edits = 1 + random() % 4; edits > 0; --edits)
+            bad[random() % bad.size()] = char(random() % 256);
         loaded += bool(importGltf(write("damaged.gltf", bad)));
     }
     EXPECT_LT(loaded, 1500) << "some damage must be noticed";
@@ -227,12 +239,13 @@ TEST(GltfImport, SurvivesRandomDamage) {
 TEST(GltfImport, LoadsTheSharedScenes) {
     const fs::path shared = fs::path(AFTERGLOW_SOURCE_DIR) / "../shared/scenes";
     if (!fs::exists(shared)) GTEST_SKIP() << "the scenes are not part of the repository";
-    for (const auto& [file, triangles] : std::map<std::string, uint64_t>{{"sponza/Sponza.gltf", 262267},
-                                                                        {"sibenik/sibenik.gltf", 75273},
-                                                                        {"zdm2/zdm2.gltf", 70691},
-                                                                        {"living_room/living_room.glb", 1543},
-                                                                        {"flight_helmet/FlightHelmet.gltf", 94722},
-                                                                        {"fox/Fox.glb", 576}}) {
+    for (const auto& [file, triangles] :
+         std::map<std::string, uint64_t>{{"sponza/Sponza.gltf", 262267},
+                                         {"sibenik/sibenik.gltf", 75273},
+                                         {"zdm2/zdm2.gltf", 70691},
+                                         {"living_room/living_room.glb", 1543},
+                                         {"flight_helmet/FlightHelmet.gltf", 94722},
+                                         {"fox/Fox.glb", 576}}) {
         const auto asset = importGltf((shared / file).string());
         ASSERT_TRUE(asset) << asset.error().message;
         EXPECT_NEAR(double(triangleCount(*asset)), double(triangles), double(triangles) * 0.02) << file;

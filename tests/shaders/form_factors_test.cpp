@@ -23,7 +23,8 @@ double quadrature(dvec3 x, dvec3 n, dvec3 m, int steps, F&& place, double area) 
         for (int j = 0; j < steps; ++j) {
             const dvec3 d = place((i + 0.5) / steps, (j + 0.5) / steps) - x;
             const double d2 = glm::dot(d, d);
-            sum += std::max(glm::dot(n, d), 0.0) * std::max(-glm::dot(m, d), 0.0) / (std::numbers::pi * d2 * d2);
+            sum +=
+                std::max(glm::dot(n, d), 0.0) * std::max(-glm::dot(m, d), 0.0) / (std::numbers::pi * d2 * d2);
         }
     return sum * area / (steps * steps);
 }
@@ -45,8 +46,8 @@ struct DiskErrors {
     double vectorForm, published;
 };
 
-// Relative RMSE of a disk's irradiance over receivers at one distance: all places more than 12 degrees above its plane
-// (the rim itself is singular for the quadrature), all orientations that face its centre.
+// Relative RMSE of a disk's irradiance over receivers at one distance: all places more than 12 degrees above
+// its plane (the rim itself is singular for the quadrature), all orientations that face its centre.
 DiskErrors diskErrors(float distance) {
     std::mt19937 random(7);
     double squares = 0, publishedSquares = 0, mean = 0;
@@ -69,8 +70,8 @@ DiskErrors diskErrors(float distance) {
 
 TEST(FormFactors, VectorDiskAgainstQuadrature) {
     const DiskErrors r1 = diskErrors(1), r2 = diskErrors(2), r3 = diskErrors(3);
-    std::cout << "vector disk " << r1.vectorForm << ' ' << r2.vectorForm << ' ' << r3.vectorForm << ", published "
-              << r1.published << ' ' << r2.published << ' ' << r3.published << '\n';
+    std::cout << "vector disk " << r1.vectorForm << ' ' << r2.vectorForm << ' ' << r3.vectorForm
+              << ", published " << r1.published << ' ' << r2.published << ' ' << r3.published << '\n';
     RecordProperty("errors", std::to_string(r1.vectorForm) + " " + std::to_string(r2.vectorForm) + " " +
                                  std::to_string(r3.vectorForm));
     EXPECT_LT(r1.vectorForm, 0.06);
@@ -97,9 +98,9 @@ TEST(FormFactors, VectorDiskIsBoundedAndFiniteEverywhere) {
     for (int i = 0; i < 20000; ++i) {
         const float scale = std::pow(10.0f, exponent(random));
         vec3 x = randomUnit(random) * scale;
-        if (i % 3 == 0) x.y = 0;              // in the emitter's plane
-        if (i % 7 == 0) x = vec3(0);          // at its centre
-        if (i % 11 == 0) x = vec3(1, 0, 0);   // on its rim
+        if (i % 3 == 0) x.y = 0;             // in the emitter's plane
+        if (i % 7 == 0) x = vec3(0);         // at its centre
+        if (i % 11 == 0) x = vec3(1, 0, 0);  // on its rim
         const float f = io::diskVectorFactor(x, randomUnit(random), vec3(0), vec3(0, 1, 0), 1.0f);
         ASSERT_TRUE(std::isfinite(f)) << x.x << ' ' << x.y << ' ' << x.z;
         ASSERT_GE(f, 0);
@@ -130,7 +131,8 @@ TEST(Sampling, HaltonFillsTheSquareEvenly) {
         ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
         ++cells[size_t(p.x * 8) + 8 * size_t(p.y * 8)];
     }
-    for (int count : cells) EXPECT_NEAR(count, 100, 6);
+    for (int count : cells)
+        EXPECT_NEAR(count, 100, 6);
     EXPECT_FLOAT_EQ(io::halton23(1).x, 0.5f);
     EXPECT_FLOAT_EQ(io::halton23(1).y, 1.0f / 3);
     EXPECT_FLOAT_EQ(io::halton23(6).x, 0.375f);

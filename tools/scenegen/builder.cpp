@@ -12,7 +12,9 @@ glm::quat lookRotation(glm::vec3 direction) {
     return glm::quat_cast(glm::mat3(right, glm::cross(back, right), back));
 }
 
-uint32_t SceneBuilder::material(const std::string& name, glm::vec3 albedo) { return emissive(name, albedo, {}); }
+uint32_t SceneBuilder::material(const std::string& name, glm::vec3 albedo) {
+    return emissive(name, albedo, {});
+}
 
 uint32_t SceneBuilder::emissive(const std::string& name, glm::vec3 albedo, glm::vec3 radiance) {
     Material m;
@@ -55,17 +57,20 @@ void SceneBuilder::addQuad(glm::vec3 corner, glm::vec3 u, glm::vec3 v, uint32_t 
         g.attributes.push_back({normal, glm::vec4(glm::normalize(u), 1), at});
         primitive.boundsLocal.add(p);
     }
-    for (const uint32_t i : {0, 1, 2, 0, 2, 3}) g.indices.push_back(first + i);
+    for (const uint32_t i : {0, 1, 2, 0, 2, 3})
+        g.indices.push_back(first + i);
     primitive.indexCount += 6;
 }
 
-uint32_t SceneBuilder::quad(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, uint32_t material) {
+uint32_t SceneBuilder::quad(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v,
+                            uint32_t material) {
     const uint32_t mesh = beginMesh(name);
     addQuad(corner, u, v, material);
     return addNode({.name = name, .mesh = int32_t(mesh)});
 }
 
-uint32_t SceneBuilder::box(const std::string& name, glm::vec3 center, glm::vec3 size, uint32_t material, float yaw) {
+uint32_t SceneBuilder::box(const std::string& name, glm::vec3 center, glm::vec3 size, uint32_t material,
+                           float yaw) {
     const uint32_t mesh = beginMesh(name);
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {-1.0f, 1.0f}) {
@@ -110,10 +115,11 @@ uint32_t SceneBuilder::addLight(SceneLight light, glm::vec3 position, glm::vec3 
     return addNode(std::move(node));
 }
 
-uint32_t SceneBuilder::spot(const std::string& name, glm::vec3 position, glm::vec3 direction, glm::vec3 intensity,
-                            float innerDegrees, float outerDegrees, float range) {
-    return addLight({name, LightKind::kSpot, intensity, range, glm::radians(innerDegrees), glm::radians(outerDegrees)},
-                    position, direction);
+uint32_t SceneBuilder::spot(const std::string& name, glm::vec3 position, glm::vec3 direction,
+                            glm::vec3 intensity, float innerDegrees, float outerDegrees, float range) {
+    return addLight(
+        {name, LightKind::kSpot, intensity, range, glm::radians(innerDegrees), glm::radians(outerDegrees)},
+        position, direction);
 }
 
 uint32_t SceneBuilder::point(const std::string& name, glm::vec3 position, glm::vec3 intensity, float range) {
@@ -124,7 +130,8 @@ uint32_t SceneBuilder::sun(const std::string& name, glm::vec3 direction, glm::ve
     return addLight({name, LightKind::kDirectional, irradiance}, {}, direction);
 }
 
-uint32_t SceneBuilder::camera(const std::string& name, glm::vec3 position, glm::vec3 target, float verticalFovDegrees) {
+uint32_t SceneBuilder::camera(const std::string& name, glm::vec3 position, glm::vec3 target,
+                              float verticalFovDegrees) {
     SceneNode node{.name = name, .camera = int32_t(asset_.cameras.size())};
     node.local.translation = glm::dvec3(position);
     node.local.rotation = lookRotation(target - position);

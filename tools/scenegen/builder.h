@@ -21,7 +21,8 @@ class SceneBuilder {
     // A box about the node's origin, outward faces. Returns the node.
     uint32_t box(const std::string& name, glm::vec3 center, glm::vec3 size, uint32_t material, float yaw = 0);
     // The inside of a room, each face with its own material: -x +x -y +y -z +z; ~0u leaves the face out.
-    void room(const std::string& name, glm::vec3 min, glm::vec3 max, const std::array<uint32_t, 6>& materials);
+    void room(const std::string& name, glm::vec3 min, glm::vec3 max,
+              const std::array<uint32_t, 6>& materials);
 
     uint32_t spot(const std::string& name, glm::vec3 position, glm::vec3 direction, glm::vec3 intensity,
                   float innerDegrees, float outerDegrees, float range = 0);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr glm::vec3 kRed(0.63f, 0.065f, 0.05f), kGreen(0.14f, 0.45f, 0.091f), kWhite(0.725f, 0.71f, 0.68f);
 
-// The box of Goral et al. at Cornell, 2 m a side, open towards the camera; a spot in the ceiling's middle shines on the
-// floor and the lower walls. param 1 leaves the two blocks out.
+// The box of Goral et al. at Cornell, 2 m a side, open towards the camera; a spot in the ceiling's middle
+// shines on the floor and the lower walls. param 1 leaves the two blocks out.
 SceneAsset cornell(uint32_t param) {
     SceneBuilder b("cornell");
     const uint32_t red = b.material("red", kRed), green = b.material("green", kGreen),
@@ -27,9 +27,9 @@ SceneAsset cornell(uint32_t param) {
     return b.finish();
 }
 
-// A floor [0,2] x [-1,1] in the plane y = 0 and a wall in the plane x = 0, y in [0,2], z in [-1,1]. The sun falls
-// straight down, so only the floor is lit: the wall's irradiance is the form factor of a uniform rectangle of
-// radiosity rho E = 0.5 x 4 W/m².
+// A floor [0,2] x [-1,1] in the plane y = 0 and a wall in the plane x = 0, y in [0,2], z in [-1,1]. The sun
+// falls straight down, so only the floor is lit: the wall's irradiance is the form factor of a uniform
+// rectangle of radiosity rho E = 0.5 x 4 W/m².
 SceneAsset corner(uint32_t) {
     SceneBuilder b("corner");
     const uint32_t gray = b.material("gray", glm::vec3(0.5f));
@@ -65,15 +65,20 @@ void mover(SceneBuilder& b, uint32_t node, glm::vec3 extent, float period, float
     b.node(node).extras = {.collider = true, .moveExtent = extent, .movePeriod = period, .spinSpeed = spin};
 }
 
-void solid(SceneBuilder& b, uint32_t node) { b.node(node).extras.collider = true; }
+void solid(SceneBuilder& b, uint32_t node) {
+    b.node(node).extras.collider = true;
+}
 
-// The first room of the level: a dark hall, 12 x 4 x 8 m, with one wall of each colour, columns, and boxes that move.
-// The lamp in the player's hand is the light to play with.
+// The first room of the level: a dark hall, 12 x 4 x 8 m, with one wall of each colour, columns, and boxes
+// that move. The lamp in the player's hand is the light to play with.
 SceneAsset gallery(uint32_t) {
     SceneBuilder b("gallery");
-    const uint32_t red = b.material("red", {0.70f, 0.08f, 0.06f}), green = b.material("green", {0.12f, 0.52f, 0.14f}),
-                   blue = b.material("blue", {0.08f, 0.16f, 0.62f}), ochre = b.material("ochre", {0.74f, 0.50f, 0.14f}),
-                   floor = b.material("floor", {0.42f, 0.38f, 0.34f}), white = b.material("white", {0.75f, 0.74f, 0.72f});
+    const uint32_t red = b.material("red", {0.70f, 0.08f, 0.06f}),
+                   green = b.material("green", {0.12f, 0.52f, 0.14f}),
+                   blue = b.material("blue", {0.08f, 0.16f, 0.62f}),
+                   ochre = b.material("ochre", {0.74f, 0.50f, 0.14f}),
+                   floor = b.material("floor", {0.42f, 0.38f, 0.34f}),
+                   white = b.material("white", {0.75f, 0.74f, 0.72f});
     b.room("hall", {-6, 0, -4}, {6, 4, 4}, {red, green, floor, white, blue, ochre});
     for (const float x : {-3.0f, 0.0f, 3.0f})
         for (const float z : {-2.2f, 2.2f})
@@ -84,8 +89,8 @@ SceneAsset gallery(uint32_t) {
     mover(b, b.box("slider", {-1.5f, 0.4f, -0.4f}, {0.8f, 0.8f, 0.8f}, white), {0, 0, 1.6f}, 6, 0);
     mover(b, b.box("spinner", {4.2f, 0.9f, -1.6f}, {0.6f, 1.8f, 0.6f}, blue), {}, 0, 0.7f);
     mover(b, b.box("lift", {-4.4f, 1.0f, 1.6f}, {0.7f, 0.7f, 0.7f}, ochre), {0, 0.8f, 0}, 5, 0.5f);
-    b.spot("ceiling lamp", {4.0f, 3.9f, -1.0f}, {0.3f, -1, -0.6f}, glm::vec3(14, 13, 11), 25, 45);
-    b.spot("hand_lamp", {-1.2f, 1.5f, 1.0f}, {-1, -0.15f, -0.35f}, glm::vec3(30, 28, 24), 14, 26);
+    b.spot("ceiling lamp", {4.0f, 3.9f, -1.0f}, {0.3f, -1, -0.6f}, glm::vec3(40, 37, 31), 25, 50);
+    b.spot("hand_lamp", {-1.2f, 1.5f, 1.0f}, {-1, -0.15f, -0.35f}, glm::vec3(90, 84, 72), 16, 34);
     b.camera("player", {0.8f, 1.65f, 1.4f}, {-4.0f, 1.3f, -1.0f}, 65);
     return b.finish();
 }
@@ -104,9 +109,13 @@ constexpr std::array<std::string_view, 5> kNames = {"cornell", "corner", "occlud
 
 }  // namespace
 
-std::span<const std::string_view> sceneNames() { return kNames; }
+std::span<const std::string_view> sceneNames() {
+    return kNames;
+}
 
-bool isBuiltIn(std::string_view name) { return std::ranges::find(kNames, name) != kNames.end(); }
+bool isBuiltIn(std::string_view name) {
+    return std::ranges::find(kNames, name) != kNames.end();
+}
 
 Result<SceneAsset> buildScene(std::string_view name, uint32_t param) {
     const auto found = std::ranges::find(kScenes, name, &Entry::name);

@@ -1,5 +1,5 @@
-// The workbench's sub-commands. Each adds its options to the program and runs from its parsed values; it returns the
-// process's exit code: 0 good, 1 a check failed, 2 bad arguments or input.
+// The workbench's sub-commands. Each adds its options to the program and runs from its parsed values; it
+// returns the process's exit code: 0 good, 1 a check failed, 2 bad arguments or input.
 #pragma once
 
 #include <CLI/CLI.hpp>

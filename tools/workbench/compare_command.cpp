@@ -18,8 +18,10 @@ int runCompare(const std::string& truthPath, const std::string& testPath, double
         std::cerr << "afterglow: " << difference.error().message << '\n';
         return 1;
     }
-    const nlohmann::json out = {{"mean_ratio", difference->meanRatio}, {"rmse", difference->rmse},
-                                {"rel_rmse", difference->relativeRmse}, {"rel_mse", difference->relMse},
+    const nlohmann::json out = {{"mean_ratio", difference->meanRatio},
+                                {"rmse", difference->rmse},
+                                {"rel_rmse", difference->relativeRmse},
+                                {"rel_mse", difference->relMse},
                                 {"p99", difference->p99}};
     std::cout << out.dump(2) << '\n';
     return difference->relativeRmse <= most ? 0 : 1;

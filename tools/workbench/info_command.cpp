@@ -13,18 +13,21 @@ int runInfo() {
     if (!device) return refuse(device.error().message);
     const gpu::DeviceInfo& info = (*device)->info();
     const VkPhysicalDeviceLimits& limits = info.limits;
-    std::cout << fmt::format("device             {}\ndriver             {}\nVulkan             {}.{}.{}\n", info.name,
-                             info.driver, VK_API_VERSION_MAJOR(info.apiVersion), VK_API_VERSION_MINOR(info.apiVersion),
-                             VK_API_VERSION_PATCH(info.apiVersion));
+    std::cout << fmt::format("device             {}\ndriver             {}\nVulkan             {}.{}.{}\n",
+                             info.name, info.driver, VK_API_VERSION_MAJOR(info.apiVersion),
+                             VK_API_VERSION_MINOR(info.apiVersion), VK_API_VERSION_PATCH(info.apiVersion));
     std::cout << fmt::format("subgroup           {} lanes\nkernels            {}\n", info.subgroupSize,
                              info.isCpu ? "lane-parallel loads (CPU device)" : "uniform loads (GPU)");
-    std::cout << fmt::format("timestamps         {}\n",
-                             info.timestampPeriodNs > 0 ? fmt::format("{} ns", info.timestampPeriodNs) : "none");
-    std::cout << fmt::format("storage buffer     {} MiB at most\nimage              {} texels a side, {} layers\n",
-                             limits.maxStorageBufferRange >> 20, limits.maxImageDimension2D,
-                             limits.maxImageArrayLayers);
-    for (const std::string& name : info.enabled) std::cout << "on                 " << name << '\n';
-    for (const std::string& name : info.missing) std::cout << "off                " << name << '\n';
+    std::cout << fmt::format("timestamps         {}\n", info.timestampPeriodNs > 0
+                                                            ? fmt::format("{} ns", info.timestampPeriodNs)
+                                                            : "none");
+    std::cout << fmt::format(
+        "storage buffer     {} MiB at most\nimage              {} texels a side, {} layers\n",
+        limits.maxStorageBufferRange >> 20, limits.maxImageDimension2D, limits.maxImageArrayLayers);
+    for (const std::string& name : info.enabled)
+        std::cout << "on                 " << name << '\n';
+    for (const std::string& name : info.missing)
+        std::cout << "off                " << name << '\n';
     return 0;
 }
 

@@ -30,7 +30,8 @@ struct RenderSettings {
     Settings registry;
 
     RenderSettings() {
-        registry.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"}, &graph.skip);
+        registry.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
+                     &graph.skip);
         registry.add({"engine", "alias", 0, 0, "", "scratch images share memory"}, &graph.alias);
         gi::registerSettings(registry, gi);
     }
@@ -41,7 +42,8 @@ std::string layerOf(const RenderOptions& options) {
     return std::filesystem::path(options.output).extension() == ".png" ? "final" : "radiance";
 }
 
-// Process CPU time of each pass once more with everything run, which also warms the numbers: the first frames compile.
+// Process CPU time of each pass once more with everything run, which also warms the numbers: the first frames
+// compile.
 void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSettings& settings) {
     FrameGraphOptions options = settings.graph;
     options.skip = false;
@@ -54,11 +56,12 @@ void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSetti
                             graph.output(frame.outputs.display);
                         });
         best.resize(renderer.graph().report().size(), 1e30);
-        for (size_t p = 0; p < best.size(); ++p) best[p] = std::min(best[p], renderer.graph().report()[p].cpuMs);
+        for (size_t p = 0; p < best.size(); ++p)
+            best[p] = std::min(best[p], renderer.graph().report()[p].cpuMs);
     }
     double total = 0;
-    std::cout << fmt::format("{}: {}x{}, process CPU ms per pass, least of {}\n", renderer.device().info().name,
-                             loaded.size.x, loaded.size.y, kRepeats);
+    std::cout << fmt::format("{}: {}x{}, process CPU ms per pass, least of {}\n",
+                             renderer.device().info().name, loaded.size.x, loaded.size.y, kRepeats);
     for (size_t p = 0; p < best.size(); ++p) {
         if (renderer.graph().report()[p].outcome != PassOutcome::kRan) continue;
         std::cout << fmt::format("{:<36} {:8.2f}\n", renderer.graph().report()[p].name, best[p]);
@@ -107,7 +110,8 @@ int runRender(const RenderOptions& options) {
             lastLine = now;
         }
     }
-    const Image image = shown ? gi::readImage(renderer, shown) : Image(int(loaded->size.x), int(loaded->size.y));
+    const Image image =
+        shown ? gi::readImage(renderer, shown) : Image(int(loaded->size.x), int(loaded->size.y));
     if (const Status saved = saveImage(image, options.output); !saved) return refuse(saved.error().message);
     if (options.times) printTimes(renderer, *loaded, settings);
     return (*device)->validationMessageCount() == 0 ? 0 : 1;
@@ -121,11 +125,14 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     addSceneOptions(*command, options->scene);
     command->get_option("scene")->required(false);
     command->add_option("-o,--output", options->output, "FILE.(exr|pfm|png)");
-    command->add_option("--frames", options->frames, "frames to run first")->check(CLI::Range(1u, 100000u))
+    command->add_option("--frames", options->frames, "frames to run first")
+        ->check(CLI::Range(1u, 100000u))
         ->capture_default_str();
-    command->add_option("--layer", options->layer, "which intermediate; radiance (exr, pfm) or final (png) by default");
+    command->add_option("--layer", options->layer,
+                        "which intermediate; radiance (exr, pfm) or final (png) by default");
     command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
-    command->add_flag("--list-settings", options->listSettings, "every setting with default, range, unit, help");
+    command->add_flag("--list-settings", options->listSettings,
+                      "every setting with default, range, unit, help");
     command->add_flag("--times", options->times, "print each pass's process CPU time and the memory used");
     command->add_flag("--validate", options->validate, "with Vulkan validation; any message exits with 1");
     command->callback([options, &exitCode] { exitCode = runRender(*options); });

@@ -12,9 +12,11 @@ namespace {
 int runScene(const std::string& name, uint32_t param, const std::string& output) {
     auto asset = scenegen::buildScene(name, param);
     if (!asset)
-        return refuse(fmt::format("{} (there are: {})", asset.error().message, fmt::join(scenegen::sceneNames(), ", ")));
+        return refuse(fmt::format("{} (there are: {})", asset.error().message,
+                                  fmt::join(scenegen::sceneNames(), ", ")));
     if (const Status saved = exportGlb(*asset, output); !saved) return refuse(saved.error().message);
-    std::cout << fmt::format("{}: {} nodes, {} triangles\n", output, asset->nodes.size(), triangleCount(*asset));
+    std::cout << fmt::format("{}: {} nodes, {} triangles\n", output, asset->nodes.size(),
+                             triangleCount(*asset));
     return 0;
 }
 

@@ -62,7 +62,8 @@ Status addSpots(const SceneOptions& options, RenderScene& scene) {
         const auto n = parseNumbers(text, 9, 9);
         const bool fits = n && glm::length(glm::vec3((*n)[3], (*n)[4], (*n)[5])) > 1e-6f && (*n)[7] >= 0 &&
                           (*n)[7] <= (*n)[8] && (*n)[8] > 0 && (*n)[8] < 90;
-        if (!fits) return Error{fmt::format("--spot takes X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG, not '{}'", text)};
+        if (!fits)
+            return Error{fmt::format("--spot takes X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG, not '{}'", text)};
         scene.lights.push_back({.kind = LightKind::kSpot,
                                 .position = {(*n)[0], (*n)[1], (*n)[2]},
                                 .direction = glm::normalize(glm::vec3((*n)[3], (*n)[4], (*n)[5])),
@@ -78,7 +79,8 @@ Status addSpots(const SceneOptions& options, RenderScene& scene) {
 Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& asset) {
     if (!options.view.empty()) {
         const auto n = parseNumbers(options.view, 6, 7);
-        if (!n) return Error{fmt::format("--view takes PX,PY,PZ,TX,TY,TZ[,VFOV_DEG], not '{}'", options.view)};
+        if (!n)
+            return Error{fmt::format("--view takes PX,PY,PZ,TX,TY,TZ[,VFOV_DEG], not '{}'", options.view)};
         const glm::vec3 position((*n)[0], (*n)[1], (*n)[2]), target((*n)[3], (*n)[4], (*n)[5]);
         const float fov = n->size() > 6 ? (*n)[6] : 55.0f;
         if (glm::length(target - position) < 1e-6f || fov <= 0 || fov >= 170)
@@ -91,8 +93,10 @@ Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& a
     }
     if (options.camera.empty()) return cameraOf(asset, 0);
     for (size_t i = 0; i < asset.cameras.size(); ++i)
-        if (asset.cameras[i].name == options.camera || std::to_string(i) == options.camera) return cameraOf(asset, i);
-    return Error{fmt::format("{} has no camera '{}' (it has {})", options.scene, options.camera, asset.cameras.size())};
+        if (asset.cameras[i].name == options.camera || std::to_string(i) == options.camera)
+            return cameraOf(asset, i);
+    return Error{fmt::format("{} has no camera '{}' (it has {})", options.scene, options.camera,
+                             asset.cameras.size())};
 }
 
 }  // namespace
@@ -105,8 +109,10 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
     command.add_option("--view", o.view, "camera: PX,PY,PZ,TX,TY,TZ[,VFOV_DEG]");
     command.add_option("--sun", o.suns, "add a sun: DX,DY,DZ[,E]: the way its light travels, W/m2")
         ->allow_extra_args(false);
-    command.add_option("--point", o.points, "add a point light: X,Y,Z,I in m and W/sr")->allow_extra_args(false);
-    command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")->allow_extra_args(false);
+    command.add_option("--point", o.points, "add a point light: X,Y,Z,I in m and W/sr")
+        ->allow_extra_args(false);
+    command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")
+        ->allow_extra_args(false);
     command.add_flag("--no-scene-lights", o.noSceneLights, "drop the file's own lights");
 }
 
@@ -116,7 +122,8 @@ Result<glm::uvec2> parseSize(const std::string& text) {
     const auto [middle, error] = std::from_chars(text.data(), end, size.x);
     const bool good = error == std::errc() && middle != end && *middle == 'x';
     const auto [last, error2] = std::from_chars(good ? middle + 1 : end, end, size.y);
-    if (!good || error2 != std::errc() || last != end || size.x == 0 || size.y == 0 || size.x > 8192 || size.y > 8192)
+    if (!good || error2 != std::errc() || last != end || size.x == 0 || size.y == 0 || size.x > 8192 ||
+        size.y > 8192)
         return Error{fmt::format("a size is WxH with 1 to 8192 pixels a side, not '{}'", text)};
     return size;
 }
@@ -127,7 +134,8 @@ Result<LoadedScene> loadScene(const SceneOptions& options) {
     const auto size = parseSize(options.size);
     if (!size) return size.error();
     LoadedScene loaded{.asset = std::make_unique<SceneAsset>(std::move(*asset)), .size = *size};
-    for (const std::string& warning : loaded.asset->warnings) spdlog::warn("{}: {}", options.scene, warning);
+    for (const std::string& warning : loaded.asset->warnings)
+        spdlog::warn("{}: {}", options.scene, warning);
     loaded.scene = staticScene(*loaded.asset);
     if (options.noSceneLights) loaded.scene.lights.clear();
     for (const Status& added :

@@ -1,0 +1,157 @@
+// The level without a window or a device.
+#include "game/game.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "engine/scene/extract_system.h"
+#include "engine/scene/gltf_import.h"
+
+namespace {
+bool gCounting = false;
+size_t gAllocations = 0;
+}  // namespace
+
+void* operator new(size_t bytes) {
+    gAllocations += gCounting;
+    if (void* memory = std::malloc(bytes)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, size_t) noexcept {
+    std::free(memory);
+}
+
+namespace ag::game {
+namespace {
+
+constexpr glm::uvec2 kSize(64, 36);
+
+SceneAsset level() {
+    return *importGltf(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
+}
+
+Input scripted(int tick) {
+    return {.forward = tick % 90 < 60 ? 1.0f : -0.5f,
+            .right = tick % 50 < 20 ? 0.7f : 0.0f,
+            .look = {float(tick % 17) - 6, float(tick % 7) - 3},
+            .lampFree = tick % 40 > 30};
+}
+
+uint64_t play(uint32_t threads, int ticks) {
+    Game game(level(), threads);
+    for (int i = 0; i < ticks; ++i)
+        game.tick(scripted(i), kSize);
+    return game.stateHash();
+}
+
+TEST(Game, SameInputsSameWorldOnAnyNumberOfThreads) {
+    const uint64_t serial = play(1, 300);
+    EXPECT_EQ(play(1, 300), serial);
+    EXPECT_EQ(play(2, 300), serial);
+    EXPECT_NE(play(1, 301), serial);
+}
+
+TEST(Game, ScheduleOrdersWhatConflicts) {
+    Schedule s = makeSchedule();
+    EXPECT_TRUE(s.ordered("moveBoxes", "walkPlayer")) << "boxes are where the player meets them";
+    EXPECT_TRUE(s.ordered("walkPlayer", "aimLamp"));
+    EXPECT_TRUE(s.ordered("aimLamp", "updateRootTransforms"));
+    EXPECT_TRUE(s.ordered("updateRootTransforms", "extractScene"));
+    EXPECT_FALSE(s.ordered("followPlayer", "aimLamp"));
+}
+
+TEST(Game, ThePlayerStaysInTheRoomAndOutOfTheBoxes) {
+    Game game(level(), 1);
+    for (int i = 0; i < 2000; ++i) {
+        game.tick(scripted(i * 7), kSize);
+        const glm::dvec3 at = game.player().position;
+        ASSERT_LT(std::abs(at.x), 6.0);
+        ASSERT_LT(std::abs(at.z), 4.0);
+        // The nearest of the columns, half a metre wide.
+        for (const double x : {-3.0, 0.0, 3.0})
+            for (const double z : {-2.2, 2.2})
+                ASSERT_GT(std::max(std::abs(at.x - x), std::abs(at.z - z)), 0.25) << "tick " << i;
+    }
+}
+
+TEST(Game, OnlyWhatMovedIsStreamed) {
+    Game game(level(), 1);
+    game.tick({}, kSize);
+    EXPECT_TRUE(game.scene().allInstancesChanged) << "everything is new at first";
+    const uint64_t lights = game.scene().lightsVersion;
+    game.tick({}, kSize);
+    EXPECT_FALSE(game.scene().allInstancesChanged);
+    uint32_t rows = 0;
+    for (const auto& range : game.scene().changedInstances)
+        rows += range.end - range.begin;
+    EXPECT_EQ(rows, 3u) << "the slider, the spinner and the lift";
+    EXPECT_EQ(game.scene().lightsVersion, lights) << "the lamp is held still";
+    const uint64_t camera = game.scene().cameraVersion;
+    game.tick({.look = {10, 0}}, kSize);
+    EXPECT_GT(game.scene().cameraVersion, camera);
+    EXPECT_GT(game.scene().lightsVersion, lights);
+}
+
+TEST(Game, TheOriginFollowsAFarCamera) {
+    SceneAsset far = level();
+    for (SceneNode& node : far.nodes)
+        node.local.translation += glm::dvec3(1e6, 0, -3e5);
+    Game near(level(), 1), away(std::move(far), 1);
+    near.tick({}, kSize);
+    away.tick({}, kSize);
+    const glm::dvec3 a = near.scene().originWorld, b = away.scene().originWorld;
+    EXPECT_LT(glm::length(b - glm::dvec3(1e6, 0, -3e5)), 2000);
+    ASSERT_EQ(near.scene().instances.size(), away.scene().instances.size());
+    for (size_t i = 0; i < near.scene().instances.size(); ++i) {
+        const glm::dvec3 p = glm::dvec3(near.scene().instances[i].worldFromLocal[3]) + a;
+        const glm::dvec3 q =
+            glm::dvec3(away.scene().instances[i].worldFromLocal[3]) + b - glm::dvec3(1e6, 0, -3e5);
+        EXPECT_LT(glm::length(p - q), 1e-3);
+    }
+}
+
+TEST(Game, ASteadyTickAllocatesNothing) {
+    Game game(level(), 1);
+    for (int i = 0; i < 50; ++i)
+        game.tick(scripted(i), kSize);
+    gAllocations = 0;
+    gCounting = true;
+    for (int i = 50; i < 80; ++i)
+        game.tick(scripted(i), kSize);
+    gCounting = false;
+    EXPECT_EQ(gAllocations, 0u);
+}
+
+TEST(Replay, SurvivesAFileAndRefusesABrokenOne) {
+    const std::string path = testing::TempDir() + "/a.replay";
+    std::vector<Input> ticks;
+    for (int i = 0; i < 50; ++i)
+        ticks.push_back(scripted(i));
+    ASSERT_TRUE(saveReplay(ticks, path));
+    const auto back = loadReplay(path);
+    ASSERT_TRUE(back) << back.error().message;
+    ASSERT_EQ(back->size(), ticks.size());
+    for (size_t i = 0; i < ticks.size(); ++i) {
+        EXPECT_EQ((*back)[i].look, ticks[i].look);
+        EXPECT_EQ((*back)[i].forward, ticks[i].forward);
+    }
+    for (const char* text : {"", "hello\n", "afterglow replay 1\n1 0 0 0\n",
+                             "afterglow replay 1\n9 0 0 0 0\n", "afterglow replay 1\n0 0 nan 0 0\n"}) {
+        std::FILE* file = std::fopen(path.c_str(), "w");
+        std::fputs(text, file);
+        std::fclose(file);
+        const auto broken = loadReplay(path);
+        EXPECT_FALSE(broken && !broken->empty()) << text;
+        if (!broken) {
+            EXPECT_NE(broken.error().message.find("a.replay"), std::string::npos);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace ag::game

@@ -1,0 +1,128 @@
+// The structs both languages share lie the same in both: compiled shaders against offsetof.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+
+#include "engine/gpu/shader.h"
+#include "shaders/importance/importance_io.h"
+#include "shaders/rsm/rsm_io.h"
+#include "shaders/scene/scene_io.h"
+#include "shaders/shadow_maps/shadow_maps_io.h"
+#include "shaders/val_clustering/val_clustering_io.h"
+#include "shaders/val_fit/val_fit_io.h"
+
+namespace ag {
+namespace {
+
+struct Member {
+    const char* name;
+    size_t offset;
+};
+struct Layout {
+    size_t sizeBytes;
+    std::vector<Member> members;
+};
+
+#define AG_MEMBER(T, m)        \
+    Member {                   \
+#m, offsetof(io::T, m) \
+    }
+
+const std::map<std::string, Layout>& layouts() {
+    static const std::map<std::string, Layout> all = {
+        {"CameraConstants",
+         {sizeof(io::CameraConstants),
+          {AG_MEMBER(CameraConstants, clipFromWorld), AG_MEMBER(CameraConstants, worldFromClip),
+           AG_MEMBER(CameraConstants, position), AG_MEMBER(CameraConstants, near),
+           AG_MEMBER(CameraConstants, size)}}},
+        {"Light",
+         {sizeof(io::Light),
+          {AG_MEMBER(Light, position), AG_MEMBER(Light, kind), AG_MEMBER(Light, direction),
+           AG_MEMBER(Light, range), AG_MEMBER(Light, intensity), AG_MEMBER(Light, cosInner),
+           AG_MEMBER(Light, cosOuter), AG_MEMBER(Light, firstShadowView), AG_MEMBER(Light, shadowViewCount),
+           AG_MEMBER(Light, castsShadow)}}},
+        {"ShadowView",
+         {sizeof(io::ShadowView),
+          {AG_MEMBER(ShadowView, clipFromWorld), AG_MEMBER(ShadowView, origin), AG_MEMBER(ShadowView, size),
+           AG_MEMBER(ShadowView, texelSize), AG_MEMBER(ShadowView, depthPerMetre),
+           AG_MEMBER(ShadowView, farDistance)}}},
+        {"RsmFace",
+         {sizeof(io::RsmFace),
+          {AG_MEMBER(RsmFace, worldFromClip), AG_MEMBER(RsmFace, clipFromWorld), AG_MEMBER(RsmFace, origin),
+           AG_MEMBER(RsmFace, size), AG_MEMBER(RsmFace, map)}}},
+        {"RsmMap",
+         {sizeof(io::RsmMap),
+          {AG_MEMBER(RsmMap, position), AG_MEMBER(RsmMap, kind), AG_MEMBER(RsmMap, direction),
+           AG_MEMBER(RsmMap, range), AG_MEMBER(RsmMap, intensity), AG_MEMBER(RsmMap, cosInner),
+           AG_MEMBER(RsmMap, cosOuter), AG_MEMBER(RsmMap, tanHalf), AG_MEMBER(RsmMap, firstFace),
+           AG_MEMBER(RsmMap, faceCount), AG_MEMBER(RsmMap, firstCluster), AG_MEMBER(RsmMap, clusterCount),
+           AG_MEMBER(RsmMap, lightIdLow), AG_MEMBER(RsmMap, candidateRadius)}}},
+        {"RsmTexel",
+         {sizeof(io::RsmTexel),
+          {AG_MEMBER(RsmTexel, position), AG_MEMBER(RsmTexel, area), AG_MEMBER(RsmTexel, normal),
+           AG_MEMBER(RsmTexel, weight), AG_MEMBER(RsmTexel, flux), AG_MEMBER(RsmTexel, emitterCosine)}}},
+        {"RsmAtlas",
+         {sizeof(io::RsmAtlas),
+          {AG_MEMBER(RsmAtlas, size), AG_MEMBER(RsmAtlas, faceCount), AG_MEMBER(RsmAtlas, mapCount)}}},
+        {"ViewPoint",
+         {sizeof(io::ViewPoint),
+          {AG_MEMBER(ViewPoint, position), AG_MEMBER(ViewPoint, weight), AG_MEMBER(ViewPoint, normal),
+           AG_MEMBER(ViewPoint, depth)}}},
+        {"ImportanceSettings",
+         {sizeof(io::ImportanceSettings),
+          {AG_MEMBER(ImportanceSettings, atlasSize), AG_MEMBER(ImportanceSettings, faceCount),
+           AG_MEMBER(ImportanceSettings, pyramidStride), AG_MEMBER(ImportanceSettings, viewWeight)}}},
+        {"ClusterSeed",
+         {sizeof(io::ClusterSeed),
+          {AG_MEMBER(ClusterSeed, position), AG_MEMBER(ClusterSeed, tile), AG_MEMBER(ClusterSeed, normal),
+           AG_MEMBER(ClusterSeed, map), AG_MEMBER(ClusterSeed, chroma), AG_MEMBER(ClusterSeed, age)}}},
+        {"Cluster",
+         {sizeof(io::Cluster),
+          {AG_MEMBER(Cluster, position), AG_MEMBER(Cluster, area), AG_MEMBER(Cluster, normal),
+           AG_MEMBER(Cluster, texelCount), AG_MEMBER(Cluster, flux), AG_MEMBER(Cluster, lightIdLow),
+           AG_MEMBER(Cluster, chroma), AG_MEMBER(Cluster, age), AG_MEMBER(Cluster, covarianceDiagonal),
+           AG_MEMBER(Cluster, map), AG_MEMBER(Cluster, covarianceMixed), AG_MEMBER(Cluster, cosineSpread)}}},
+        {"ClusterSettings",
+         {sizeof(io::ClusterSettings),
+          {AG_MEMBER(ClusterSettings, metricWeights), AG_MEMBER(ClusterSettings, clusterCount),
+           AG_MEMBER(ClusterSettings, atlasSize), AG_MEMBER(ClusterSettings, mapCount),
+           AG_MEMBER(ClusterSettings, step)}}},
+        {"Val",
+         {sizeof(io::Val),
+          {AG_MEMBER(Val, position), AG_MEMBER(Val, area), AG_MEMBER(Val, normal), AG_MEMBER(Val, radius),
+           AG_MEMBER(Val, flux), AG_MEMBER(Val, texelCount)}}}};
+    return all;
+}
+
+TEST(IoLayout, CompiledShadersAgreeWithTheHeaders) {
+    std::map<std::string, int> seen;
+    int modules = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(AFTERGLOW_SHADER_DIR)) {
+        if (entry.path().extension() != ".spv") continue;
+        const std::string path =
+            std::filesystem::relative(entry.path(), AFTERGLOW_SHADER_DIR).replace_extension().string();
+        const auto module = gpu::loadShader(path);
+        ASSERT_TRUE(module) << module.error().message;
+        EXPECT_LE(module->pushSizeBytes, 128u) << path;
+        ++modules;
+        for (const gpu::ShaderStruct& s : module->structs) {
+            const auto known = layouts().find(s.name);
+            if (known == layouts().end()) continue;
+            ++seen[s.name];
+            ASSERT_EQ(s.members.size(), known->second.members.size()) << path << ' ' << s.name;
+            for (size_t m = 0; m < s.members.size(); ++m) {
+                EXPECT_EQ(s.members[m].name, known->second.members[m].name) << path << ' ' << s.name;
+                EXPECT_EQ(s.members[m].offset, known->second.members[m].offset)
+                    << path << ' ' << s.name << '.' << s.members[m].name;
+            }
+        }
+    }
+    EXPECT_GT(modules, 20);
+    for (const auto& [name, layout] : layouts())
+        EXPECT_GT(seen[name], 0) << name << " appears in no shader";
+}
+
+}  // namespace
+}  // namespace ag
