@@ -50,7 +50,9 @@ json triangle(std::array<float, 9> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0}) {
 }
 
 fs::path folder() {
-    const fs::path path = fs::path(testing::TempDir()) / "gltf_import_test";
+    // Cases run as processes of their own, several at once.
+    const fs::path path = fs::path(testing::TempDir()) / "gltf_import_test" /
+                          testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::create_directories(path);
     return path;
 }
