@@ -33,7 +33,7 @@ void GiRenderer::load(const GeometryArrays& geometry) {
 }
 
 void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSettings& settings,
-                        const FrameGraphOptions& options, const Finish& finish, const Present& present,
+                        const FrameGraphOptions& options, Finish finish, Present present,
                         FrameSemaphores semaphores) {
     const uint32_t index = uint32_t(frame_++ % kFramesInFlight);
     Slot& slot = slots_[index];
@@ -44,7 +44,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     scene_.beginFrame(scene);
     const SceneView view = scene_.import(graph_, scene, size);
     const GiFrame frame = addGlobalIllumination(graph_, view, settings, history_);
-    if (finish) finish(graph_, view, frame);
+    finish(graph_, view, frame);
 
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
@@ -60,7 +60,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     } else {
         graph_.execute(slot.commands);
     }
-    if (present) present(slot.commands);
+    present(slot.commands);
     AG_VK(vkEndCommandBuffer(slot.commands));
     slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
 }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
-#include <functional>
 
+#include "engine/core/function_ref.h"
 #include "engine/core/image.h"
 #include "engine/gpu/device.h"
 #include "gi/debug_view.h"
@@ -27,11 +27,15 @@ class GiRenderer {
     void load(const GeometryArrays& geometry);
 
     // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs;
-    // `present` records after it, with the command buffer of the frame. Either may be empty.
-    using Finish = std::function<void(FrameGraph&, const SceneView&, const GiFrame&)>;
-    using Present = std::function<void(VkCommandBuffer)>;
+    // `present` records after it, with the command buffer of the frame.
+    using Finish = FunctionRef<void(FrameGraph&, const SceneView&, const GiFrame&)>;
+    using Present = FunctionRef<void(VkCommandBuffer)>;
+    struct PresentNothing {
+        void operator()(VkCommandBuffer) const {}
+    };
+    static constexpr PresentNothing kPresentNothing{};
     void render(const RenderScene& scene, glm::uvec2 size, const GiSettings& settings,
-                const FrameGraphOptions& options, const Finish& finish, const Present& present = {},
+                const FrameGraphOptions& options, Finish finish, Present present = kPresentNothing,
                 FrameSemaphores semaphores = {});
     void waitIdle() { device_.waitIdle(); }
 

@@ -4,6 +4,20 @@
 
 namespace ag::gi {
 
+bool applyPreset(std::string_view name, GiSettings& gi) {
+    if (name == "none") {
+        gi.valShading.enabled = false;
+    } else if (name == "rsmc") {
+        gi.valShading.shape = ValShape::kDisk;
+        gi.importance.viewWeight = 1;  // the geometry term toward the view alone
+        gi.valClustering.distanceWeight = gi.valClustering.normalWeight = 1;
+        gi.valClustering.chromaWeight = 10;
+    } else {
+        return name == "afterglow";
+    }
+    return true;
+}
+
 void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"rsm", "resolution", 0, 1024, "texels",
            "side of a light map, rounded down to a power of two; 0: as each light says"},
@@ -24,6 +38,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"val_clustering", "settle_frames", 0, 1000, "frames",
            "clustering steps after the light maps last changed"},
           &gi.valClustering.settleFrames);
+    s.add({"val_shading", "enabled", 0, 0, "", "indirect light at all"}, &gi.valShading.enabled);
     s.add(
         {"val_shading", "shape", 0, 0, "", "form factor of an area light", {"point", "disk", "vector_disk"}},
         &gi.valShading.shape);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string_view>
 
 #include "gi/composite.h"
 #include "gi/importance.h"
@@ -27,6 +28,10 @@ struct GiSettings {
 
 // Adds the groups rsm, importance, val_clustering, val_shading, shadow_maps and composite. `gi` must outlive
 // `settings`.
+// Named sets of settings: "none" (direct light only), "rsmc" (as published), "afterglow" (the default). False
+// if there is no such preset.
+bool applyPreset(std::string_view name, GiSettings& gi);
+
 void registerSettings(Settings& settings, GiSettings& gi);
 
 }  // namespace ag::gi

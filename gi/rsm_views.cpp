@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "gi/light_views.h"
 
@@ -47,8 +48,10 @@ void placeFaces(RsmLayout& layout) {
     std::array<uint32_t, io::kMaxRsmFaces> order{};
     for (uint32_t i = 0; i < layout.faceCount; ++i)
         order[i] = i;
-    std::stable_sort(order.begin(), order.begin() + layout.faceCount,
-                     [&](uint32_t a, uint32_t b) { return layout.faces[a].size > layout.faces[b].size; });
+    // Not stable_sort, which allocates: the index settles ties.
+    std::sort(order.begin(), order.begin() + layout.faceCount, [&](uint32_t a, uint32_t b) {
+        return std::pair(layout.faces[b].size, a) < std::pair(layout.faces[a].size, b);
+    });
     const uint32_t width = std::max(layout.largestFace * (layout.faceCount > 1 ? 2 : 1), io::kRsmTileSize);
     glm::uvec2 cursor(0);
     uint32_t shelf = 0;

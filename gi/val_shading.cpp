@@ -4,7 +4,7 @@ namespace ag::gi {
 
 Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
                          const ValShadingSettings& settings) {
-    if (vals.count == 0) return {};
+    if (vals.count == 0 || !settings.enabled) return {};
     const Irradiance result{graph.image("val_shading.irradiance",
                                         {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
     graph.compute("val_shading.gather", "val_shading/gather_vals.comp")

@@ -13,6 +13,7 @@ enum class ValShape : uint32_t {
 };
 
 struct ValShadingSettings {
+    bool enabled = true;  // off: no indirect light, and nothing that only it needs
     ValShape shape = ValShape::kVectorDisk;
 };
 

@@ -18,6 +18,7 @@ struct RenderOptions {
     std::string output;
     std::string layer;
     uint32_t frames = 64;
+    std::string preset = "afterglow";
     std::vector<std::string> assignments;
     bool listSettings = false;
     bool times = false;
@@ -73,12 +74,16 @@ void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSetti
 
 int runRender(const RenderOptions& options) {
     RenderSettings settings;
+    if (!gi::applyPreset(options.preset, settings.gi))
+        return refuse(
+            fmt::format("there is no preset '{}' (there are: none, rsmc, afterglow)", options.preset));
     for (const std::string& assignment : options.assignments)
         if (const Status set = settings.registry.set(assignment); !set) return refuse(set.error().message);
     if (options.listSettings) {
         std::cout << settings.registry.table();
         return 0;
     }
+    if (options.scene.scene.empty()) return refuse("render needs a SCENE");
     if (options.output.empty()) return refuse("render needs -o FILE.(exr|pfm|png)");
     const auto layer = gi::layerFromName(layerOf(options));
     if (!layer) return refuse(fmt::format("there is no layer '{}'", options.layer));
@@ -130,6 +135,7 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
         ->capture_default_str();
     command->add_option("--layer", options->layer,
                         "which intermediate; radiance (exr, pfm) or final (png) by default");
+    command->add_option("--preset", options->preset, "none, rsmc or afterglow")->capture_default_str();
     command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
     command->add_flag("--list-settings", options->listSettings,
                       "every setting with default, range, unit, help");
