@@ -123,6 +123,92 @@ TEST(Rsm, PointLightsSixFacesCatchAllItsPower) {
     EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels)) / (0.5 * 4 * kPi), 1, 0.01);
 }
 
+// Direct irradiance at pixels of the plane y = 0 against E = I cos / d², E = E_perpendicular cos.
+void checkDirect(const RenderLight& light, double most) {
+    Bench b(plane(0.5f));
+    b.scene.lights = {light};
+    for (int i = 0; i < 2; ++i)
+        b.renderer.render(b.scene, b.size, b.settings, b.options,
+                          [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                              b.last = declared;
+                              graph.output(declared.direct.image);
+                              graph.output(declared.gbuffer.depth);
+                          });
+    const Image direct = readImage(b.renderer, b.last.direct.image);
+    const Image depth = readImage(b.renderer, b.last.gbuffer.depth);
+    int checked = 0;
+    for (int y = 20; y < 96; y += 5)
+        for (int x = 2; x < 160; x += 7) {
+            const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / glm::vec2(b.size) * 2.0f - 1.0f;
+            const glm::vec4 h = b.scene.camera.worldFromClip * glm::vec4(ndc, depth.at(x, y).x, 1);
+            const glm::dvec3 p = glm::dvec3(h) / double(h.w);
+            if (depth.at(x, y).x == 0 || glm::length(p) > 6) continue;
+            const glm::dvec3 to = glm::dvec3(light.position) - p;
+            double truth = light.kind == LightKind::kDirectional
+                               ? double(light.intensity.x) * double(-light.direction.y)
+                               : double(light.intensity.x) * to.y / std::pow(glm::length(to), 3);
+            if (light.kind == LightKind::kSpot) {
+                const double cosine = glm::dot(-glm::normalize(to), glm::dvec3(light.direction));
+                const double inner = std::cos(double(light.innerConeAngle)), outer = std::cos(double(light.outerConeAngle));
+                const double t = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+                truth *= t * t;
+            }
+            ASSERT_NEAR(double(direct.at(x, y).x), truth, most * truth + 1e-3) << x << ' ' << y;
+            ++checked;
+        }
+    EXPECT_GT(checked, 100);
+}
+
+TEST(DirectLight, PlaneAgainstTheFormulas) {
+    checkDirect({.kind = LightKind::kPoint, .position = {0.4f, 2, -0.3f}, .intensity = glm::vec3(9), .id = 1}, 2e-3);
+    checkDirect({.kind = LightKind::kSpot,
+                 .position = {0.4f, 3, -0.3f},
+                 .direction = glm::normalize(glm::vec3(0.1f, -1, 0.2f)),
+                 .intensity = glm::vec3(9),
+                 .innerConeAngle = 0.3f,
+                 .outerConeAngle = 0.8f,
+                 .id = 1},
+                2e-3);
+    checkDirect({.kind = LightKind::kDirectional,
+                 .direction = glm::normalize(glm::vec3(0.5f, -1, 0.2f)),
+                 .intensity = glm::vec3(9),
+                 .id = 1},
+                2e-3);
+}
+
+// A box over the floor: the point straight below it gets nothing, one well beside it everything.
+TEST(DirectLight, BoxesCastShadows) {
+    for (const LightKind kind : {LightKind::kPoint, LightKind::kSpot, LightKind::kDirectional}) {
+        scenegen::SceneBuilder builder("shadow");
+        const uint32_t gray = builder.material("gray", glm::vec3(0.5f));
+        builder.quad("floor", {-5, 0, -5}, {0, 0, 10}, {10, 0, 0}, gray);
+        builder.box("box", {0, 1, 0}, {1, 0.2f, 1}, gray);
+        builder.camera("camera", {0, 2.2f, 5}, {0, 0, 0}, 50);
+        Bench b(builder.finish());
+        b.scene.lights = {{.kind = kind,
+                           .position = {0, 3, 0},
+                           .direction = {0, -1, 0},
+                           .intensity = glm::vec3(9),
+                           .innerConeAngle = 0.6f,
+                           .outerConeAngle = 0.9f,
+                           .id = 1}};
+        b.renderer.render(b.scene, b.size, b.settings, b.options,
+                          [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                              b.last = declared;
+                              graph.output(declared.direct.image);
+                          });
+        const Image direct = readImage(b.renderer, b.last.direct.image);
+        const auto at = [&](glm::vec3 p) {
+            const glm::vec4 clip = b.scene.camera.clipFromWorld * glm::vec4(p, 1);
+            const glm::vec2 pixel = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(b.size);
+            return direct.at(int(pixel.x), int(pixel.y)).x;
+        };
+        EXPECT_EQ(at({0, 0, 0.2f}), 0) << int(kind);
+        EXPECT_GT(at({1.3f, 0, 0.6f}), 0.3f) << int(kind);
+        EXPECT_GT(at({0, 1.1f, 0}), 1.0f) << "no acne on top, " << int(kind);
+    }
+}
+
 // Every lit texel in one live cluster, fluxes add up, and the assignment is the CPU's.
 void checkClusters(Bench& b) {
     const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
