@@ -10,6 +10,7 @@
 #include "engine/app/imgui_pass.h"
 #include "engine/app/window.h"
 #include "engine/core/image.h"
+#include "engine/gpu/barrier.h"
 #include "game/demo_options.h"
 
 namespace ag::game {
@@ -26,22 +27,7 @@ constexpr std::array<gi::Layer, 9> kKeyLayers = {
     gi::Layer::kNormal, gi::Layer::kRsm,    gi::Layer::kClusters, gi::Layer::kVals};
 
 void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    const VkImageMemoryBarrier2 barrier{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-        .oldLayout = from,
-        .newLayout = to,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-        .image = image,
-        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
-                                .imageMemoryBarrierCount = 1,
-                                .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &info);
+    gpu::transitionImage(commands, image, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}, from, to);
 }
 
 void blit(VkCommandBuffer commands, const gpu::Image& from, VkImage to, glm::uvec2 size) {

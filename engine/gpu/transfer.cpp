@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/gpu/barrier.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/resources.h"
 
@@ -10,20 +11,7 @@ namespace {
 
 void barrier(VkCommandBuffer commands, const Image& image, uint32_t layer, uint32_t mip, uint32_t mips,
              VkImageLayout from, VkImageLayout to) {
-    const VkImageMemoryBarrier2 b{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                  .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                  .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                  .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                  .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                  .oldLayout = from,
-                                  .newLayout = to,
-                                  .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                  .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                  .image = image.handle(),
-                                  .subresourceRange = {image.aspect(), mip, mips, layer, 1}};
-    const VkDependencyInfo info{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &b};
-    vkCmdPipelineBarrier2(commands, &info);
+    transitionImage(commands, image.handle(), {image.aspect(), mip, mips, layer, 1}, from, to);
 }
 
 VkOffset3D mipEnd(const ImageDesc& desc, uint32_t mip) {

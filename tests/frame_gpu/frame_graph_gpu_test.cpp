@@ -1,4 +1,5 @@
-// The graph on a device, its barriers alone between the passes (timing is off) and synchronization validation watching.
+// The graph on a device, its barriers alone between the passes (timing is off) and synchronization validation
+// watching.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -22,7 +23,8 @@ struct DeviceGraph {
     std::vector<glm::vec4> read(ImageHandle handle) {
         const gpu::Image& image = graph.physical(handle);
         std::vector<glm::vec4> texels(size_t(image.desc().size.x) * image.desc().size.y);
-        gpu::downloadImage(device, image, graph.layoutAfterFrame(handle), std::as_writable_bytes(std::span(texels)));
+        gpu::downloadImage(device, image, graph.layoutAfterFrame(handle),
+                           std::as_writable_bytes(std::span(texels)));
         return texels;
     }
     std::vector<uint32_t> read(BufferHandle handle) {
@@ -39,8 +41,11 @@ TEST(DeviceGraph, HistoriesCountTheirSteps) {
         g.options.skip = skip;
         g.graph.beginFrame(g.options);
         const HistoryBuffer h = g.graph.historyBuffer("counter", {.sizeBytes = 256});
-        g.graph.compute("count", "test/add_step.comp").readPrevious("previous", h).write("current", h.current)
-            .step(step).dispatchThreads(64);
+        g.graph.compute("count", "test/add_step.comp")
+            .readPrevious("previous", h)
+            .write("current", h.current)
+            .step(step)
+            .dispatchThreads(64);
         g.graph.output(h.current);
         g.execute();
         return g.read(h.current)[7];
@@ -60,7 +65,8 @@ TEST(DeviceGraph, PassTimesArrive) {
     g.options = {.skip = false};
     for (int frame = 0; frame < 5; ++frame) {
         g.graph.beginFrame(g.options);
-        const ImageHandle image = g.graph.image("image", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {64, 64}});
+        const ImageHandle image =
+            g.graph.image("image", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {64, 64}});
         g.graph.fullscreen("draw", "test/draw_value.frag").push(0.5f).colorClear(image, glm::vec4(0));
         g.graph.output(image);
         g.execute();
@@ -68,7 +74,8 @@ TEST(DeviceGraph, PassTimesArrive) {
     EXPECT_GT(g.graph.report()[0].gpuMs, 0);
     g.options.timing = TimingMode::kProcessCpu;
     g.graph.beginFrame(g.options);
-    const ImageHandle image = g.graph.image("image", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {64, 64}});
+    const ImageHandle image =
+        g.graph.image("image", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {64, 64}});
     g.graph.fullscreen("draw", "test/draw_value.frag").push(0.25f).colorClear(image, glm::vec4(0));
     g.graph.output(image);
     g.graph.execute(VK_NULL_HANDLE);
@@ -76,7 +83,8 @@ TEST(DeviceGraph, PassTimesArrive) {
     EXPECT_EQ(g.read(image)[0].x, 0.25f);
 }
 
-// A random web of images: some drawn, some mixed from two earlier ones, some in shared memory, some asked for.
+// A random web of images: some drawn, some mixed from two earlier ones, some in shared memory, some asked
+// for.
 struct Node {
     bool drawn = false, scratch = false, output = false;
     uint32_t a = 0, b = 0;
@@ -104,14 +112,21 @@ std::vector<glm::vec4> runWeb(DeviceGraph& g, const std::vector<Node>& web) {
     std::vector<ImageHandle> images;
     for (uint32_t i = 0; i < web.size(); ++i) {
         const Node& n = web[i];
-        images.push_back(g.graph.image(kNames[i], {.format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                                   .size = {32, 16},
-                                                   .lifetime = n.scratch ? Lifetime::kScratch : Lifetime::kKept}));
+        images.push_back(
+            g.graph.image(kNames[i], {.format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                      .size = {32, 16},
+                                      .lifetime = n.scratch ? Lifetime::kScratch : Lifetime::kKept}));
         if (n.drawn)
-            g.graph.fullscreen(kNames[i], "test/draw_value.frag").push(n.value).colorClear(images[i], glm::vec4(0));
+            g.graph.fullscreen(kNames[i], "test/draw_value.frag")
+                .push(n.value)
+                .colorClear(images[i], glm::vec4(0));
         else
-            g.graph.compute(kNames[i], "test/mix_images.comp").sample("first", images[n.a]).sample("second", images[n.b])
-                .write("result", images[i]).push(n.value).dispatchThreads(32, 16);
+            g.graph.compute(kNames[i], "test/mix_images.comp")
+                .sample("first", images[n.a])
+                .sample("second", images[n.b])
+                .write("result", images[i])
+                .push(n.value)
+                .dispatchThreads(32, 16);
         if (n.output) g.graph.output(images[i]);
     }
     g.execute();
@@ -135,7 +150,8 @@ TEST(DeviceGraph, SkippingAndSharedMemoryChangeNoBit) {
             if (frame % 3 != 0) web[random() % web.size()].value += 0.125f;
             if (frame == 6) web[3].output = !web[3].output;
             ASSERT_EQ(runWeb(fast, web), runWeb(plain, web)) << "round " << round << " frame " << frame;
-            for (const PassReport& pass : fast.graph.report()) skipped += pass.outcome == PassOutcome::kSkipped;
+            for (const PassReport& pass : fast.graph.report())
+                skipped += pass.outcome == PassOutcome::kSkipped;
         }
     }
     EXPECT_GT(skipped, 100);

@@ -3,28 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "engine/scene/extract_system.h"
 #include "engine/scene/gltf_import.h"
-
-namespace {
-bool gCounting = false;
-size_t gAllocations = 0;
-}  // namespace
-
-void* operator new(size_t bytes) {
-    gAllocations += gCounting;
-    if (void* memory = std::malloc(bytes)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-    std::free(memory);
-}
+#include "tests/support/allocation_counter.h"
 
 namespace ag::game {
 namespace {
@@ -119,12 +100,11 @@ TEST(Game, ASteadyTickAllocatesNothing) {
     Game game(level(), 1);
     for (int i = 0; i < 50; ++i)
         game.tick(scripted(i), kSize);
-    gAllocations = 0;
-    gCounting = true;
-    for (int i = 50; i < 80; ++i)
-        game.tick(scripted(i), kSize);
-    gCounting = false;
-    EXPECT_EQ(gAllocations, 0u);
+    const size_t allocations = test::countAllocations([&] {
+        for (int i = 50; i < 80; ++i)
+            game.tick(scripted(i), kSize);
+    });
+    EXPECT_EQ(allocations, 0u);
 }
 
 TEST(Replay, SurvivesAFileAndRefusesABrokenOne) {

@@ -149,7 +149,8 @@ void checkDirect(const RenderLight& light, double most) {
                                : double(light.intensity.x) * to.y / std::pow(glm::length(to), 3);
             if (light.kind == LightKind::kSpot) {
                 const double cosine = glm::dot(-glm::normalize(to), glm::dvec3(light.direction));
-                const double inner = std::cos(double(light.innerConeAngle)), outer = std::cos(double(light.outerConeAngle));
+                const double inner = std::cos(double(light.innerConeAngle)),
+                             outer = std::cos(double(light.outerConeAngle));
                 const double t = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
                 truth *= t * t;
             }
@@ -160,7 +161,8 @@ void checkDirect(const RenderLight& light, double most) {
 }
 
 TEST(DirectLight, PlaneAgainstTheFormulas) {
-    checkDirect({.kind = LightKind::kPoint, .position = {0.4f, 2, -0.3f}, .intensity = glm::vec3(9), .id = 1}, 2e-3);
+    checkDirect({.kind = LightKind::kPoint, .position = {0.4f, 2, -0.3f}, .intensity = glm::vec3(9), .id = 1},
+                2e-3);
     checkDirect({.kind = LightKind::kSpot,
                  .position = {0.4f, 3, -0.3f},
                  .direction = glm::normalize(glm::vec3(0.1f, -1, 0.2f)),

@@ -3,29 +3,10 @@
 // is per thread.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "engine/scene/static_scene.h"
 #include "gi/gi_renderer.h"
+#include "tests/support/allocation_counter.h"
 #include "tools/scenegen/scenes.h"
-
-namespace {
-thread_local bool tCounting = false;
-thread_local size_t tAllocations = 0;
-}  // namespace
-
-void* operator new(size_t bytes) {
-    tAllocations += tCounting;
-    if (void* memory = std::malloc(bytes)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-    std::free(memory);
-}
 
 namespace ag::gi {
 namespace {
@@ -57,13 +38,12 @@ TEST(SteadyFrame, AllocatesNothingWhileThingsMove) {
     for (int i = 0; i < 12; ++i)
         frame(i);
     ran = 0;
-    tAllocations = 0;
-    tCounting = true;
-    for (int i = 12; i < 24; ++i)
-        frame(i);
-    tCounting = false;
+    const size_t allocations = test::countAllocations([&] {
+        for (int i = 12; i < 24; ++i)
+            frame(i);
+    });
     EXPECT_GT(ran, 12u * 15u) << "the frames must have had work to do";
-    EXPECT_EQ(tAllocations, 0u);
+    EXPECT_EQ(allocations, 0u);
 }
 
 }  // namespace

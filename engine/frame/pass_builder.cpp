@@ -1,0 +1,193 @@
+// What a pass says of itself: uses, state, constants, work.
+#include <algorithm>
+
+#include "engine/frame/frame_graph_impl.h"
+
+namespace ag {
+
+namespace {
+
+bool isCompute(const Pass& pass) {
+    return pass.kind == PassKind::kCompute;
+}
+
+}  // namespace
+
+#define AG_PASS (graph_->impl_->passes.back())
+
+PassBuilder& PassBuilder::read(std::string_view name, BufferHandle buffer) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
+    graph_->impl_->addUse({.resource = buffer.index, .kind = kind, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::read(std::string_view name, ImageHandle image) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
+    graph_->impl_->addUse({.resource = image.index, .kind = kind, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::write(std::string_view name, BufferHandle buffer) {
+    graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kComputeWrite, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::write(std::string_view name, ImageHandle image, uint32_t mip) {
+    // One mip of several: the others keep what they hold, so the image as a whole is read and written.
+    const bool whole = graph_->info(image).mips == 1;
+    graph_->impl_->addUse({.resource = image.index,
+                           .kind = whole ? UseKind::kComputeWrite : UseKind::kComputeReadWrite,
+                           .name = name,
+                           .mip = mip,
+                           .wholeImage = false});
+    return *this;
+}
+
+PassBuilder& PassBuilder::readWrite(std::string_view name, BufferHandle buffer) {
+    graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kComputeReadWrite, .name = name});
+    return *this;
+}
+
+PassBuilder& PassBuilder::readWrite(std::string_view name, ImageHandle image) {
+    graph_->impl_->addUse(
+        {.resource = image.index, .kind = UseKind::kComputeReadWrite, .name = name, .wholeImage = false});
+    return *this;
+}
+
+PassBuilder& PassBuilder::readPrevious(std::string_view name, const HistoryBuffer& history) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
+    graph_->impl_->addUse({.resource = history.previous.index, .kind = kind, .name = name, .previous = true});
+    return *this;
+}
+
+PassBuilder& PassBuilder::samplePrevious(std::string_view name, const HistoryImage& history,
+                                         Sampler sampler) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeSample : UseKind::kRasterSample;
+    graph_->impl_->addUse({.resource = history.previous.index,
+                           .kind = kind,
+                           .name = name,
+                           .sampler = sampler,
+                           .previous = true});
+    return *this;
+}
+
+PassBuilder& PassBuilder::sample(std::string_view name, ImageHandle image, Sampler sampler) {
+    const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeSample : UseKind::kRasterSample;
+    graph_->impl_->addUse({.resource = image.index, .kind = kind, .name = name, .sampler = sampler});
+    return *this;
+}
+
+PassBuilder& PassBuilder::color(ImageHandle image) {
+    gpu::RasterState& raster = AG_PASS.raster;
+    AG_CHECK_LT(raster.colorCount, gpu::kMaxColorTargets);
+    raster.colorFormats[raster.colorCount++] = graph_->info(image).format;
+    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kColorLoad});
+    return *this;
+}
+
+PassBuilder& PassBuilder::colorClear(ImageHandle image, glm::vec4 clear) {
+    color(image);
+    Use& use = graph_->impl_->uses.back();
+    use.kind = UseKind::kColorClear;
+    use.clear = clear;
+    return *this;
+}
+
+PassBuilder& PassBuilder::depth(ImageHandle image) {
+    gpu::RasterState& raster = AG_PASS.raster;
+    raster.depthFormat = graph_->info(image).format;
+    raster.depthTest = raster.depthWrite = true;
+    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kDepthLoad});
+    return *this;
+}
+
+PassBuilder& PassBuilder::depthClear(ImageHandle image, float clear) {
+    depth(image);
+    Use& use = graph_->impl_->uses.back();
+    use.kind = UseKind::kDepthClear;
+    use.clear.x = clear;
+    return *this;
+}
+
+PassBuilder& PassBuilder::depthTestOnly(ImageHandle image) {
+    gpu::RasterState& raster = AG_PASS.raster;
+    raster.depthFormat = graph_->info(image).format;
+    raster.depthTest = true;
+    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kDepthTest});
+    return *this;
+}
+
+PassBuilder& PassBuilder::blend(gpu::BlendMode mode) {
+    AG_PASS.raster.blend = mode;
+    return *this;
+}
+
+PassBuilder& PassBuilder::depthBiasSlope(float slope) {
+    AG_PASS.raster.depthBiasSlope = slope;
+    return *this;
+}
+
+PassBuilder& PassBuilder::pushBytes(std::span<const std::byte> bytes) {
+    AG_CHECK_LE(bytes.size(), AG_PASS.push.size());
+    std::memcpy(AG_PASS.push.data(), bytes.data(), bytes.size());
+    AG_PASS.pushSizeBytes = uint32_t(bytes.size());
+    return *this;
+}
+
+PassBuilder& PassBuilder::spec(uint32_t id, uint32_t value) {
+    AG_CHECK_LT(AG_PASS.specCount, gpu::kMaxSpecConstants);
+    AG_PASS.spec[AG_PASS.specCount++] = {id, value};
+    return *this;
+}
+
+PassBuilder& PassBuilder::step(uint64_t value) {
+    return key(combineHash(1, value));
+}
+
+PassBuilder& PassBuilder::key(uint64_t value) {
+    AG_PASS.extraKey = combineHash(AG_PASS.extraKey, value);
+    return *this;
+}
+
+PassBuilder& PassBuilder::dispatchThreads(uint32_t x, uint32_t y, uint32_t z) {
+    AG_PASS.dispatch = {x, y, z};
+    AG_PASS.threads = true;
+    return *this;
+}
+
+PassBuilder& PassBuilder::dispatchGroups(uint32_t x, uint32_t y, uint32_t z) {
+    AG_PASS.dispatch = {x, y, z};
+    return *this;
+}
+
+PassBuilder& PassBuilder::dispatchIndirect(BufferHandle arguments, uint64_t offsetBytes) {
+    AG_PASS.dispatchIndirect = true;
+    AG_PASS.indirectOffset = offsetBytes;
+    graph_->impl_->addUse({.resource = arguments.index, .kind = UseKind::kIndirect});
+    return *this;
+}
+
+PassBuilder& PassBuilder::geometry(const Geometry& geometry) {
+    AG_PASS.geometry = geometry;
+    return *this;
+}
+
+PassBuilder& PassBuilder::draw(const RasterDraw& draw) {
+    FrameGraph::Impl& impl = *graph_->impl_;
+    impl.draws.push_back(draw);
+    ++AG_PASS.drawCount;
+    const auto uses = impl.usesOf(AG_PASS);
+    const bool known = std::ranges::any_of(uses, [&](const Use& u) {
+        return u.resource == draw.commands.index && u.kind == UseKind::kIndirect;
+    });
+    // A draw with a version of its own range stands for the buffer's contents in the key.
+    if (!known)
+        impl.addUse({.resource = draw.commands.index,
+                     .kind = UseKind::kIndirect,
+                     .keyed = draw.commandsVersion == 0});
+    return *this;
+}
+
+#undef AG_PASS
+
+}  // namespace ag
