@@ -104,9 +104,11 @@ int runHeadless(Demo& demo) {
     std::string report = fmt::format(
         "device {}\n{} frames of {}x{}, first after {:.0f} ms (start and shader compilation), median {:.1f} "
         "ms "
-        "({:.1f}/s), p99 {:.1f} ms\nworld hash {:016x}\ndevice memory {:.1f} MiB\n\n",
+        "({:.1f}/s), p99 {:.1f} ms\nplayer at {:.2f} {:.2f}\nworld hash {:016x}\ndevice memory {:.1f} "
+        "MiB\n\n",
         (*device)->info().name, frames, o.size.x, o.size.y, firstMs, median, median > 0 ? 1000 / median : 0,
-        quantile(frameMs, 0.99), demo.game->stateHash(), double(renderer.deviceBytes()) / 1048576.0);
+        quantile(frameMs, 0.99), demo.game->player().position.x, demo.game->player().position.z,
+        demo.game->stateHash(), double(renderer.deviceBytes()) / 1048576.0);
     report += passes.text();
     std::cout << report;
     if (!o.report.empty() && !(std::ofstream(o.report) << report)) return refuse("cannot write " + o.report);

@@ -55,4 +55,9 @@ code=$?
 walked=$(awk 'NR > 1 && $1 > 0' "$work/run.replay" | wc -l)
 looked=$(awk 'NR > 1 && $3 != 0' "$work/run.replay" | wc -l)
 echo "ticks walked: $walked, ticks looked: $looked"
+# Played again without a window, the recording ends where the walk did: not where it began.
+start=$("$bin/afterglow-demo" --headless --frames 1 --size 32x18 2>/dev/null | grep 'player at')
+end=$("$bin/afterglow-demo" --headless --replay "$work/run.replay" --size 32x18 2>/dev/null | grep 'player at')
+echo "start: $start, end: $end"
+[[ -n $end && $start != "$end" ]] || { echo "FAILED: the camera did not move"; exit 1; }
 ((walked > 20 && looked > 0)) || { echo "FAILED: the keys or the mouse did not reach the game"; exit 1; }
