@@ -19,6 +19,8 @@ bool parseSize(const std::string& text, glm::uvec2& size) {
 }
 
 void addOptions(CLI::App& program, DemoOptions& o) {
+    // The last one counts, so that what follows a script's own options overrides them.
+    program.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     program.add_flag("--headless", o.headless, "no window: play the replay and report");
     program.add_option("--frames", o.frames, "stop after so many frames");
     program.add_option("--replay", o.replay, "play these recorded inputs");
@@ -28,7 +30,9 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_option("--screenshot", o.screenshot, "save the last frame as PNG");
     program.add_option("--report", o.report, "save a report of the passes and times");
     program.add_option("--view", o.view, "show this intermediate instead of the final image");
-    program.add_option("--set", o.assignments, "group.name=value")->allow_extra_args(false);
+    program.add_option("--set", o.assignments, "group.name=value")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     program.add_flag("--serial", o.serial, "one thread, systems in order");
     program.add_flag("--validate", o.validate, "with Vulkan validation; any message exits with 1");
 }
