@@ -13,6 +13,11 @@ void* operator new(size_t bytes) {
     if (void* memory = std::malloc(bytes)) return memory;
     throw std::bad_alloc();
 }
+// The sanitizers bring a nothrow form of their own, which would not match our delete.
+void* operator new(size_t bytes, const std::nothrow_t&) noexcept {
+    tAllocations += tCounting;
+    return std::malloc(bytes);
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }

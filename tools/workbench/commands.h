@@ -8,6 +8,7 @@ namespace ag::workbench {
 
 void addInfoCommand(CLI::App& program, int& exitCode);
 void addRenderCommand(CLI::App& program, int& exitCode);
+void addReferenceCommand(CLI::App& program, int& exitCode);
 void addSceneCommand(CLI::App& program, int& exitCode);
 void addCompareCommand(CLI::App& program, int& exitCode);
 

@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
     int exitCode = 0;
     ag::workbench::addInfoCommand(program, exitCode);
     ag::workbench::addRenderCommand(program, exitCode);
+    ag::workbench::addReferenceCommand(program, exitCode);
     ag::workbench::addSceneCommand(program, exitCode);
     ag::workbench::addCompareCommand(program, exitCode);
     try {

@@ -1,0 +1,57 @@
+// The renderer's own scene for rays: the same triangles, textures, lights and camera, in Embree.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <vector>
+
+#include "engine/scene/render_scene.h"
+
+namespace ag::reference {
+
+struct Surface {                         // what a ray met
+    glm::vec3 position{0};               // m
+    glm::vec3 geometricNormal{0, 1, 0};  // unit, on the ray's side
+    glm::vec3 normal{0, 1, 0};           // shading, unit, on the ray's side
+    glm::vec3 albedo{0};                 // diffuse
+    glm::vec3 emissive{0};               // W/(m² sr)
+    float distance = 0;                  // m
+};
+
+class RayScene {
+  public:
+    // The scene and its geometry must outlive this. Alpha-masked holes let rays through; blended surfaces are
+    // not there.
+    explicit RayScene(const RenderScene& scene);
+    ~RayScene();
+    RayScene(const RayScene&) = delete;
+    RayScene& operator=(const RayScene&) = delete;
+
+    // The nearest surface along a unit direction; false if there is none.
+    bool intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface) const;
+    // Whether nothing stands between origin and origin + direction x distance.
+    bool visible(glm::vec3 origin, glm::vec3 direction, float distance) const;
+
+    const RenderScene& scene() const { return scene_; }
+    // How far to step off a surface, m: a small part of the scene's size and of the position's precision.
+    float offset() const { return offset_; }
+
+  private:
+    struct Part {  // one Embree geometry: an instance
+        const RenderInstance* instance;
+        const Primitive* primitive;
+        glm::mat3 normalFromLocal;
+    };
+    glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
+    bool masked(const Part& part, uint32_t triangle, float u, float v) const;
+    static void filterMasked(const RTCFilterFunctionNArguments* arguments);
+
+    const RenderScene& scene_;
+    RTCDevice device_ = nullptr;
+    RTCScene rtc_ = nullptr;
+    std::vector<std::unique_ptr<Part>> parts_;  // by geometry id
+    float offset_ = 1e-4f;
+};
+
+}  // namespace ag::reference
