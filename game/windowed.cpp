@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "engine/app/debug_ui.h"
 #include "engine/app/imgui_pass.h"
@@ -91,9 +92,13 @@ class WindowedRun {
             last = now;
             smoothMs += (elapsed * 1e3 - smoothMs) * 0.05;
             behind = std::min(behind + elapsed, kMostTicksPerFrame * kTick);
-            for (Input input = window_.takeInput(); behind >= kTick || ticks_ == 0; behind -= kTick) {
+            const Input held = window_.takeInput();
+            turned_ += held.look;
+            for (; behind >= kTick || ticks_ == 0; behind -= kTick) {
+                Input input = held;
+                input.look =
+                    std::exchange(turned_, glm::vec2(0));  // mouse movement counts once, and is never lost
                 demo_.game->tick(nextInput(demo_, ticks_++, input), renderSize());
-                input.look = {};  // mouse movement counts once
             }
             if (!show(smoothMs)) std::this_thread::sleep_for(std::chrono::milliseconds(20));
             if (demo_.options.frames && frame + 1 >= demo_.options.frames) break;
@@ -153,6 +158,7 @@ class WindowedRun {
     ImGuiPass imgui_;
     Controls controls_;
     ImageHandle shown_;
+    glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels
     uint64_t ticks_ = 0, drawn_ = 0;
 };
 

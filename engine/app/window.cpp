@@ -35,10 +35,9 @@ void Window::installCallbacks() {
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         Window& window = self(w);
-        if (window.captured_ && window.haveCursor_)
+        if (window.captured_)
             window.moved_ += glm::vec2(float(x - window.cursor_.x), float(y - window.cursor_.y));
         window.cursor_ = {x, y};
-        window.haveCursor_ = true;
     });
 }
 
@@ -83,9 +82,9 @@ std::vector<int> Window::takePressedKeys() {
 
 void Window::captureCursor(bool captured) {
     captured_ = captured;
-    haveCursor_ = false;
     glfwSetInputMode(window_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
     if (glfwRawMouseMotionSupported()) glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, captured);
+    glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);  // movement counts from here
 }
 
 }  // namespace ag

@@ -41,7 +41,6 @@ class Window {
 
     GLFWwindow* window_ = nullptr;
     bool captured_ = false;
-    bool haveCursor_ = false;
     glm::dvec2 cursor_{0};
     glm::vec2 moved_{0};
     std::vector<int> pressed_;

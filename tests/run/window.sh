@@ -30,7 +30,10 @@ sleep 2
 xdotool keydown w
 sleep 2
 xdotool keyup w
-xdotool mousemove_relative 60 10
+for _ in 1 2 3 4 5; do
+  xdotool mousemove_relative 20 4
+  sleep 0.2
+done
 for key in F1 F2 8 9 1 F1 F2; do
   xdotool key $key
   sleep 0.3
