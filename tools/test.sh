@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, runs every test; ctest's summary comes last.
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
-# The fast tests share the cores; those that open a device run alone.
+# The quick tests share the cores; those that open a device run alone.
 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "$@"
