@@ -45,12 +45,47 @@ Status savePfm(const Image& image, const std::string& path) {
     });
 }
 
+// RGB in 32-bit floats, ZIP compression, attributes as strings.
 Status saveExr(const Image& image, const std::string& path) {
+    std::vector<float> planes[3];
+    for (size_t c = 0; c < 3; ++c)
+        for (const glm::vec3& p : image.pixels)
+            planes[c].push_back(p[2 - int(c)]);  // B, G, R: channels are in alphabetical order
+    float* pointers[3] = {planes[0].data(), planes[1].data(), planes[2].data()};
+    EXRImage pixels;
+    InitEXRImage(&pixels);
+    pixels.num_channels = 3;
+    pixels.images = reinterpret_cast<unsigned char**>(pointers);
+    pixels.width = image.width;
+    pixels.height = image.height;
+
+    EXRChannelInfo channels[3] = {};
+    int types[3];
+    for (size_t c = 0; c < 3; ++c) {
+        channels[c].name[0] = "BGR"[c];
+        types[c] = TINYEXR_PIXELTYPE_FLOAT;
+    }
+    std::vector<EXRAttribute> attributes;
+    for (const auto& [name, value] : image.attributes) {
+        EXRAttribute a{};
+        std::snprintf(a.name, sizeof(a.name), "%s", name.c_str());
+        std::snprintf(a.type, sizeof(a.type), "string");
+        a.value = reinterpret_cast<unsigned char*>(const_cast<char*>(value.data()));
+        a.size = int(value.size());
+        attributes.push_back(a);
+    }
+    EXRHeader header;
+    InitEXRHeader(&header);
+    header.num_channels = 3;
+    header.channels = channels;
+    header.pixel_types = types;
+    header.requested_pixel_types = types;
+    header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
+    header.num_custom_attributes = int(attributes.size());
+    header.custom_attributes = attributes.data();
     return writeWhole(path, [&](const std::string& file) -> std::string {
         const char* message = nullptr;
-        const int result =
-            SaveEXR(&image.pixels[0].x, image.width, image.height, 3, 0, file.c_str(), &message);
-        if (result == TINYEXR_SUCCESS) return "";
+        if (SaveEXRImageToFile(&pixels, &header, file.c_str(), &message) == TINYEXR_SUCCESS) return "";
         const std::string text = message ? message : "the disk is full or the folder does not exist";
         if (message) FreeEXRErrorMessage(message);
         return text;
@@ -93,6 +128,20 @@ Result<Image> loadPfm(const std::string& path) {
     return image;
 }
 
+void loadAttributes(const std::string& path, Image& image) {
+    EXRVersion version;
+    EXRHeader header;
+    InitEXRHeader(&header);
+    if (ParseEXRVersionFromFile(&version, path.c_str()) != TINYEXR_SUCCESS) return;
+    if (ParseEXRHeaderFromFile(&header, &version, path.c_str(), nullptr) != TINYEXR_SUCCESS) return;
+    for (int i = 0; i < header.num_custom_attributes; ++i) {
+        const EXRAttribute& a = header.custom_attributes[i];
+        if (std::string_view(a.type) == "string")
+            image.attributes[a.name] = std::string(reinterpret_cast<const char*>(a.value), size_t(a.size));
+    }
+    FreeEXRHeader(&header);
+}
+
 Result<Image> loadExr(const std::string& path) {
     float* rgba = nullptr;
     int width = 0, height = 0;
@@ -106,6 +155,7 @@ Result<Image> loadExr(const std::string& path) {
     for (size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
     free(rgba);
+    loadAttributes(path, image);
     return image;
 }
 

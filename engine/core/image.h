@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@ namespace ag {
 
 struct Image {
     int width = 0, height = 0;
-    std::vector<glm::vec3> pixels;  // rows from the top
+    std::vector<glm::vec3> pixels;                  // rows from the top
+    std::map<std::string, std::string> attributes;  // what was measured, by name; only EXR files keep them
 
     Image() = default;
     Image(int w, int h) : width(w), height(h), pixels(size_t(w) * size_t(h), glm::vec3(0)) {}

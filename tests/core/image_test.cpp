@@ -35,6 +35,15 @@ TEST(ImageFiles, FloatsSurviveExactly) {
     }
 }
 
+TEST(ImageFiles, ExrKeepsAttributes) {
+    Image image = ramp(5, 4);
+    image.attributes = {{"noise", "0.0123"}, {"scene", "cornell"}};
+    ASSERT_TRUE(saveImage(image, file("attributes.exr")));
+    const auto back = loadImage(file("attributes.exr"));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(back->attributes, image.attributes);
+}
+
 TEST(ImageFiles, RefuseWithASentenceAndLeaveNothing) {
     const Status lost = saveImage(ramp(2, 2), "/nonexistent/folder/a.pfm");
     ASSERT_FALSE(lost);
