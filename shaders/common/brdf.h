@@ -1,4 +1,5 @@
-// glTF 2.0 appendix B, the diffuse part: what a metallic-roughness surface reflects like Lambert.
+// The glTF 2.0 metallic-roughness surface (specification, appendix B) with KHR_materials_specular: a Lambert
+// base under a GGX coat. metallic 0 and specular 0 is exactly Lambert.
 #ifndef AG_BRDF_H
 #define AG_BRDF_H
 
@@ -8,6 +9,47 @@ AG_BEGIN
 
 AG_FUNCTION vec3 diffuseAlbedo(vec3 baseColor, float metallic) {
     return baseColor * (1.0f - metallic);
+}
+
+// Reflectance head on; a dielectric's is that of refractive index 1.5.
+AG_FUNCTION vec3 specularF0(vec3 baseColor, float metallic, float specular) {
+    return mix(vec3(0.04f * specular), baseColor, metallic);
+}
+
+AG_FUNCTION vec3 fresnelSchlick(vec3 f0, vec3 f90, float cosine) {
+    float m = clamp(1.0f - cosine, 0.0f, 1.0f);
+    return f0 + (f90 - f0) * (m * m * m * m * m);
+}
+
+// Trowbridge-Reitz distribution of half vectors, alpha = roughness².
+AG_FUNCTION float ggxDistribution(float nh, float alpha) {
+    float a2 = alpha * alpha;
+    float d = nh * nh * (a2 - 1.0f) + 1.0f;
+    return nh > 0.0f ? a2 * kInvPi / max(d * d, 1e-20f) : 0.0f;
+}
+
+// Smith's masking of one direction, separable.
+AG_FUNCTION float smithMasking(float cosine, float alpha) {
+    float a2 = alpha * alpha;
+    return 2.0f * cosine / max(cosine + sqrt(a2 + (1.0f - a2) * cosine * cosine), 1e-12f);
+}
+
+// Roughness below this is a mirror to a light that is a point: it reflects nothing one could sample.
+const float kLeastAlpha = 1e-3f;
+
+// Outgoing radiance per incident irradiance, 1/sr. n, v (to the viewer), l (to the light): unit.
+AG_FUNCTION vec3 metallicRoughnessBrdf(vec3 n, vec3 v, vec3 l, vec3 baseColor, float metallic,
+                                       float roughness, float specular) {
+    float nv = dot(n, v);
+    float nl = dot(n, l);
+    if (nv <= 0.0f || nl <= 0.0f) return vec3(0.0f);
+    vec3 h = normalize(v + l);
+    float alpha = max(roughness * roughness, kLeastAlpha);
+    vec3 f90 = vec3(mix(specular, 1.0f, metallic));
+    vec3 f = fresnelSchlick(specularF0(baseColor, metallic, specular), f90, dot(v, h));
+    float lobe = ggxDistribution(dot(n, h), alpha) * smithMasking(nv, alpha) * smithMasking(nl, alpha) /
+                 (4.0f * nv * nl);
+    return (vec3(1.0f) - f) * diffuseAlbedo(baseColor, metallic) * kInvPi + f * lobe;
 }
 
 AG_END

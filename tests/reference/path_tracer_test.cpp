@@ -1,12 +1,16 @@
 // The reference against closed forms.
-#include "tools/reference/path_tracer.h"
+#include "tools/reference/reference.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
+#include "common/brdf.h"
+#include "common/form_factors.h"
 #include "engine/scene/static_scene.h"
+#include "tools/reference/vpl_tracer.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
@@ -18,12 +22,14 @@ struct Traced {
         : asset(std::move(built)), scene(staticScene(asset)), size(pixels) {
         setCamera(scene, cameraOf(asset, 0), size);
     }
-    ReferenceImages run(uint32_t bounces, uint32_t samples, uint32_t seed = 1) {
+    Reference run(const ReferenceSettings& settings) {
         const RayScene rays(scene);
         JobRunner runner(2);
         const auto silent = [](double) {};
-        return tracePaths(rays, size, {.bounces = bounces, .samplesPerPixel = samples, .seed = seed}, runner,
-                          silent);
+        return makeReference(rays, size, settings, runner, silent);
+    }
+    Reference run(uint32_t bounces, uint32_t samples, uint32_t seed = 1) {
+        return run({.paths = {.bounces = bounces}, .samplesPerPixel = samples, .seed = seed});
     }
     SceneAsset asset;
     RenderScene scene;
@@ -85,7 +91,7 @@ TEST(Reference, DirectLightByTheFormulas) {
                                 .innerConeAngle = 0.5f,
                                 .outerConeAngle = 1.2f};
         t.scene.lights = {light};
-        const ReferenceImages images = t.run(0, 0);
+        const Image direct = t.run(0, 2).bounces[0];
         for (int y = 4; y < 48; y += 8)
             for (int x = 4; x < 64; x += 8) {
                 const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / glm::vec2(t.size) * 2.0f - 1.0f;
@@ -102,7 +108,7 @@ TEST(Reference, DirectLightByTheFormulas) {
                         std::clamp((c - std::cos(1.2)) / (std::cos(0.5) - std::cos(1.2)), 0.0, 1.0);
                     truth *= s * s;
                 }
-                EXPECT_NEAR(double(images.direct.at(x, y).x), truth, 1e-3 * truth + 1e-6) << int(kind);
+                EXPECT_NEAR(double(direct.at(x, y).x), truth, 1e-3 * truth + 1e-6) << int(kind);
             }
     }
 }
@@ -110,16 +116,16 @@ TEST(Reference, DirectLightByTheFormulas) {
 TEST(Reference, BouncesInASphereAreAGeometricSeries) {
     const float rho = 0.6f;
     Traced t(sphere(rho), {24, 16});
-    const double e0 = meanOf(t.run(0, 0).direct);
+    const double e0 = meanOf(t.run(0, 2).bounces[0]);
     EXPECT_NEAR(e0, 3, 0.03) << "I / r²";
-    EXPECT_NEAR(meanOf(t.run(1, 256).bounce1) / e0, rho, 0.005 * rho);
+    EXPECT_NEAR(meanOf(t.run(1, 256).bounces[1]) / e0, rho, 0.005 * rho);
     EXPECT_NEAR(meanOf(t.run(2, 256).indirect) / e0, rho + rho * rho, 0.005 * (rho + rho * rho));
     EXPECT_NEAR(meanOf(t.run(60, 256).indirect) / e0, rho / (1 - rho), 0.005 * rho / (1 - rho));
 }
 
 TEST(Reference, CornerAgainstQuadrature) {
     Traced t(*scenegen::buildScene("corner", 0), {96, 54});
-    const Image bounce = t.run(1, 1024).bounce1;
+    const Image bounce = t.run(1, 1024).bounces[1];
     const auto truthAt = [](double y, double z) {
         constexpr int kSteps = 300;
         double sum = 0;
@@ -143,6 +149,144 @@ TEST(Reference, CornerAgainstQuadrature) {
             truthSum += truth;
         }
     EXPECT_NEAR(ratio / truthSum, 1, 0.01);
+}
+
+// A convex body in light that is the same from everywhere: E = pi L, and rho L is what leaves it.
+TEST(Reference, SphereInAConstantEnvironment) {
+    Traced t(sphere(0.6f), {48, 48});
+    t.scene.lights.clear();
+    CameraPose outside;
+    outside.position = {0, 0, 4};
+    outside.verticalFov = 0.4f;
+    setCamera(t.scene, outside, t.size);
+    for (VertexAttributes& a : t.asset.geometry.attributes)
+        a.normal = -a.normal;
+    const Reference r =
+        t.run({.paths = {.bounces = 0, .environment = glm::vec3(0.5f, 1, 2)}, .samplesPerPixel = 4096});
+    const double pi = std::numbers::pi;
+    const auto share = [](double got, double truth) { return got / truth; };
+    for (const glm::ivec2 at : {glm::ivec2(24, 24), glm::ivec2(30, 12), glm::ivec2(10, 30)}) {
+        EXPECT_NEAR(share(double(r.bounces[0].at(at.x, at.y).x), pi * 0.5), 1, 5e-3);
+        EXPECT_NEAR(share(double(r.bounces[0].at(at.x, at.y).z), pi * 2), 1, 5e-3);
+        EXPECT_NEAR(share(double(r.radiance.at(at.x, at.y).y), 0.6), 1, 5e-3);
+    }
+    EXPECT_NEAR(double(r.radiance.at(0, 0).z), 2, 1e-5) << "the environment itself is seen";
+}
+
+// The GGX coat by sampling against the same brdf by quadrature over the hemisphere.
+TEST(Reference, GlossyPlaneUnderASkyByQuadrature) {
+    for (const float roughness : {0.2f, 0.5f, 1.0f})
+        for (const float metallic : {0.0f, 1.0f}) {
+            scenegen::SceneBuilder builder("plane");
+            builder.quad("floor", {-9, 0, -9}, {0, 0, 18}, {18, 0, 0},
+                         builder.material("gray", glm::vec3(0.5f)));
+            builder.camera("camera", {0, 2, 3}, {0, 0, 0}, 10);
+            Traced t(builder.finish(), {9, 9});
+            Material& m = t.asset.geometry.materials[0];
+            m.roughness = roughness;
+            m.metallic = metallic;
+            m.specular = 1;
+            t.scene.lights.clear();
+            const Reference r = t.run({.paths = {.bounces = 0, .glossy = true, .environment = glm::vec3(1)},
+                                       .samplesPerPixel = 16384});
+            const glm::vec3 n(0, 1, 0), v = glm::normalize(glm::vec3(0, 2, 3));
+            double truth = 0;
+            constexpr int kSteps = 1000;
+            for (int i = 0; i < kSteps; ++i)
+                for (int j = 0; j < kSteps; ++j) {  // equal steps of cos² and of the angle
+                    const float c = std::sqrt((float(i) + 0.5f) / kSteps), sine = std::sqrt(1 - c * c),
+                                phi = 2 * std::numbers::pi_v<float> * (float(j) + 0.5f) / kSteps;
+                    const glm::vec3 l(sine * std::cos(phi), c, sine * std::sin(phi));
+                    truth +=
+                        double(io::metallicRoughnessBrdf(n, v, l, glm::vec3(0.5f), metallic, roughness, 1).x);
+                }
+            truth *= std::numbers::pi / (double(kSteps) * kSteps);
+            EXPECT_NEAR(double(r.radiance.at(4, 4).x) / truth, 1, 0.01) << roughness << ' ' << metallic;
+            EXPECT_LT(truth, 1) << "no more comes back than arrives";
+        }
+}
+
+TEST(Reference, EmissiveWallsLightTheRoom) {
+    // Every wall of a closed room glows with L: each receives pi L straight, and rho pi L by one bounce.
+    scenegen::SceneBuilder b("room");
+    const uint32_t glow = b.emissive("glow", glm::vec3(0.4f), glm::vec3(3));
+    b.room("room", {-1, -1, -1}, {1, 1, 1}, {glow, glow, glow, glow, glow, glow});
+    b.camera("camera", {0.2f, 0.1f, 0.3f}, {-1, 0, 0}, 60);
+    Traced t(b.finish(), {16, 12});
+    const Reference r = t.run({.paths = {.bounces = 1, .emission = true}, .samplesPerPixel = 64});
+    EXPECT_NEAR(meanOf(r.bounces[0]), 3 * std::numbers::pi, 0.01);
+    EXPECT_NEAR(meanOf(r.bounces[1]), 0.4 * 3 * std::numbers::pi, 0.01);
+}
+
+// Points close to other surfaces are left out: there a map's texels are too few, and single ones count for
+// too much to be a mean.
+TEST(Reference, LightMapTexelsAgreeWithPaths) {
+    for (const char* name : {"cornell", "occluder"}) {
+        Traced t(*scenegen::buildScene(name, 0), {48, 27});
+        const RayScene rays(t.scene);
+        JobRunner runner(2);
+        uint64_t count = 0;
+        FirstHits hits(t.size);
+        traceFirstHits(rays, {}, {}, runner, hits, count);
+        constexpr uint32_t kMap = 96, kMaps = 4, kPaths = 4096;
+        std::vector<double> nearest(hits.surfaces.size(), 1e30);
+        LightSums halves[2] = {{t.size, 1}, {t.size, 1}}, paths(t.size, 1);
+        for (uint32_t map = 0; map < kMaps; ++map) {
+            const auto emitters = traceEmitters(rays, kMap, map + 1, count);
+            addEmitters(rays, hits, emitters, map, uint32_t(emitters.size()), runner, halves[map % 2], count);
+            for (size_t i = 0; i < nearest.size(); ++i)
+                for (const Emitter& e : emitters)
+                    if (io::vplTerm(hits.surfaces[i].position, hits.surfaces[i].normal, e.position,
+                                    e.normal) > 0)
+                        nearest[i] = std::min(nearest[i],
+                                              double(glm::distance(e.position, hits.surfaces[i].position)));
+        }
+        addPaths(rays, hits, {}, {}, 5, 0, kPaths, runner, paths, count);
+        double sum = 0, truth = 0, squares = 0, noise = 0;
+        int compared = 0;
+        for (size_t i = 0; i < nearest.size(); ++i) {
+            if (hits.surfaces[i].distance <= 0 || nearest[i] < 0.15) continue;
+            const double a = double(halves[0].bounces[1].pixels[i].x) / halves[0].samples,
+                         b = double(halves[1].bounces[1].pixels[i].x) / halves[1].samples,
+                         p = double(paths.bounces[1].pixels[i].x) / paths.samples;
+            sum += (a + b) / 2;
+            truth += p;
+            squares += ((a + b) / 2 - p) * ((a + b) / 2 - p);
+            noise += (a - b) * (a - b) / 4;
+            ++compared;
+        }
+        ASSERT_GT(compared, 300) << name;
+        const double mean = truth / compared;
+        std::printf("%s: %d pixels, ratio %.4f, relative RMSE %.4f (halves of the maps differ by %.4f)\n",
+                    name, compared, sum / truth, std::sqrt(squares / compared) / mean,
+                    std::sqrt(noise / compared) / mean);
+        EXPECT_NEAR(sum / truth, 1, 0.003) << name;
+        EXPECT_LT(std::sqrt(squares / compared) / mean, 0.03) << name;
+    }
+}
+
+TEST(Reference, StopsAtTheErrorAskedFor) {
+    Traced t(*scenegen::buildScene("furnace", 50), {32, 18});
+    const Reference rough = t.run({.samplesPerPixel = 1 << 16, .maxError = 0.02, .layer = "bounce1"});
+    const Reference fine = t.run({.samplesPerPixel = 1 << 16, .maxError = 0.005, .layer = "bounce1"});
+    EXPECT_LT(rough.noise, 0.02);
+    EXPECT_LT(fine.noise, 0.005);
+    EXPECT_LT(rough.samples, fine.samples);
+    EXPECT_LT(fine.samples, 1u << 16);
+}
+
+TEST(Reference, ForSecondsFillsEveryPixel) {
+    Traced t(*scenegen::buildScene("furnace", 50), {37, 21});
+    const RayScene rays(t.scene);
+    JobRunner runner(2);
+    // Less time than any pass takes: one lattice, spread over its blocks.
+    const Reference r = traceForSeconds(rays, t.size, {.bounces = 1}, 1e-9, runner);
+    const double truth = meanOf(t.run(1, 256).bounces[1]);
+    for (const glm::vec3& p : r.bounces[1].pixels)
+        EXPECT_GE(p.x, 0);
+    EXPECT_NEAR(meanOf(r.bounces[1]) / truth, 1, 0.6);
+    const Reference longer = traceForSeconds(rays, t.size, {.bounces = 1}, 0.2, runner);
+    EXPECT_NEAR(meanOf(longer.bounces[1]) / truth, 1, 0.05);
 }
 
 TEST(Reference, SameSeedSameImage) {

@@ -1,8 +1,7 @@
-// Irradiance by path tracing with next-event estimation: the truth that every technique is held against.
-// Lambert surfaces, pixel centres, exact bounce count.
+// Path tracing with next-event estimation: the estimator behind the reference. Exact bounce counts, pixel
+// centres, Lambert surfaces or the whole glTF material.
 #pragma once
 
-#include "engine/core/function_ref.h"
 #include "engine/core/image.h"
 #include "engine/jobs/job_graph.h"
 #include "tools/reference/ray_scene.h"
@@ -10,27 +9,54 @@
 namespace ag::reference {
 
 struct PathSettings {
-    uint32_t bounces = 1;  // most; 0: direct light alone
-    uint32_t samplesPerPixel = 64;
-    uint32_t seed = 1;
+    uint32_t bounces = 1;      // most; 0: direct light alone
+    bool glossy = false;       // metallic-roughness with its GGX coat; else the diffuse part as Lambert
+    bool emission = false;     // emissive surfaces light others, too
+    glm::vec3 environment{0};  // radiance from where rays meet nothing, W/(m² sr)
 };
 
-// All layers of one camera image. Irradiance in W/m² on the shading normal, before albedo.
-struct ReferenceImages {
-    Image direct;    // bounce 0
-    Image bounce1;   // exactly one bounce
-    Image indirect;  // all bounces from the first to the last
-    Image albedo, normal, depth, emissive;
-    Image irradiance() const;  // direct and indirect
-    Image radiance() const;    // albedo / pi x irradiance + emission
-    uint64_t rays = 0;
+// Bounces that are kept apart; further ones only count in `indirect`.
+constexpr uint32_t kBouncesApart = 8;
+
+// What each pixel's centre sees, and the light that falls there straight from the punctual lights.
+struct FirstHits {
+    explicit FirstHits(glm::uvec2 size);
+    glm::uvec2 size;
+    std::vector<Surface> surfaces;      // distance 0: nothing there
+    std::vector<glm::vec3> directions;  // of the camera's rays, unit
+    Image irradiance, radiance;         // direct, W/m² and W/(m² sr)
 };
 
-// Direct irradiance at a surface from every light, with shadow rays.
-glm::vec3 directIrradiance(const RayScene& scene, const Surface& surface, uint64_t& rays);
+// Sums over `samples` of each pixel. Irradiance on the shading normal, before albedo.
+struct LightSums {
+    LightSums(glm::uvec2 size, uint32_t bounces);
+    std::vector<Image> bounces;  // [n]: exactly n bounces; [0] holds only emission and environment
+    Image indirect;              // all from the first on
+    Image radiance;              // reflected to the camera, without the punctual lights' direct part
+    uint32_t samples = 0;
+};
 
-// `progress` is called now and then with the share that is done.
-ReferenceImages tracePaths(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
-                           JobRunner& runner, FunctionRef<void(double)> progress);
+// Every `step`-th pixel both ways from `offset`: 1 takes them all.
+struct Lattice {
+    uint32_t step = 1;
+    glm::uvec2 offset{0};
+};
+
+void traceFirstHits(const RayScene& scene, const PathSettings& settings, const Lattice& lattice,
+                    JobRunner& runner, FirstHits& hits, uint64_t& rays);
+
+// Adds paths number `first` to `first + count` of the stream `seed` to each pixel of the lattice.
+void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& settings,
+              const Lattice& lattice, uint32_t seed, uint32_t first, uint32_t count, JobRunner& runner,
+              LightSums& sums, uint64_t& rays);
+
+// A point that leaves a surface without meeting it again.
+glm::vec3 leaveSurface(const RayScene& scene, const Surface& surface);
+
+// One stream of random numbers (a permuted congruential generator).
+struct Random {
+    uint64_t state;
+    float next();
+};
 
 }  // namespace ag::reference

@@ -1,6 +1,7 @@
 #include "tools/reference/ray_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/brdf.h"
@@ -10,6 +11,17 @@
 namespace ag::reference {
 namespace {
 
+// Linear values of the 256 sRGB codes.
+const std::array<float, 256>& linearOfCode() {
+    static const auto table = [] {
+        std::array<float, 256> values{};
+        for (size_t i = 0; i < values.size(); ++i)
+            values[i] = io::linearFromSrgb1(float(i) / 255.0f);
+        return values;
+    }();
+    return table;
+}
+
 // Bilinear, repeating, of one layer's finest level.
 glm::vec4 sampleLayer(const std::vector<uint8_t>& texels, uint32_t size, glm::vec2 uv, bool srgb) {
     const glm::vec2 at = (uv - glm::floor(uv)) * float(size) - 0.5f;
@@ -18,8 +30,9 @@ glm::vec4 sampleLayer(const std::vector<uint8_t>& texels, uint32_t size, glm::ve
         const uint32_t x = uint32_t(int(low.x) + dx + int(size)) % size,
                        y = uint32_t(int(low.y) + dy + int(size)) % size;
         const uint8_t* t = &texels[(size_t(y) * size + x) * 4];
-        const glm::vec4 value = glm::vec4(t[0], t[1], t[2], t[3]) / 255.0f;
-        return srgb ? glm::vec4(io::linearFromSrgb(glm::vec3(value)), value.w) : value;
+        if (!srgb) return glm::vec4(t[0], t[1], t[2], t[3]) / 255.0f;
+        const auto& linear = linearOfCode();
+        return glm::vec4(linear[t[0]], linear[t[1]], linear[t[2]], float(t[3]) / 255.0f);
     };
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
 }
@@ -58,7 +71,8 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene) {
         std::copy_n(g.indices.begin() + p.firstIndex, p.indexCount, indices);
         const glm::mat3 linear(instance.worldFromLocal[0], instance.worldFromLocal[1],
                                instance.worldFromLocal[2]);
-        parts_.push_back(std::make_unique<Part>(Part{&instance, &p, glm::transpose(glm::inverse(linear))}));
+        parts_.push_back(
+            std::make_unique<Part>(Part{&instance, &p, linear, glm::transpose(glm::inverse(linear))}));
         if (material.alphaMode == AlphaMode::kMask) {
             rtcSetGeometryUserData(geometry, this);
             rtcSetGeometryIntersectFilterFunction(geometry, filterMasked);
@@ -69,6 +83,8 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene) {
         rtcReleaseGeometry(geometry);
     }
     rtcCommitScene(rtc_);
+    for (const RenderLight& light : scene.lights)
+        lights_.push_back({light, std::cos(light.innerConeAngle), std::cos(light.outerConeAngle)});
     const glm::vec3 far = glm::max(glm::abs(scene.bounds.min), glm::abs(scene.bounds.max));
     offset_ = std::max(2e-5f * glm::length(scene.bounds.max - scene.bounds.min), 4e-7f * glm::length(far));
 }
@@ -116,29 +132,78 @@ bool RayScene::intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface
     rtcIntersect1(rtc_, &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
-    const Part& part = *parts_[ray.hit.geomID];
-    const GeometryArrays& g = *scene_.geometry;
-    const Material& m = g.materials[part.primitive->material];
-    const float u = ray.hit.u, v = ray.hit.v;
-    const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * ray.hit.primID];
-    const VertexAttributes* a = &g.attributes[size_t(part.primitive->vertexOffset)];
-    const glm::vec3 local = a[i[0]].normal * (1 - u - v) + a[i[1]].normal * u + a[i[2]].normal * v;
     surface.distance = ray.ray.tfar;
     surface.position = origin + direction * ray.ray.tfar;
     surface.geometricNormal = glm::normalize(glm::vec3(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z));
-    surface.normal = glm::normalize(part.normalFromLocal * local);
     if (glm::dot(surface.geometricNormal, direction) > 0) surface.geometricNormal = -surface.geometricNormal;
-    if (glm::dot(surface.normal, surface.geometricNormal) < 0) surface.normal = -surface.normal;
-
-    const glm::vec2 uv = uvAt(part, ray.hit.primID, u, v);
-    const glm::vec3 base =
-        glm::vec3(m.baseColor) * glm::vec3(sampleTexture(g, m, m.baseColorLayer, uv, true));
-    const float metallic =
-        m.metallic *
-        (m.metallicRoughnessLayer < 0 ? 1.0f : sampleTexture(g, m, m.metallicRoughnessLayer, uv, false).z);
-    surface.albedo = io::diffuseAlbedo(base, metallic);
-    surface.emissive = m.emissive * glm::vec3(sampleTexture(g, m, m.emissiveLayer, uv, true));
+    surface.part = ray.hit.geomID;
+    surface.triangle = ray.hit.primID;
+    surface.u = ray.hit.u;
+    surface.v = ray.hit.v;
+    surface.resolved = false;
     return true;
+}
+
+void RayScene::resolve(Surface& s) const {
+    if (s.resolved) return;
+    s.resolved = true;
+    const Part& part = *parts_[s.part];
+    const GeometryArrays& g = *scene_.geometry;
+    const Material& m = g.materials[part.primitive->material];
+    s.normal = shadingNormal(part, s.triangle, s.u, s.v, s.geometricNormal);
+    s.baseColor = glm::vec3(m.baseColor);
+    s.metallic = m.metallic;
+    s.roughness = m.roughness;
+    s.specular = m.specular;
+    s.emissive = m.emissive;
+    if (m.textureClass != TextureClass::kNone) {
+        const glm::vec2 uv = uvAt(part, s.triangle, s.u, s.v);
+        s.baseColor *= glm::vec3(sampleTexture(g, m, m.baseColorLayer, uv, true));
+        const glm::vec4 mr = sampleTexture(g, m, m.metallicRoughnessLayer, uv, false);
+        s.metallic *= mr.z;
+        s.roughness *= mr.y;
+        s.emissive *= glm::vec3(sampleTexture(g, m, m.emissiveLayer, uv, true));
+    }
+    s.albedo = io::diffuseAlbedo(s.baseColor, s.metallic);
+}
+
+// The interpolated normal on the ray's side, bent by the normal map as the G-buffer does it.
+glm::vec3 RayScene::shadingNormal(const Part& part, uint32_t triangle, float u, float v,
+                                  glm::vec3 geometricNormal) const {
+    const GeometryArrays& g = *scene_.geometry;
+    const Material& m = g.materials[part.primitive->material];
+    const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
+    const VertexAttributes* a = &g.attributes[size_t(part.primitive->vertexOffset)];
+    const float w = 1 - u - v;
+    glm::vec3 n =
+        glm::normalize(part.normalFromLocal * (a[i[0]].normal * w + a[i[1]].normal * u + a[i[2]].normal * v));
+    if (glm::dot(n, geometricNormal) < 0) n = -n;
+    if (m.normalLayer < 0) return n;
+
+    const glm::vec4 tangent = a[i[0]].tangent * w + a[i[1]].tangent * u + a[i[2]].tangent * v;
+    glm::vec3 t = part.worldFromLocal * glm::vec3(tangent), b;
+    if (glm::dot(t, t) > 1e-12f) {
+        t = glm::normalize(t - n * glm::dot(n, t));
+        b = glm::cross(n, t) * tangent.w;
+    } else {  // along the triangle's own texture coordinates
+        const glm::vec3* p = &g.positions[size_t(part.primitive->vertexOffset)];
+        const glm::vec3 e1 = part.worldFromLocal * (p[i[1]] - p[i[0]]),
+                        e2 = part.worldFromLocal * (p[i[2]] - p[i[0]]);
+        const glm::vec2 d1 = a[i[1]].uv - a[i[0]].uv, d2 = a[i[2]].uv - a[i[0]].uv;
+        const float sign = d1.x * d2.y - d1.y * d2.x < 0 ? -1.0f : 1.0f;
+        t = (e1 * d2.y - e2 * d1.y) * sign;
+        b = (e2 * d1.x - e1 * d2.x) * sign;
+        const float scale = std::sqrt(std::max(glm::dot(t, t), glm::dot(b, b)));
+        if (!(scale > 0)) return n;
+        t /= scale;
+        b /= scale;
+    }
+    glm::vec3 mapped =
+        glm::vec3(sampleTexture(g, m, m.normalLayer, uvAt(part, triangle, u, v), false)) * 2.0f - 1.0f;
+    mapped.x *= m.normalScale;
+    mapped.y *= m.normalScale;
+    const glm::vec3 bent = t * mapped.x + b * mapped.y + n * mapped.z;
+    return glm::dot(bent, bent) > 1e-12f ? glm::normalize(bent) : n;
 }
 
 bool RayScene::visible(glm::vec3 origin, glm::vec3 direction, float distance) const {

@@ -12,11 +12,24 @@ namespace ag::reference {
 
 struct Surface {                         // what a ray met
     glm::vec3 position{0};               // m
+    float distance = 0;                  // m, 0: nothing was met
     glm::vec3 geometricNormal{0, 1, 0};  // unit, on the ray's side
-    glm::vec3 normal{0, 1, 0};           // shading, unit, on the ray's side
-    glm::vec3 albedo{0};                 // diffuse
-    glm::vec3 emissive{0};               // W/(m² sr)
-    float distance = 0;                  // m
+    uint32_t part = 0, triangle = 0;     // with u, v: the place on it
+    float u = 0, v = 0;
+
+    // From here on valid after RayScene::resolve.
+    bool resolved = false;
+    glm::vec3 normal{0, 1, 0};  // shading, bent by the normal map, unit
+    glm::vec3 albedo{0};        // diffuse
+    glm::vec3 baseColor{0};
+    float metallic = 0, roughness = 1, specular = 0;
+    glm::vec3 emissive{0};  // W/(m² sr)
+};
+
+// A light with what every ray to it would work out again.
+struct PreparedLight {
+    RenderLight light;
+    float cosInner = 0, cosOuter = 0;
 };
 
 class RayScene {
@@ -28,22 +41,28 @@ class RayScene {
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    // The nearest surface along a unit direction; false if there is none.
+    // The nearest surface along a unit direction, its material not yet looked up; false if there is none.
     bool intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface) const;
+    // Looks up shading normal and material: most surfaces on a path are in the dark and never need them.
+    void resolve(Surface& surface) const;
     // Whether nothing stands between origin and origin + direction x distance.
     bool visible(glm::vec3 origin, glm::vec3 direction, float distance) const;
 
     const RenderScene& scene() const { return scene_; }
+    const std::vector<PreparedLight>& lights() const { return lights_; }
     // How far to step off a surface, m: a small part of the scene's size and of the position's precision.
     float offset() const { return offset_; }
+    RTCScene embree() const { return rtc_; }
 
   private:
     struct Part {  // one Embree geometry: an instance
         const RenderInstance* instance;
         const Primitive* primitive;
-        glm::mat3 normalFromLocal;
+        glm::mat3 worldFromLocal, normalFromLocal;
     };
     glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
+    glm::vec3 shadingNormal(const Part& part, uint32_t triangle, float u, float v,
+                            glm::vec3 geometricNormal) const;
     bool masked(const Part& part, uint32_t triangle, float u, float v) const;
     static void filterMasked(const RTCFilterFunctionNArguments* arguments);
 
@@ -51,6 +70,7 @@ class RayScene {
     RTCDevice device_ = nullptr;
     RTCScene rtc_ = nullptr;
     std::vector<std::unique_ptr<Part>> parts_;  // by geometry id
+    std::vector<PreparedLight> lights_;
     float offset_ = 1e-4f;
 };
 

@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
 #include <iostream>
+#include <map>
 #include <mutex>
 
 #include "engine/core/image.h"
-#include "tools/reference/path_tracer.h"
+#include "tools/reference/ray_speed.h"
+#include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/scene_options.h"
 
@@ -17,14 +16,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array<std::string_view, 8> kLayers = {"radiance", "irradiance", "direct", "bounce1",
-                                                     "indirect", "albedo",     "normal", "depth"};
-
 struct ReferenceOptions {
     SceneOptions scene;
     std::string output;
-    std::string layer = "radiance";
-    reference::PathSettings paths;
+    reference::ReferenceSettings settings;
+    bool bareSpeed = false;
 };
 
 // A line on stderr, at most twice a second: share done and time left.
@@ -49,62 +45,42 @@ class ProgressLine {
     bool shown_ = false;
 };
 
-Image layerOf(const reference::ReferenceImages& r, const std::string& name) {
-    if (name == "radiance") return r.radiance();
-    if (name == "irradiance") return r.irradiance();
-    if (name == "direct") return r.direct;
-    if (name == "bounce1") return r.bounce1;
-    if (name == "indirect") return r.indirect;
-    if (name == "albedo") return r.albedo;
-    if (name == "normal") return r.normal;
-    return r.depth;
-}
-
-// Relative RMSE of one run's mean, from two runs with other seeds: the difference of two equal estimates
-// holds the error of both.
-double noiseOf(const Image& a, const Image& b) {
-    double squares = 0, mean = 0;
-    for (size_t i = 0; i < a.pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            const double d = double(a.pixels[i][c]) - double(b.pixels[i][c]);
-            squares += d * d / 4;  // of their mean
-            mean += double(a.pixels[i][c] + b.pixels[i][c]) / 2;
-        }
-    const double count = double(a.pixels.size()) * 3;
-    return mean > 0 ? std::sqrt(squares / count) / (mean / count) : 0;
-}
-
 int runReference(const ReferenceOptions& o) {
-    if (std::ranges::find(kLayers, o.layer) == kLayers.end())
-        return refuse(fmt::format("the reference has no layer '{}'", o.layer));
+    const reference::ReferenceSettings& settings = o.settings;
+    if (const Status known = reference::checkLayer(settings.layer, settings.paths.bounces); !known)
+        return refuse(known.error().message);
+    const bool emitters = settings.method == reference::Method::kEmitters;
+    if (emitters && (settings.paths.bounces != 1 || settings.paths.glossy || settings.paths.emission))
+        return refuse("--method vpl traces exactly one bounce between Lambert surfaces");
     auto loaded = loadScene(o.scene);
     if (!loaded) return refuse(loaded.error().message);
     const reference::RayScene rays(loaded->scene);
     JobRunner runner;
-    const auto start = Clock::now();
-    // Two halves with seeds of their own: their mean is the result, their difference its noise.
-    reference::PathSettings half = o.paths;
-    half.samplesPerPixel = std::max(o.paths.samplesPerPixel / 2, 1u);
-    half.seed = o.paths.seed * 2;
     ProgressLine line;
-    const auto progress = [&](double base) {
-        return [&line, base](double share) { line(base + share / 2); };
-    };
-    const auto firstProgress = progress(0), secondProgress = progress(0.5);
-    const auto a = reference::tracePaths(rays, loaded->size, half, runner, firstProgress);
-    ++half.seed;
-    const auto b = reference::tracePaths(rays, loaded->size, half, runner, secondProgress);
+    const auto progress = [&](double share) { line(share); };
+    const auto start = Clock::now();
+    reference::Reference result = reference::makeReference(rays, loaded->size, settings, runner, progress);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    Image result = layerOf(a, o.layer);
-    const Image other = layerOf(b, o.layer);
-    const double noise = noiseOf(result, other);
-    for (size_t i = 0; i < result.pixels.size(); ++i)
-        result.pixels[i] = (result.pixels[i] + other.pixels[i]) * 0.5f;
-    if (const Status saved = saveImage(result, o.output); !saved) return refuse(saved.error().message);
+    Image image = *reference::layerOf(result, settings.layer);
+    image.attributes = {{"scene", o.scene.scene},
+                        {"layer", settings.layer},
+                        {"method", emitters ? "vpl" : "path"},
+                        {"material", settings.paths.glossy ? "glossy" : "lambert"},
+                        {"bounces", std::to_string(settings.paths.bounces)},
+                        {"samples", std::to_string(result.samples)},
+                        {"seed", std::to_string(settings.seed)},
+                        {"noise", fmt::format("{:.6g}", result.noise)}};
+    if (const Status saved = saveImage(image, o.output); !saved) return refuse(saved.error().message);
+    const double raysPerSecond = double(result.rays) / seconds;
     std::cout << fmt::format(
-        "{}: {} bounces, {} paths a pixel, noise {:.4f} (relative RMSE), {:.2f} Mrays/s, {:.1f} s\n",
-        o.output, o.paths.bounces, half.samplesPerPixel * 2, noise, double(a.rays + b.rays) / seconds * 1e-6,
-        seconds);
+        "{}: {} bounces, {} {} a pixel, noise {:.4f} (relative RMSE of {}), {:.2f} Mrays/s, {:.1f} s\n",
+        o.output, settings.paths.bounces, result.samples, emitters ? "emitters" : "paths", result.noise,
+        settings.layer, raysPerSecond * 1e-6, seconds);
+    if (o.bareSpeed) {
+        const double bare = reference::bareRaysPerSecond(rays, loaded->size, runner);
+        std::cout << fmt::format("bare Embree loop: {:.2f} Mrays/s; the reference reaches {:.0f} % of it\n",
+                                 bare * 1e-6, 100 * raysPerSecond / bare);
+    }
     return 0;
 }
 
@@ -115,17 +91,29 @@ void addReferenceCommand(CLI::App& program, int& exitCode) {
     CLI::App* command = program.add_subcommand("reference", "the same picture by path tracing on the CPU");
     addSceneOptions(*command, o->scene);
     command->add_option("-o,--output", o->output, "FILE.(exr|pfm)")->required();
+    reference::ReferenceSettings& r = o->settings;
     command
-        ->add_option("--layer", o->layer,
-                     "radiance, irradiance, direct, bounce1, indirect, albedo, normal or depth")
+        ->add_option("--layer", r.layer,
+                     "radiance, irradiance, direct, bounce1 to bounce8, indirect, albedo, normal or depth")
         ->capture_default_str();
-    command->add_option("--bounces", o->paths.bounces, "most bounces of a path")
+    command->add_option("--bounces", r.paths.bounces, "most bounces of a path")
         ->check(CLI::Range(0u, 1000u))
         ->capture_default_str();
-    command->add_option("--spp", o->paths.samplesPerPixel, "paths a pixel")
-        ->check(CLI::Range(2u, 1000000u))
+    command->add_option("--spp", r.samplesPerPixel, "paths a pixel, at most")
+        ->check(CLI::Range(2u, 10000000u))
         ->capture_default_str();
-    command->add_option("--seed", o->paths.seed, "of the random numbers")->capture_default_str();
+    command->add_option("--max-error", r.maxError, "stop when the layer's estimated relative error is less")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--seed", r.seed, "of the random numbers")->capture_default_str();
+    command->add_option("--method", r.method, "path, or vpl: light-map texels as point emitters")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, reference::Method>{
+            {"path", reference::Method::kPaths}, {"vpl", reference::Method::kEmitters}}));
+    command->add_option("--vpl-map", r.emitterMap, "texels along a light map's side")
+        ->check(CLI::Range(1u, 1024u))
+        ->capture_default_str();
+    command->add_flag("--glossy", r.paths.glossy, "whole glTF materials instead of their Lambert part");
+    command->add_flag("--emission", r.paths.emission, "emissive surfaces light others");
+    command->add_flag("--bare-speed", o->bareSpeed, "print also what bare Embree calls reach here");
     command->callback([o, &exitCode] { exitCode = runReference(*o); });
 }
 

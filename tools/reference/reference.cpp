@@ -1,0 +1,209 @@
+#include "tools/reference/reference.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "common/sampling.h"
+#include "tools/reference/vpl_tracer.h"
+
+namespace ag::reference {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Image scaled(const Image& sums, double samples) {
+    Image out = sums;
+    for (glm::vec3& p : out.pixels)
+        p = glm::vec3(glm::dvec3(p) / std::max(samples, 1.0));
+    return out;
+}
+
+Image plus(Image a, const Image& b) {
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        a.pixels[i] += b.pixels[i];
+    return a;
+}
+
+Image halfway(const Image& a, const Image& b) {
+    Image out = a;
+    for (size_t i = 0; i < out.pixels.size(); ++i)
+        out.pixels[i] = (a.pixels[i] + b.pixels[i]) * 0.5f;
+    return out;
+}
+
+Reference assemble(const FirstHits& hits, const LightSums& sums, const PathSettings& settings,
+                   glm::vec3 forward) {
+    Reference r;
+    const double n = sums.samples;
+    for (const Image& bounce : sums.bounces)
+        r.bounces.push_back(scaled(bounce, n));
+    r.bounces[0] = plus(r.bounces[0], hits.irradiance);
+    r.indirect = scaled(sums.indirect, n);
+    r.irradiance = plus(r.bounces[0], r.indirect);
+    r.radiance = plus(scaled(sums.radiance, n), hits.radiance);
+    for (Image* image : {&r.albedo, &r.normal, &r.depth})
+        *image = Image(int(hits.size.x), int(hits.size.y));
+    for (size_t i = 0; i < hits.surfaces.size(); ++i) {
+        const Surface& s = hits.surfaces[i];
+        if (s.distance <= 0) {
+            r.radiance.pixels[i] += settings.environment;
+            continue;
+        }
+        r.radiance.pixels[i] += s.emissive;
+        r.albedo.pixels[i] = s.albedo;
+        r.normal.pixels[i] = s.normal;
+        r.depth.pixels[i] = glm::vec3(s.distance * glm::dot(hits.directions[i], forward));
+    }
+    return r;
+}
+
+Reference meanOf(const Reference& a, const Reference& b, std::string_view layer) {
+    Reference out = a;
+    for (size_t i = 0; i < a.bounces.size(); ++i)
+        out.bounces[i] = halfway(a.bounces[i], b.bounces[i]);
+    out.indirect = halfway(a.indirect, b.indirect);
+    out.irradiance = halfway(a.irradiance, b.irradiance);
+    out.radiance = halfway(a.radiance, b.radiance);
+    const Image* first = layerOf(a, layer);
+    out.noise = first ? noiseOf(*first, *layerOf(b, layer)) : 0;
+    return out;
+}
+
+// A pixel of an 8x8 block in an order that spreads: bits of the index go to alternating halves.
+glm::uvec2 spreadOffset(uint32_t index) {
+    glm::uvec2 at(0);
+    for (uint32_t bit = 0; bit < 3; ++bit) {
+        const uint32_t two = index >> (2 * bit) & 3;
+        at.x = at.x * 2 + ((two ^ (two >> 1)) & 1);
+        at.y = at.y * 2 + (two >> 1 & 1);
+    }
+    return at;
+}
+
+}  // namespace
+
+const Image* layerOf(const Reference& r, std::string_view name) {
+    if (name == "radiance") return &r.radiance;
+    if (name == "irradiance") return &r.irradiance;
+    if (name == "indirect") return &r.indirect;
+    if (name == "albedo") return &r.albedo;
+    if (name == "normal") return &r.normal;
+    if (name == "depth") return &r.depth;
+    if (name == "direct") return &r.bounces[0];
+    if (!name.starts_with("bounce") || name.size() != 7) return nullptr;
+    const size_t bounce = size_t(name[6] - '0');
+    return bounce >= 1 && bounce < r.bounces.size() ? &r.bounces[bounce] : nullptr;
+}
+
+Status checkLayer(std::string_view name, uint32_t bounces) {
+    Reference shape;
+    shape.bounces.resize(kBouncesApart + 1);
+    if (!layerOf(shape, name)) return Error{fmt::format("the reference has no layer '{}'", name)};
+    if (name.starts_with("bounce") && uint32_t(name[6] - '0') > bounces)
+        return Error{fmt::format("layer {} needs --bounces {} or more", name, name[6])};
+    return Ok{};
+}
+
+double noiseOf(const Image& a, const Image& b) {
+    double squares = 0, mean = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double d = double(a.pixels[i][c]) - double(b.pixels[i][c]);
+            squares += d * d / 4;
+            mean += double(a.pixels[i][c] + b.pixels[i][c]) / 2;
+        }
+    const double count = double(a.pixels.size()) * 3;
+    return mean > 0 ? std::sqrt(squares / count) / (mean / count) : 0;
+}
+
+Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
+                        JobRunner& runner, FunctionRef<void(double)> progress) {
+    const PathSettings& paths = settings.paths;
+    uint64_t rays = 0;
+    FirstHits hits(size);
+    traceFirstHits(scene, paths, {}, runner, hits, rays);
+    LightSums halves[2] = {{size, paths.bounces}, {size, paths.bounces}};
+    const glm::vec3 forward = scene.scene().camera.forward;
+    const auto result = [&] {
+        return meanOf(assemble(hits, halves[0], paths, forward), assemble(hits, halves[1], paths, forward),
+                      settings.layer);
+    };
+    const bool sources = paths.emission || paths.environment != glm::vec3(0);
+    const uint32_t target = paths.bounces == 0 && !sources ? 0 : std::max(settings.samplesPerPixel / 2, 1u);
+    uint32_t done = 0, nextCheck = 8;
+    while (done < target) {
+        uint32_t count = std::min(4u, target - done);
+        for (uint32_t half = 0; half < 2; ++half) {
+            const uint32_t seed = settings.seed * 2 + half;
+            if (settings.method == Method::kPaths) {
+                addPaths(scene, hits, paths, {}, seed, done, count, runner, halves[half], rays);
+                continue;
+            }
+            const uint32_t mapSeed = io::hashUint(seed) + done;
+            const auto emitters = traceEmitters(scene, settings.emitterMap, mapSeed, rays);
+            count = std::min(target - done, std::max(uint32_t(emitters.size()), 1u));
+            addEmitters(scene, hits, emitters, mapSeed, count, runner, halves[half], rays);
+        }
+        done += count;
+        progress(double(done) / target);
+        if (settings.maxError > 0 && done >= nextCheck) {
+            if (result().noise < settings.maxError) break;
+            nextCheck = done + std::max(done / 2, 1u);
+        }
+    }
+    Reference out = result();
+    out.samples = halves[0].samples + halves[1].samples;
+    out.rays = rays;
+    return out;
+}
+
+Reference traceForSeconds(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
+                          double seconds, JobRunner& runner) {
+    constexpr uint32_t kStep = 8, kCells = kStep * kStep;
+    const auto start = Clock::now();
+    const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    uint64_t rays = 0;
+    FirstHits hits(size);
+    LightSums sums(size, settings.bounces);
+    std::vector<uint32_t> samples(kCells, 0);  // by cell of the block
+    for (uint32_t pass = 0; pass == 0 || spent() < seconds; ++pass) {
+        const uint32_t cell = pass % kCells;
+        const glm::uvec2 offset = spreadOffset(cell);
+        if (offset.x >= size.x || offset.y >= size.y) continue;
+        const Lattice lattice{kStep, offset};
+        if (pass < kCells) traceFirstHits(scene, settings, lattice, runner, hits, rays);
+        addPaths(scene, hits, settings, lattice, 1, samples[cell]++, 1, runner, sums, rays);
+    }
+    // Each pixel takes the value of the nearest cell of its block that was reached.
+    Reference out;
+    sums.samples = 1;
+    const LightSums reached = sums;
+    for (uint32_t y = 0; y < size.y; ++y)
+        for (uint32_t x = 0; x < size.x; ++x) {
+            uint32_t best = 0, bestDistance = ~0u;
+            for (uint32_t cell = 0; cell < kCells; ++cell) {
+                const glm::uvec2 at = spreadOffset(cell);
+                const glm::ivec2 d = glm::ivec2(at) - glm::ivec2(x % kStep, y % kStep);
+                const glm::uvec2 pixel = glm::uvec2(x, y) / kStep * kStep + at;
+                const bool there = samples[cell] > 0 && pixel.x < size.x && pixel.y < size.y;
+                const auto distance = uint32_t(d.x * d.x + d.y * d.y);
+                if (there && distance < bestDistance) bestDistance = distance, best = cell;
+            }
+            const glm::uvec2 from = glm::uvec2(x, y) / kStep * kStep + spreadOffset(best);
+            const size_t to = size_t(y) * size.x + x, source = size_t(from.y) * size.x + from.x;
+            const float scale = 1 / float(std::max(samples[best], 1u));
+            for (size_t b = 0; b < sums.bounces.size(); ++b)
+                sums.bounces[b].pixels[to] = reached.bounces[b].pixels[source] * scale;
+            sums.indirect.pixels[to] = reached.indirect.pixels[source] * scale;
+            sums.radiance.pixels[to] = reached.radiance.pixels[source] * scale;
+        }
+    out = assemble(hits, sums, settings, scene.scene().camera.forward);
+    out.samples = samples[0];
+    out.rays = rays;
+    return out;
+}
+
+}  // namespace ag::reference

@@ -1,0 +1,51 @@
+// The truth of a scene: all layers of one camera image, with their noise.
+#pragma once
+
+#include <string_view>
+
+#include "engine/core/function_ref.h"
+#include "engine/core/result.h"
+#include "tools/reference/path_tracer.h"
+
+namespace ag::reference {
+
+enum class Method : uint32_t { kPaths, kEmitters };
+
+struct ReferenceSettings {
+    PathSettings paths;
+    Method method = Method::kPaths;  // kEmitters: first bounce by the texels of light maps
+    uint32_t samplesPerPixel = 64;   // at most: paths, or emitters met
+    double maxError = 0;             // stop when the layer's noise is below; 0: take all samples
+    uint32_t seed = 1;
+    uint32_t emitterMap = 128;  // texels along a light map's side
+    std::string layer = "radiance";
+};
+
+struct Reference {
+    // Irradiance in W/m² before albedo, [n] by exactly n bounces; radiance in W/(m² sr); depth in m along the
+    // camera's axis.
+    std::vector<Image> bounces;
+    Image indirect, irradiance, radiance, albedo, normal, depth;
+    double noise = 0;      // relative RMSE of the layer that was asked for, from two seeds
+    uint32_t samples = 0;  // taken a pixel
+    uint64_t rays = 0;
+};
+
+// radiance, irradiance, direct, bounce1 … bounce8, indirect, albedo, normal, depth. Null: no such layer.
+const Image* layerOf(const Reference& reference, std::string_view name);
+// Fails with a sentence when a layer's name is unknown or has more bounces than are traced.
+Status checkLayer(std::string_view name, uint32_t bounces);
+
+// `progress` is called now and then with the share that is done.
+Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
+                        JobRunner& runner, FunctionRef<void(double)> progress);
+
+// The best picture of the indirect light (layers bounce1, indirect, radiance) that path tracing has after so
+// many seconds: pixels are visited in a spread order, those not reached take their neighbour's value.
+Reference traceForSeconds(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
+                          double seconds, JobRunner& runner);
+
+// Relative RMSE of the mean of two independent estimates of equal worth, from their difference.
+double noiseOf(const Image& a, const Image& b);
+
+}  // namespace ag::reference

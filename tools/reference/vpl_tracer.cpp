@@ -1,0 +1,142 @@
+#include "tools/reference/vpl_tracer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+#include "common/form_factors.h"
+#include "common/lights.h"
+#include "common/rsm_math.h"
+#include "common/sampling.h"
+
+namespace ag::reference {
+namespace {
+
+struct Beam {  // through one texel of a light map
+    glm::vec3 origin{0}, direction{0};
+    glm::vec3 power{0};  // W that travel along it, before any range window
+};
+
+// Of a square map that opens by `tanHalf` about `axis`.
+Beam perspectiveBeam(const RenderLight& light, glm::vec3 axis, float tanHalf, glm::vec2 ndc,
+                     uint32_t resolution) {
+    glm::vec3 t, b;
+    io::orthonormalBasis(axis, t, b);
+    const glm::vec3 through = axis + tanHalf * (ndc.x * t + ndc.y * b);
+    const float cosine = 1 / glm::length(through);
+    const glm::vec3 direction = through * cosine;
+    float share = 1;
+    if (light.kind == LightKind::kSpot)
+        share = io::spotFalloff(glm::dot(direction, light.direction), std::cos(light.innerConeAngle),
+                                std::cos(light.outerConeAngle));
+    return {light.position, direction,
+            light.intensity * share * io::perspectiveTexelSolidAngle(tanHalf, float(resolution), cosine)};
+}
+
+// Of a square map over the whole scene.
+Beam sunBeam(const RenderLight& light, const Bounds& bounds, glm::vec2 ndc, uint32_t resolution) {
+    glm::vec3 t, b;
+    io::orthonormalBasis(light.direction, t, b);
+    const glm::vec3 center = 0.5f * (bounds.min + bounds.max);
+    const float half = 0.501f * glm::length(bounds.max - bounds.min);
+    return {center + half * (ndc.x * t + ndc.y * b - 1.01f * light.direction), light.direction,
+            light.intensity * io::orthoTexelArea(2 * half, float(resolution))};
+}
+
+Beam beamOf(const RenderLight& light, uint32_t face, const Bounds& bounds, glm::vec2 ndc,
+            uint32_t resolution) {
+    if (light.kind == LightKind::kDirectional) return sunBeam(light, bounds, ndc, resolution);
+    if (light.kind == LightKind::kSpot)
+        return perspectiveBeam(light, light.direction, std::tan(light.outerConeAngle), ndc, resolution);
+    glm::vec3 axis(0);
+    axis[int(face) / 2] = face % 2 ? 1.0f : -1.0f;
+    return perspectiveBeam(light, axis, 1, ndc, resolution);
+}
+
+float mean(glm::vec3 v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
+glm::vec3 irradianceFrom(const RayScene& scene, const Surface& at, const Emitter& emitter, uint64_t& rays) {
+    const float term = io::vplTerm(at.position, at.normal, emitter.position, emitter.normal);
+    if (term <= 0) return glm::vec3(0);
+    const glm::vec3 from = leaveSurface(scene, at);
+    const glm::vec3 d = emitter.position - from;
+    const float distance = glm::length(d);
+    if (glm::dot(d, at.geometricNormal) <= 0) return glm::vec3(0);
+    ++rays;
+    const bool seen = scene.visible(from, d / distance, distance - 2 * scene.offset());
+    return seen ? emitter.flux * term : glm::vec3(0);
+}
+
+}  // namespace
+
+std::vector<Emitter> traceEmitters(const RayScene& scene, uint32_t resolution, uint32_t seed,
+                                   uint64_t& rays) {
+    std::vector<Emitter> emitters;
+    double total = 0;
+    Random random{uint64_t(io::hashUint(seed)) << 32 | seed};
+    for (const RenderLight& light : scene.scene().lights) {
+        const uint32_t faces = light.kind == LightKind::kPoint ? 6 : 1;
+        for (uint32_t i = 0; i < faces * resolution * resolution; ++i) {
+            const glm::vec2 texel(i % resolution, i / resolution % resolution);
+            const glm::vec2 jitter(random.next(), random.next());
+            const glm::vec2 ndc = (texel + jitter) / float(resolution) * 2.0f - 1.0f;
+            const Beam beam =
+                beamOf(light, i / (resolution * resolution), scene.scene().bounds, ndc, resolution);
+            Surface surface;
+            if (mean(beam.power) <= 0) continue;
+            ++rays;
+            if (!scene.intersect(beam.origin, beam.direction, surface)) continue;
+            scene.resolve(surface);
+            // Bent normals receive by their cosine, as the path tracer has it.
+            const float bend = glm::dot(surface.normal, -beam.direction) /
+                               glm::dot(surface.geometricNormal, -beam.direction);
+            const glm::vec3 flux = surface.albedo * beam.power * std::max(bend, 0.0f) *
+                                   io::rangeWindow(surface.distance, light.range);
+            if (!(mean(flux) > 0)) continue;
+            total += double(mean(flux));
+            emitters.push_back({surface.position, surface.geometricNormal, flux, total});
+        }
+    }
+    return emitters;
+}
+
+void addEmitters(const RayScene& scene, const FirstHits& hits, const std::vector<Emitter>& emitters,
+                 uint32_t seed, uint32_t count, JobRunner& runner, LightSums& sums, uint64_t& rays) {
+    std::atomic<uint64_t> total{0};
+    const bool all = count == emitters.size();
+    runner.parallelFor(hits.size.y, 1, [&](uint32_t begin, uint32_t end) {
+        uint64_t rowRays = 0;
+        for (size_t i = size_t(begin) * hits.size.x; i < size_t(end) * hits.size.x; ++i) {
+            const Surface& at = hits.surfaces[i];
+            if (at.distance <= 0 || emitters.empty()) continue;
+            glm::dvec3 sum(0);
+            if (all) {
+                for (const Emitter& emitter : emitters)
+                    sum += glm::dvec3(irradianceFrom(scene, at, emitter, rowRays));
+            } else {
+                // Steps of equal flux from a random start.
+                const double step = emitters.back().cumulativeFlux / count;
+                const double start = double(io::hashToUnit(uint32_t(i) ^ io::hashUint(seed)));
+                for (uint32_t s = 0; s < count; ++s) {
+                    const auto chosen =
+                        std::ranges::lower_bound(emitters, (s + start) * step, {}, &Emitter::cumulativeFlux);
+                    if (chosen == emitters.end()) continue;
+                    sum += glm::dvec3(irradianceFrom(scene, at, *chosen, rowRays)) * step /
+                           double(mean(chosen->flux));
+                }
+            }
+            const glm::vec3 added = glm::vec3(sum * double(count));
+            sums.bounces[1].pixels[i] += added;
+            sums.indirect.pixels[i] += added;
+            sums.radiance.pixels[i] += added * at.albedo * std::numbers::inv_pi_v<float>;
+        }
+        total += rowRays;
+    });
+    sums.samples += count;
+    rays += total;
+}
+
+}  // namespace ag::reference
