@@ -23,7 +23,7 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     if (scene.hasEmissive) pass.colorClear(g.emissive, glm::vec4(0));
     pass.depthClear(g.depth).geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
-    drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, true);
+    drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, Viewer::kCamera);
     return g;
 }
 

@@ -27,7 +27,7 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
         const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), face.clipFromWorld);
         rsm.inputsVersion = combineHash(rsm.inputsVersion, draws.version);
         drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size},
-                 DrawFilter::kAll, false);
+                 DrawFilter::kAll, Viewer::kLight);
     }
 }
 

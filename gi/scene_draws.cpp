@@ -5,7 +5,8 @@
 namespace ag::gi {
 
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, bool normalMaps) {
+              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer) {
+    const bool camera = viewer == Viewer::kCamera;
     const std::span<const DrawBucket> buckets = scene.draws->buckets();
     for (size_t b = 0; b < buckets.size(); ++b) {
         const DrawBucket& bucket = buckets[b];
@@ -16,9 +17,9 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
         if (filter != DrawFilter::kOpaqueOnly) {  // depth-only variants know no materials
             draw.spec[draw.specCount++] = {0, uint32_t(bucket.textureClass)};
             draw.spec[draw.specCount++] = {1, bucket.alphaMask};
-            if (normalMaps) draw.spec[draw.specCount++] = {2, bucket.normalMap};
+            if (camera) draw.spec[draw.specCount++] = {2, bucket.normalMap};
         }
-        draw.cull = bucket.doubleSided ? gpu::CullMode::kNone : gpu::CullMode::kBack;
+        draw.cull = bucket.doubleSided || !camera ? gpu::CullMode::kNone : gpu::CullMode::kBack;
         draw.viewport = viewport;
         std::memcpy(draw.push.data(), &clipFromWorld, sizeof clipFromWorld);
         draw.pushSizeBytes = sizeof clipFromWorld;

@@ -7,10 +7,14 @@ namespace ag::gi {
 
 enum class DrawFilter { kAll, kOpaqueOnly, kMaskedOnly };
 
+// Normal maps bend what the camera sees, and it does not see single-sided surfaces from behind (glTF). Light
+// meets the surface itself and does not pass it either way.
+enum class Viewer { kCamera, kLight };
+
 // One RasterDraw per non-empty bucket: the variant's constants (ids 0 texture class, 1 alpha mask, 2 normal
 // map), the view's matrix as push constant, its viewport.
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, bool normalMaps);
+              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer);
 // The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
 void bindMaterials(PassBuilder& pass, const SceneView& scene);
 

@@ -86,7 +86,7 @@ ImageHandle addAtlas(FrameGraph& graph, const SceneView& scene, const char* pass
         view.origin = atlas.place(v);
         const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), view.clipFromWorld);
         drawView(opaque, scene, draws, view.clipFromWorld, {view.origin, view.size, view.size},
-                 DrawFilter::kOpaqueOnly, false);
+                 DrawFilter::kOpaqueOnly, Viewer::kLight);
     }
     return image;
 }
@@ -106,7 +106,7 @@ void addMasked(FrameGraph& graph, const SceneView& scene, const char* passName, 
     for (uint32_t v = 0; v < views.size(); ++v)
         drawView(masked, scene, scene.draws->cull(*scene.scene, firstSlot + v, views[v].clipFromWorld),
                  views[v].clipFromWorld, {views[v].origin, views[v].size, views[v].size},
-                 DrawFilter::kMaskedOnly, false);
+                 DrawFilter::kMaskedOnly, Viewer::kLight);
 }
 
 }  // namespace

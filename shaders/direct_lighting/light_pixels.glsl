@@ -1,6 +1,7 @@
 // Irradiance straight from the lights, one pass a light so that its kind is known when the shader is compiled.
-// Shadow by 25 taps of the light's map, tent-weighted so that the edge moves smoothly.
+// Shadow by 25 taps of the light's map, weighted so that the edge moves smoothly.
 #include "common/lights.h"
+#include "common/sampling.h"
 #include "common/shadow_math.h"
 #include "gbuffer/gbuffer.glsl"
 #include "shadow_maps/shadow_maps_io.h"
@@ -38,20 +39,41 @@ uint chooseView(Light light, vec3 position, float viewDepth) {
     return view;
 }
 
-// Share of the light that arrives. The receiver is pushed off its surface by about a filter's width of texels.
+// Texel coordinates in a shadow view and reversed depth; z < 0 behind the light.
+vec3 shadowPoint(ShadowView view, vec3 position) {
+    vec4 clip = view.clipFromWorld * vec4(position, 1.0);
+    vec3 ndc = clip.xyz / max(clip.w, 1e-6);
+    return vec3((ndc.xy * 0.5 + 0.5) * float(view.size), clip.w > 0.0 ? ndc.z : -1.0);
+}
+
+// How depth changes a texel along the receiver's plane, which stays a plane in the view: from two steps within
+// it. Held to what 64 texels towards the light make, for planes seen edge-on.
+vec2 receiverSlope(ShadowView view, vec3 position, vec3 normal, vec3 toLight, float texel, vec3 at) {
+    vec3 t, b;
+    orthonormalBasis(normal, t, b);
+    vec3 d1 = shadowPoint(view, position + t * texel) - at, d2 = shadowPoint(view, position + b * texel) - at;
+    float most = abs(shadowPoint(view, position + toLight * (64.0 * texel)).z - at.z);
+    float determinant = d1.x * d2.y - d1.y * d2.x;
+    float scale = 1.0 / (abs(determinant) > 1e-6 ? determinant : 1e-6);
+    vec2 slope = vec2(d1.z * d2.y - d2.z * d1.y, d2.z * d1.x - d1.z * d2.x) * scale;
+    return clamp(slope, vec2(-most), vec2(most));
+}
+
+// Share of the light that arrives. Each tap is held against the receiver's plane at that tap, so that a flat
+// surface does not shadow itself however wide the filter; half a texel's push covers rounding.
 float litShare(Light light, vec3 position, vec3 normal, vec3 toLight, float viewDepth) {
     ShadowView view = shadowViews.items[chooseView(light, position, viewDepth)];
     float texel = view.texelSize;
     if (kKind != kLightDirectional) texel *= length(light.position - position);
-    float slope = sqrt(max(1.0 - dot(normal, toLight) * dot(normal, toLight), 0.0));
-    vec3 pushed = position + (normal * (0.5 + 2.0 * slope) + toLight * 0.5) * texel;
-    vec4 clip = view.clipFromWorld * vec4(pushed, 1.0);
-    vec3 ndc = clip.xyz / max(clip.w, 1e-6);
-    vec2 at = (ndc.xy * 0.5 + 0.5) * float(view.size);
-    bool outside = clip.w <= 0.0 || any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(view.size)));
+    vec3 pushed = position + (normal + toLight) * (0.5 * texel);
+    vec3 point = shadowPoint(view, pushed);
+    vec2 at = point.xy;
+    bool outside = point.z < 0.0 || any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(view.size)));
+    vec2 slope = receiverSlope(view, pushed, normal, toLight, texel, point);
 
-    vec2 corner = floor(at - 0.5);
-    vec2 f = at - 0.5 - corner;
+    // A box four texels wide about the receiver: five taps a row, the outer two by what it covers of them.
+    vec2 corner = floor(at);
+    vec2 f = at - corner;
     ivec2 low = ivec2(view.origin), high = low + int(view.size) - 1;
     float lit = 0.0;
     [[unroll]] for (int y = -2; y <= 2; ++y) {
@@ -59,7 +81,9 @@ float litShare(Light light, vec3 position, vec3 normal, vec3 toLight, float view
             ivec2 tap = clamp(low + ivec2(corner) + ivec2(x, y), low, high);
             float wx = x == -2 ? 1.0 - f.x : (x == 2 ? f.x : 1.0);
             float wy = y == -2 ? 1.0 - f.y : (y == 2 ? f.y : 1.0);
-            lit += wx * wy * shadowCompare(texelFetch(shadowAtlas, tap, 0).x, ndc.z, 0.0);
+            vec2 offset = vec2(x, y) + 0.5 - f;  // from the receiver to the tap's centre, texels
+            float receiver = point.z + dot(slope, offset);
+            lit += wx * wy * shadowCompare(texelFetch(shadowAtlas, tap, 0).x, receiver, 0.0);
         }
     }
     return outside ? 1.0 : lit / 16.0;

@@ -34,6 +34,23 @@ glm::vec3 cameraDirection(const RenderCamera& camera, glm::uvec2 size, uint32_t 
     return glm::normalize(glm::vec3(h) / h.w - camera.position);
 }
 
+// The first surface along a ray that a camera sees, passing single-sided ones from behind.
+bool seeSurface(const RayScene& scene, glm::vec3 origin, glm::vec3 direction, Surface& surface,
+                uint64_t& rays) {
+    float passed = 0;
+    do {
+        ++rays;
+        if (!scene.intersect(origin + direction * passed, direction, surface)) {
+            surface.distance = 0;
+            return false;
+        }
+        passed += surface.distance + scene.offset();
+    } while (surface.hidden);
+    surface.distance = glm::distance(origin, surface.position);
+    scene.resolve(surface);
+    return true;
+}
+
 // 1/sr, towards the viewer.
 glm::vec3 brdf(const Surface& s, glm::vec3 toViewer, glm::vec3 toLight, bool glossy) {
     if (!glossy) return s.albedo * kInvPi;
@@ -199,9 +216,7 @@ void traceFirstHits(const RayScene& scene, const PathSettings& settings, const L
     forEachPixel(size, lattice, runner, rays, [&](uint32_t x, uint32_t y, uint64_t& count) {
         const size_t i = size_t(y) * size.x + x;
         hits.directions[i] = cameraDirection(camera, size, x, y);
-        ++count;
-        if (!scene.intersect(camera.position, hits.directions[i], hits.surfaces[i])) return;
-        scene.resolve(hits.surfaces[i]);
+        if (!seeSurface(scene, camera.position, hits.directions[i], hits.surfaces[i], count)) return;
         const Lit lit = directLight(scene, hits.surfaces[i], -hits.directions[i], settings.glossy, count);
         hits.irradiance.pixels[i] = lit.irradiance;
         hits.radiance.pixels[i] = lit.radiance;

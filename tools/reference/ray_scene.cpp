@@ -72,7 +72,8 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene) {
         const glm::mat3 linear(instance.worldFromLocal[0], instance.worldFromLocal[1],
                                instance.worldFromLocal[2]);
         parts_.push_back(
-            std::make_unique<Part>(Part{&instance, &p, linear, glm::transpose(glm::inverse(linear))}));
+            std::make_unique<Part>(Part{&instance, &p, linear, glm::transpose(glm::inverse(linear)),
+                                        glm::determinant(linear) < 0, material.doubleSided}));
         if (material.alphaMode == AlphaMode::kMask) {
             rtcSetGeometryUserData(geometry, this);
             rtcSetGeometryIntersectFilterFunction(geometry, filterMasked);
@@ -135,8 +136,10 @@ bool RayScene::intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface
     surface.distance = ray.ray.tfar;
     surface.position = origin + direction * ray.ray.tfar;
     surface.geometricNormal = glm::normalize(glm::vec3(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z));
-    if (glm::dot(surface.geometricNormal, direction) > 0) surface.geometricNormal = -surface.geometricNormal;
+    const bool behind = glm::dot(surface.geometricNormal, direction) > 0;
+    if (behind) surface.geometricNormal = -surface.geometricNormal;
     surface.part = ray.hit.geomID;
+    surface.hidden = behind != parts_[surface.part]->mirrored && !parts_[surface.part]->doubleSided;
     surface.triangle = ray.hit.primID;
     surface.u = ray.hit.u;
     surface.v = ray.hit.v;

@@ -16,6 +16,7 @@ struct Surface {                         // what a ray met
     glm::vec3 geometricNormal{0, 1, 0};  // unit, on the ray's side
     uint32_t part = 0, triangle = 0;     // with u, v: the place on it
     float u = 0, v = 0;
+    bool hidden = false;  // a single-sided surface from behind: it blocks light, but no camera sees it
 
     // From here on valid after RayScene::resolve.
     bool resolved = false;
@@ -59,6 +60,7 @@ class RayScene {
         const RenderInstance* instance;
         const Primitive* primitive;
         glm::mat3 worldFromLocal, normalFromLocal;
+        bool mirrored, doubleSided;
     };
     glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
     glm::vec3 shadingNormal(const Part& part, uint32_t triangle, float u, float v,

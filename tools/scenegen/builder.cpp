@@ -88,6 +88,13 @@ uint32_t SceneBuilder::box(const std::string& name, glm::vec3 center, glm::vec3 
     return addNode(std::move(node));
 }
 
+uint32_t SceneBuilder::copy(uint32_t source, const std::string& name, glm::vec3 center, float yaw) {
+    SceneNode node{.name = name, .mesh = asset_.nodes[source].mesh};
+    node.local.translation = glm::dvec3(center);
+    node.local.rotation = glm::angleAxis(yaw, glm::vec3(0, 1, 0));
+    return addNode(std::move(node));
+}
+
 void SceneBuilder::room(const std::string& name, glm::vec3 min, glm::vec3 max,
                         const std::array<uint32_t, 6>& materials) {
     const uint32_t mesh = beginMesh(name);

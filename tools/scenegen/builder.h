@@ -20,6 +20,8 @@ class SceneBuilder {
     uint32_t quad(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, uint32_t material);
     // A box about the node's origin, outward faces. Returns the node.
     uint32_t box(const std::string& name, glm::vec3 center, glm::vec3 size, uint32_t material, float yaw = 0);
+    // Another node with the mesh of `node`.
+    uint32_t copy(uint32_t node, const std::string& name, glm::vec3 center, float yaw = 0);
     // The inside of a room, each face with its own material: -x +x -y +y -z +z; ~0u leaves the face out.
     void room(const std::string& name, glm::vec3 min, glm::vec3 max,
               const std::array<uint32_t, 6>& materials);

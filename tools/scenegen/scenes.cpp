@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "common/false_color.h"
 #include "engine/scene/gltf_import.h"
 #include "tools/scenegen/builder.h"
 
@@ -95,17 +97,115 @@ SceneAsset gallery(uint32_t) {
     return b.finish();
 }
 
+// An arcade 12 m long: the sun falls through the openings between piers onto a floor and onto three curtains,
+// red, green and blue, that hang before the far wall. Nearly all its light is the curtains' and the floor's.
+SceneAsset corridor(uint32_t) {
+    SceneBuilder b("corridor");
+    const uint32_t stone = b.material("stone", {0.62f, 0.58f, 0.52f}),
+                   floor = b.material("floor", {0.45f, 0.40f, 0.35f}),
+                   red = b.material("red curtain", {0.70f, 0.06f, 0.05f}),
+                   green = b.material("green curtain", {0.08f, 0.48f, 0.12f}),
+                   blue = b.material("blue curtain", {0.07f, 0.13f, 0.60f});
+    constexpr uint32_t kOpen = ~0u;
+    b.room("hall", {-6, 0, -1.5f}, {6, 3.2f, 1.5f}, {stone, stone, floor, stone, stone, kOpen});
+    for (int i = 0; i <= 6; ++i)
+        b.box("pier", {-6 + 2.0f * float(i), 1.3f, 1.65f}, {0.6f, 2.6f, 0.3f}, stone);
+    b.box("lintel", {0, 2.9f, 1.65f}, {12.6f, 0.6f, 0.3f}, stone);
+    b.box("sill", {0, 0.15f, 1.65f}, {12.6f, 0.3f, 0.3f}, stone);
+    for (int i = 0; i < 3; ++i) {
+        const uint32_t cloth = i == 0 ? red : i == 1 ? green : blue;
+        const float x = -3.6f + 3.6f * float(i);
+        for (int fold = 0; fold < 8; ++fold)  // a zigzag of narrow boxes
+            b.box("fold", {x - 0.875f + 0.25f * float(fold), 1.35f, -1.3f}, {0.27f, 2.3f, 0.02f}, cloth,
+                  fold % 2 ? 0.45f : -0.45f);
+    }
+    b.sun("sun", {0.25f, -0.8f, -0.75f}, glm::vec3(12, 11.2f, 10));
+    b.camera("camera", {5.4f, 1.7f, 0.4f}, {-4, 1.2f, -0.4f}, 55);
+    return b.finish();
+}
+
+// A columned hall, 24 x 5 x 16 m, under `param` lamps (default 14): points of light in a jittered grid, each
+// with its own colour and a range that lets about ten of them reach any place. Boxes move among the columns.
+SceneAsset lamps(uint32_t param) {
+    const uint32_t count = param ? param : 14;
+    SceneBuilder b("lamps");
+    const uint32_t stone = b.material("stone", {0.60f, 0.58f, 0.55f}),
+                   floor = b.material("floor", {0.50f, 0.46f, 0.42f}),
+                   wall = b.material("wall", {0.66f, 0.60f, 0.50f}),
+                   crate = b.material("crate", {0.62f, 0.42f, 0.20f});
+    const glm::vec3 half(12, 5, 8);
+    b.room("hall", {-half.x, 0, -half.z}, half, {wall, wall, floor, stone, wall, wall});
+    uint32_t column = ~0u;
+    for (int x = -2; x <= 2; ++x)
+        for (const float z : {-4.5f, 0.0f, 4.5f}) {
+            const glm::vec3 at(4.4f * float(x), 2.5f, z);
+            column =
+                column == ~0u ? b.box("column", at, {0.6f, 5, 0.6f}, stone) : b.copy(column, "column", at);
+        }
+    for (int i = 0; i < 6; ++i)
+        mover(b, b.box("crate", {-9 + 3.6f * float(i), 0.5f, i % 2 ? 2.2f : -2.2f}, {0.9f, 1, 0.9f}, crate),
+              {0, 0, i % 2 ? -1.2f : 1.2f}, 5 + 0.7f * float(i), 0.4f);
+    const float area = 4 * half.x * half.z, spacing = std::sqrt(area / float(count)),
+                range = std::max(1.8f * spacing, 2.5f);
+    for (uint32_t i = 0; i < count; ++i) {
+        const float r1 = io::hashToUnit(2 * i), r2 = io::hashToUnit(2 * i + 1);
+        const glm::vec2 at = io::hammersley(i, count);
+        const glm::vec3 place((2 * at.x - 1) * (half.x - 0.6f), 1.6f + 2.6f * r1,
+                              (2 * at.y - 1) * (half.z - 0.6f));
+        const glm::vec3 tint = glm::mix(glm::vec3(1), io::hueFromIndex(i), 0.6f);
+        b.point("lamp", place, tint * (0.35f + 0.5f * r2) * spacing * spacing, range);
+    }
+    b.camera("camera", {-11, 2.4f, 6.6f}, {4, 1.2f, -2}, 60);
+    return b.finish();
+}
+
+// `param` moving boxes (default 256) over a floor among four coloured walls, one mesh for all, lit by a
+// strong spot.
+SceneAsset crowd(uint32_t param) {
+    const uint32_t count = param ? param : 256;
+    SceneBuilder b("crowd");
+    const uint32_t floor = b.material("floor", {0.55f, 0.53f, 0.50f}), red = b.material("red", kRed),
+                   green = b.material("green", kGreen), white = b.material("white", kWhite),
+                   box = b.material("box", {0.60f, 0.50f, 0.34f});
+    const float side = std::sqrt(float(count)), half = 0.6f * side + 1;
+    b.room("walls", {-half, 0, -half}, {half, 0.6f * half + 2, half}, {red, green, floor, ~0u, white, ~0u});
+    uint32_t first = ~0u;
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto columns = uint32_t(std::ceil(side));
+        const glm::vec3 at((float(i % columns) + 0.5f - 0.5f * float(columns)) * 1.2f, 0.25f,
+                           (float(i / columns) + 0.5f - 0.5f * float(columns)) * 1.2f);
+        const float yaw = 6.2831853f * io::hashToUnit(i);
+        const uint32_t node =
+            first == ~0u ? b.box("box", at, glm::vec3(0.5f), box, yaw) : b.copy(first, "box", at, yaw);
+        if (first == ~0u) first = node;
+        mover(b, node, {0.3f * io::hashToUnit(3 * i), 0.2f, 0}, 2 + 3 * io::hashToUnit(5 * i), 0.5f);
+    }
+    const float height = half + 2;
+    b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(6 * height * height), 30,
+           50);
+    b.camera("camera", {0, 0.5f * half + 1.5f, 1.25f * half + 2}, {0, 0.3f, 0}, 55);
+    return b.finish();
+}
+
 struct Entry {
     std::string_view name;
     SceneAsset (*build)(uint32_t param);
 };
 
-constexpr std::array<Entry, 5> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 8> kScenes = {{{"cornell", cornell},
                                            {"corner", corner},
                                            {"occluder", occluder},
+                                           {"corridor", corridor},
                                            {"furnace", furnace},
+                                           {"lamps", lamps},
+                                           {"crowd", crowd},
                                            {"gallery", gallery}}};
-constexpr std::array<std::string_view, 5> kNames = {"cornell", "corner", "occluder", "furnace", "gallery"};
+constexpr auto kNames = [] {
+    std::array<std::string_view, kScenes.size()> names;
+    for (size_t i = 0; i < names.size(); ++i)
+        names[i] = kScenes[i].name;
+    return names;
+}();
 
 }  // namespace
 
