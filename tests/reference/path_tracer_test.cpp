@@ -53,6 +53,7 @@ SceneAsset sphere(float albedo) {
     b.camera("camera", {0.2f, 0.1f, 0.1f}, {-1, 0, 0}, 50);
     SceneAsset asset = b.finish();
     GeometryArrays& g = asset.geometry;  // the quad's geometry becomes the sphere's
+    g.materials[0].doubleSided = true;   // to be seen from inside and outside
     constexpr uint32_t kRings = 96, kSegments = 192;
     g.positions.clear();
     g.attributes.clear();
