@@ -17,7 +17,12 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.vals = addValFit(graph, f.clusters);
 
     // Gather on screen
-    f.bounce1 = addValShading(graph, scene, f.gbuffer, f.vals, s.valShading);
+    if (s.firstBounce == FirstBounce::kAreaLights)
+        f.bounce1 = addValShading(graph, scene, f.gbuffer, f.vals, s.valShading);
+    else if (s.firstBounce == FirstBounce::kTexels)
+        f.bounce1 = addValShading(graph, scene, f.gbuffer, texelsAsVals(f.rsm), {ValShape::kPoint});
+    else if (s.firstBounce == FirstBounce::kStochasticRsm)
+        f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, s.stochasticRsm);
 
     // Direct light
     f.shadows = addShadowMaps(graph, scene, s.shadowMaps);

@@ -1,24 +1,75 @@
 #include "gi/gi_settings.h"
 
+#include <algorithm>
+#include <array>
+
 #include "engine/core/settings.h"
 
 namespace ag::gi {
+namespace {
+
+void setNone(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kNone;
+}
+
+void setRsmBrute(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kTexels;
+    gi.rsm.resolution = 128;
+}
+
+void setRsm400(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kStochasticRsm;
+    gi.stochasticRsm = {.samples = 400, .radius = 0.3f};
+}
+
+void setRsmc(GiSettings& gi) {
+    gi.valShading.shape = ValShape::kDisk;
+    gi.importance.viewWeight = 1;  // the geometry term toward the view alone
+    gi.valClustering.distanceWeight = gi.valClustering.normalWeight = 1;
+    gi.valClustering.chromaWeight = 10;
+}
+
+void setAfterglow(GiSettings&) {}
+
+struct Preset {
+    std::string_view name;
+    void (*apply)(GiSettings&);
+};
+
+constexpr std::array<Preset, 5> kPresets = {{{"none", setNone},
+                                             {"rsm-brute", setRsmBrute},
+                                             {"rsm-400", setRsm400},
+                                             {"rsmc", setRsmc},
+                                             {"afterglow", setAfterglow}}};
+constexpr auto kPresetNames = [] {
+    std::array<std::string_view, kPresets.size()> names;
+    for (size_t i = 0; i < names.size(); ++i)
+        names[i] = kPresets[i].name;
+    return names;
+}();
+
+}  // namespace
+
+std::span<const std::string_view> presetNames() {
+    return kPresetNames;
+}
 
 bool applyPreset(std::string_view name, GiSettings& gi) {
-    if (name == "none") {
-        gi.valShading.enabled = false;
-    } else if (name == "rsmc") {
-        gi.valShading.shape = ValShape::kDisk;
-        gi.importance.viewWeight = 1;  // the geometry term toward the view alone
-        gi.valClustering.distanceWeight = gi.valClustering.normalWeight = 1;
-        gi.valClustering.chromaWeight = 10;
-    } else {
-        return name == "afterglow";
-    }
+    const auto found = std::ranges::find(kPresets, name, &Preset::name);
+    if (found == kPresets.end()) return false;
+    found->apply(gi);
     return true;
 }
 
 void registerSettings(Settings& s, GiSettings& gi) {
+    s.add({"gi",
+           "first_bounce",
+           0,
+           0,
+           "",
+           "where indirect light comes from",
+           {"none", "area_lights", "texels", "stochastic_rsm"}},
+          &gi.firstBounce);
     s.add({"rsm", "resolution", 0, 1024, "texels",
            "side of a light map, rounded down to a power of two; 0: as each light says"},
           &gi.rsm.resolution);
@@ -38,10 +89,17 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"val_clustering", "settle_frames", 0, 1000, "frames",
            "clustering steps after the light maps last changed"},
           &gi.valClustering.settleFrames);
-    s.add({"val_shading", "enabled", 0, 0, "", "indirect light at all"}, &gi.valShading.enabled);
     s.add(
         {"val_shading", "shape", 0, 0, "", "form factor of an area light", {"point", "disk", "vector_disk"}},
         &gi.valShading.shape);
+    s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},
+          &gi.stochasticRsm.samples);
+    s.add({"stochastic_rsm", "radius", 0.001, 2, "map widths",
+           "of the disk about the pixel's projection; light beyond it is lost"},
+          &gi.stochasticRsm.radius);
+    s.add({"stochastic_rsm", "interpolate", 0, 0, "",
+           "gather a 16th of the pixels, blend where surfaces are alike"},
+          &gi.stochasticRsm.interpolate);
     s.add({"shadow_maps", "resolution", 64, 4096, "texels",
            "side of a spot's map or a cascade; cube faces half"},
           &gi.shadowMaps.resolution);

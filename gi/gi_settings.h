@@ -2,12 +2,14 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 #include <string_view>
 
 #include "gi/composite.h"
 #include "gi/importance.h"
 #include "gi/rsm.h"
 #include "gi/shadow_maps.h"
+#include "gi/stochastic_rsm.h"
 #include "gi/val_clustering.h"
 #include "gi/val_shading.h"
 
@@ -17,21 +19,32 @@ class Settings;
 
 namespace ag::gi {
 
+// Where the first bounce comes from.
+enum class FirstBounce : uint32_t {
+    kNone,           // no indirect light, and nothing that only it needs
+    kAreaLights,     // clusters of light-map texels
+    kTexels,         // every light-map texel as a point emitter
+    kStochasticRsm,  // samples of the light maps
+};
+
 struct GiSettings {
+    FirstBounce firstBounce = FirstBounce::kAreaLights;
     RsmSettings rsm;
     ImportanceSettings importance;
     ValClusteringSettings valClustering;
     ValShadingSettings valShading;
+    StochasticRsmSettings stochasticRsm;
     ShadowMapSettings shadowMaps;
     CompositeSettings composite;
 };
 
-// Adds the groups rsm, importance, val_clustering, val_shading, shadow_maps and composite. `gi` must outlive
-// `settings`.
-// Named sets of settings: "none" (direct light only), "rsmc" (as published), "afterglow" (the default). False
-// if there is no such preset.
+// Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
+// "rsm-400" (Dachsbacher & Stamminger 2005), "rsmc" (RSM clustering as published), "afterglow" (the default).
+// False if there is no such preset.
 bool applyPreset(std::string_view name, GiSettings& gi);
+std::span<const std::string_view> presetNames();
 
+// Registers every group's settings. `gi` must outlive `settings`.
 void registerSettings(Settings& settings, GiSettings& gi);
 
 }  // namespace ag::gi

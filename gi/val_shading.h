@@ -1,4 +1,5 @@
-// Irradiance from virtual area lights: every pixel meets every light, unshadowed.
+// Irradiance from virtual lights: every pixel meets every light, unshadowed. The lights are fitted to
+// clusters, or they are the light maps' texels themselves.
 #pragma once
 
 #include "gi/gbuffer.h"
@@ -13,9 +14,12 @@ enum class ValShape : uint32_t {
 };
 
 struct ValShadingSettings {
-    bool enabled = true;  // off: no indirect light, and nothing that only it needs
     ValShape shape = ValShape::kVectorDisk;
 };
+
+// Every texel of the light maps as a point emitter (Dachsbacher & Stamminger 2005 without their sampling):
+// slow, and exact but for visibility as the maps grow.
+Vals texelsAsVals(const RsmSet& rsm);
 
 struct Irradiance {
     ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add

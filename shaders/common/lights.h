@@ -19,5 +19,13 @@ AG_FUNCTION float rangeWindow(float distance, float range) {
     return range > 0.0f ? clamp(1.0f - s2 * s2, 0.0f, 1.0f) : 1.0f;
 }
 
+// The cube face a direction points to: +x -x +y -y +z -z.
+AG_FUNCTION uint cubeFace(vec3 d) {
+    vec3 a = abs(d);
+    if (a.x >= a.y && a.x >= a.z) return d.x > 0.0f ? 0u : 1u;
+    if (a.y >= a.z) return d.y > 0.0f ? 2u : 3u;
+    return d.z > 0.0f ? 4u : 5u;
+}
+
 AG_END
 #endif

@@ -22,14 +22,6 @@ layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
 #endif
 
 #ifdef AG_SHADOW
-// The cube face a direction points to: +x -x +y -y +z -z.
-uint cubeFace(vec3 d) {
-    vec3 a = abs(d);
-    if (a.x >= a.y && a.x >= a.z) return d.x > 0.0 ? 0 : 1;
-    if (a.y >= a.z) return d.y > 0.0 ? 2 : 3;
-    return d.z > 0.0 ? 4 : 5;
-}
-
 uint chooseView(Light light, vec3 position, float viewDepth) {
     if (kKind == kLightPoint) return light.firstShadowView + cubeFace(position - light.position);
     uint view = light.firstShadowView;

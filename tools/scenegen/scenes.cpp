@@ -119,7 +119,7 @@ SceneAsset corridor(uint32_t) {
             b.box("fold", {x - 0.875f + 0.25f * float(fold), 1.35f, -1.3f}, {0.27f, 2.3f, 0.02f}, cloth,
                   fold % 2 ? 0.45f : -0.45f);
     }
-    b.sun("sun", {0.25f, -0.8f, -0.75f}, glm::vec3(12, 11.2f, 10));
+    b.sun("sun", {0.3f, -0.38f, -0.87f}, glm::vec3(12, 11.2f, 10));
     b.camera("camera", {5.4f, 1.7f, 0.4f}, {-4, 1.2f, -0.4f}, 55);
     return b.finish();
 }

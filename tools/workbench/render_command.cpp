@@ -75,8 +75,8 @@ void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSetti
 int runRender(const RenderOptions& options) {
     RenderSettings settings;
     if (!gi::applyPreset(options.preset, settings.gi))
-        return refuse(
-            fmt::format("there is no preset '{}' (there are: none, rsmc, afterglow)", options.preset));
+        return refuse(fmt::format("there is no preset '{}' (there are: {})", options.preset,
+                                  fmt::join(gi::presetNames(), ", ")));
     for (const std::string& assignment : options.assignments)
         if (const Status set = settings.registry.set(assignment); !set) return refuse(set.error().message);
     if (options.listSettings) {
@@ -135,7 +135,8 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
         ->capture_default_str();
     command->add_option("--layer", options->layer,
                         "which intermediate; radiance (exr, pfm) or final (png) by default");
-    command->add_option("--preset", options->preset, "none, rsmc or afterglow")->capture_default_str();
+    command->add_option("--preset", options->preset, fmt::format("{}", fmt::join(gi::presetNames(), ", ")))
+        ->capture_default_str();
     command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
     command->add_flag("--list-settings", options->listSettings,
                       "every setting with default, range, unit, help");

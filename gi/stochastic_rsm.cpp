@@ -1,0 +1,124 @@
+#include "gi/stochastic_rsm.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "common/sampling.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr uint32_t kCoarseStep = 4;      // pixels
+constexpr uint32_t kMostSamples = 4096;  // what one upload holds
+
+// Pass names are literals, because the graph keeps views of them.
+constexpr std::array<std::string_view, io::kMaxBounceLights> kGatherNames = {
+    "stochastic_rsm.gather0", "stochastic_rsm.gather1", "stochastic_rsm.gather2", "stochastic_rsm.gather3",
+    "stochastic_rsm.gather4", "stochastic_rsm.gather5", "stochastic_rsm.gather6", "stochastic_rsm.gather7"};
+constexpr std::array<std::string_view, io::kMaxBounceLights> kListedNames = {
+    "stochastic_rsm.listed0", "stochastic_rsm.listed1", "stochastic_rsm.listed2", "stochastic_rsm.listed3",
+    "stochastic_rsm.listed4", "stochastic_rsm.listed5", "stochastic_rsm.listed6", "stochastic_rsm.listed7"};
+
+// x, y in the unit disk, dense in its middle, and the weight xi that makes up for it.
+BufferHandle addPattern(FrameGraph& graph, uint32_t samples) {
+    std::array<glm::vec4, kMostSamples> points;  // 64 KiB
+    for (uint32_t i = 0; i < samples; ++i) {
+        const glm::vec2 xi = io::hammersley(i, samples);
+        const float angle = 2 * std::numbers::pi_v<float> * xi.y;
+        points[i] = {xi.x * std::cos(angle), xi.x * std::sin(angle), xi.x, 0};
+    }
+    const auto bytes = std::as_bytes(std::span(points.data(), samples));
+    const BufferHandle buffer = graph.buffer(
+        "stochastic_rsm.pattern", {.sizeBytes = bytes.size(), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.upload("stochastic_rsm.pattern", buffer, bytes);
+    return buffer;
+}
+
+struct Inputs {
+    const SceneView& scene;
+    const GBuffer& gbuffer;
+    const RsmSet& rsm;
+    BufferHandle pattern, list;
+    const StochasticRsmSettings& settings;
+};
+
+// One pass a map; `add`: on top of what the image holds.
+PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in, uint32_t map,
+                      ImageHandle image, uint32_t step, bool listed, bool add) {
+    PassBuilder pass = graph.compute(name, "stochastic_rsm/gather_samples.comp");
+    pass.sample("normalMap", in.gbuffer.normal)
+        .sample("depthMap", in.gbuffer.depth)
+        .read("camera", in.scene.camera)
+        .read("texels", in.rsm.texels)
+        .read("faces", in.rsm.faces)
+        .read("maps", in.rsm.maps)
+        .read("pattern", in.pattern)
+        .read("list", in.list)
+        .spec(0, in.rsm.mapInfo[map].kind)
+        .spec(1, listed)
+        .spec(2, !add)
+        .push(io::StochasticRsmPush{.map = map,
+                                    .sampleCount = in.settings.samples,
+                                    .radius = in.settings.radius,
+                                    .step = step,
+                                    .atlasWidth = in.rsm.atlas.size.x});
+    if (add)
+        pass.readWrite("irradiance", image);
+    else
+        pass.write("irradiance", image);
+    return pass;
+}
+
+// Blends the coarse image into `image` and lists the pixels that must be gathered. Returns the list's
+// dispatch arguments.
+BufferHandle addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle coarse, ImageHandle image) {
+    const BufferHandle groups =
+        graph.buffer("stochastic_rsm.groups", {.sizeBytes = sizeof(glm::uvec3), .indirect = true});
+    const glm::uvec3 none(0, 1, 1);
+    graph.upload("stochastic_rsm.no_groups", groups, std::as_bytes(std::span(&none, 1)));
+    graph.compute("stochastic_rsm.interpolate", "stochastic_rsm/interpolate_samples.comp")
+        .sample("normalMap", in.gbuffer.normal)
+        .sample("depthMap", in.gbuffer.depth)
+        .read("camera", in.scene.camera)
+        .sample("coarse", coarse)
+        .readWrite("list", in.list)
+        .readWrite("groups", groups)
+        .write("irradiance", image)
+        .push(io::RsmInterpolationPush{.step = kCoarseStep, .leastCosine = 0.95f, .mostPlaneShare = 0.01f})
+        .dispatchThreads(in.gbuffer.size.x, in.gbuffer.size.y);
+    return groups;
+}
+
+}  // namespace
+
+Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+                            const RsmSet& rsm, const StochasticRsmSettings& settings) {
+    if (rsm.empty()) return {};
+    const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    const Irradiance result{
+        graph.image("stochastic_rsm.irradiance", {.format = format, .size = gbuffer.size})};
+    const uint64_t listed = settings.interpolate ? uint64_t(gbuffer.size.x) * gbuffer.size.y : 0;
+    const BufferHandle list =
+        graph.buffer("stochastic_rsm.list", {.sizeBytes = (1 + listed) * sizeof(uint32_t)});
+    graph.fill("stochastic_rsm.empty_list", list, 0);
+    const Inputs in{scene, gbuffer, rsm, addPattern(graph, settings.samples), list, settings};
+
+    if (!settings.interpolate) {
+        for (uint32_t m = 0; m < rsm.atlas.mapCount; ++m)
+            addGather(graph, kGatherNames[m], in, m, result.image, 1, false, m > 0)
+                .dispatchThreads(gbuffer.size.x * gbuffer.size.y);
+        return result;
+    }
+    const glm::uvec2 coarseSize = (gbuffer.size + kCoarseStep - 1u) / kCoarseStep;
+    const ImageHandle coarse = graph.image("stochastic_rsm.coarse", {.format = format, .size = coarseSize});
+    for (uint32_t m = 0; m < rsm.atlas.mapCount; ++m)
+        addGather(graph, kGatherNames[m], in, m, coarse, kCoarseStep, false, m > 0)
+            .dispatchThreads(coarseSize.x * coarseSize.y);
+    const BufferHandle groups = addInterpolation(graph, in, coarse, result.image);
+    for (uint32_t m = 0; m < rsm.atlas.mapCount; ++m)
+        addGather(graph, kListedNames[m], in, m, result.image, 1, true, true).dispatchIndirect(groups);
+    return result;
+}
+
+}  // namespace ag::gi

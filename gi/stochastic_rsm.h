@@ -1,0 +1,22 @@
+// First-bounce irradiance from samples of the light maps about each pixel's projection, unshadowed:
+// reflective shadow maps as Dachsbacher & Stamminger (2005) gather them, with one fixed pattern for all
+// pixels and, if asked for, their interpolation in screen space.
+#pragma once
+
+#include "gi/gbuffer.h"
+#include "gi/rsm.h"
+#include "gi/val_shading.h"
+#include "shaders/stochastic_rsm/stochastic_rsm_io.h"
+
+namespace ag::gi {
+
+struct StochasticRsmSettings {
+    uint32_t samples = 400;    // of each light map, a pixel
+    float radius = 0.3f;       // of the disk they lie in, in widths of the map: light beyond it is lost
+    bool interpolate = false;  // gather every fourth pixel both ways and blend where surfaces are alike
+};
+
+Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+                            const RsmSet& rsm, const StochasticRsmSettings& settings);
+
+}  // namespace ag::gi

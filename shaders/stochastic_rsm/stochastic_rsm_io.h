@@ -1,0 +1,28 @@
+// First-bounce irradiance from samples of a light map about each pixel's projection.
+#ifndef AG_STOCHASTIC_RSM_IO_H
+#define AG_STOCHASTIC_RSM_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+struct StochasticRsmPush {
+    uint map;          // which RsmMap
+    uint sampleCount;  // of the pattern
+    float radius;      // of the disk about the projection, in widths of the map
+    uint step;         // pixels from one gathered pixel to the next
+    uint atlasWidth;   // texels
+};
+
+struct RsmInterpolationPush {
+    uint step;
+    float leastCosine;     // of the normals of a pixel and a sample that stands for it
+    float mostPlaneShare;  // distance from the pixel's plane, in pixel depths
+};
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif
