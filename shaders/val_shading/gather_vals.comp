@@ -14,13 +14,14 @@ const uint kShapeDisk = 1;        // as published: RSMC eq. 2
 const uint kShapeVectorDisk = 2;  // closed form of a disk's vector irradiance
 layout(constant_id = 0) const uint kShape = kShapeVectorDisk;
 
-layout(push_constant, scalar) uniform Push { uint valCount; } push;  // padded to whole subgroups
+layout(constant_id = 1) const bool kFirst = true;  // starts from zero instead of adding
+layout(push_constant, scalar) uniform Push { uint first, last; } push;  // lights, whole subgroups of them
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 3) uniform samplerBuffer vals;
-layout(set = 0, binding = 4, rgba16f) writeonly uniform image2D irradiance;
+layout(set = 0, binding = 4, rgba16f) uniform image2D irradiance;
 
 const int kPixels = 4;
 
@@ -63,7 +64,7 @@ void main() {
         e[p] = vec3(0.0);
     }
     if (kLaneParallel) {
-        for (uint base = 0; base < push.valCount; base += kSubgroupSize) {
+        for (uint base = push.first; base < push.last; base += kSubgroupSize) {
             vec4 a;
             vec3 valNormal, flux;
             loadVal(int(base + gl_SubgroupInvocationID), a, valNormal, flux);
@@ -72,7 +73,7 @@ void main() {
                            subgroupShuffle(flux, lane));
         }
     } else {
-        for (uint i = 0; i < push.valCount; ++i) {
+        for (uint i = push.first; i < push.last; ++i) {
             vec4 a;
             vec3 valNormal, flux;
             loadVal(int(i), a, valNormal, flux);
@@ -81,7 +82,9 @@ void main() {
     }
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(p);
-        if (all(lessThan(pixel, ivec2(size))))
-            imageStore(irradiance, pixel, vec4(surface[p] ? e[p] : vec3(0.0), 1.0));
+        if (any(greaterThanEqual(pixel, ivec2(size)))) continue;
+        vec3 sum = surface[p] ? e[p] : vec3(0.0);
+        if (!kFirst) sum += imageLoad(irradiance, pixel).rgb;
+        imageStore(irradiance, pixel, vec4(sum, 1.0));
     }
 }

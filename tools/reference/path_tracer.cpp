@@ -140,6 +140,23 @@ struct PixelSums {
     }
 };
 
+// What techniques without visibility of indirect light aim at: every surface along the ray counts, as if the
+// ones before it were not there.
+void traceThrough(const RayScene& scene, const Surface& first, glm::vec3 toViewer, bool glossy, glm::vec2 uv,
+                  PixelSums& sums, uint64_t& rays) {
+    const Sample sample = sampleDirection(first, toViewer, glossy, uv.x, uv.y, 0);
+    if (sample.incident <= 0 || glm::dot(sample.direction, first.geometricNormal) <= 0) return;
+    Surface met;
+    glm::vec3 origin = leaveSurface(scene, first);
+    while (++rays, scene.intersect(origin, sample.direction, met)) {
+        const Lit lit = directLight(scene, met, -sample.direction, glossy, rays);
+        sums.add(1, lit.radiance * sample.incident, lit.radiance * sample.reflected);
+        // Far enough not to meet the same plane again when it is grazed.
+        const float slant = std::abs(glm::dot(sample.direction, met.geometricNormal));
+        origin = met.position + sample.direction * (scene.offset() / std::max(slant, 1e-3f));
+    }
+}
+
 // One path from a surface. Each vertex's outgoing radiance counts at the start as irradiance and, through the
 // first surface's brdf, as radiance towards the camera.
 void tracePath(const RayScene& scene, const Surface& first, glm::vec3 toViewer, const PathSettings& settings,
@@ -234,8 +251,12 @@ void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& 
         Random random{uint64_t(pixelKey) << 32 | io::hashUint(first + seed)};
         PixelSums pixel;
         for (uint32_t s = first; s < first + count; ++s)
-            tracePath(scene, hits.surfaces[i], -hits.directions[i], settings, random, evenPoint(s, shift),
-                      pixel, rayCount);
+            if (settings.unshadowed)
+                traceThrough(scene, hits.surfaces[i], -hits.directions[i], settings.glossy,
+                             evenPoint(s, shift), pixel, rayCount);
+            else
+                tracePath(scene, hits.surfaces[i], -hits.directions[i], settings, random, evenPoint(s, shift),
+                          pixel, rayCount);
         for (size_t b = 0; b < sums.bounces.size(); ++b)
             sums.bounces[b].pixels[i] += glm::vec3(pixel.bounces[b]);
         sums.indirect.pixels[i] += glm::vec3(pixel.indirect);

@@ -47,11 +47,14 @@ class ProgressLine {
 
 int runReference(const ReferenceOptions& o) {
     const reference::ReferenceSettings& settings = o.settings;
-    if (const Status known = reference::checkLayer(settings.layer, settings.paths.bounces); !known)
+    const reference::PathSettings& paths = settings.paths;
+    if (const Status known = reference::checkLayer(settings.layer, paths.bounces); !known)
         return refuse(known.error().message);
     const bool emitters = settings.method == reference::Method::kEmitters;
-    if (emitters && (settings.paths.bounces != 1 || settings.paths.glossy || settings.paths.emission))
+    if (emitters && (paths.bounces != 1 || paths.glossy || paths.emission))
         return refuse("--method vpl traces exactly one bounce between Lambert surfaces");
+    if (paths.unshadowed && (emitters || paths.bounces != 1 || paths.emission))
+        return refuse("--unshadowed traces exactly one bounce by paths, without emission");
     auto loaded = loadScene(o.scene);
     if (!loaded) return refuse(loaded.error().message);
     const reference::RayScene rays(loaded->scene);
@@ -65,8 +68,9 @@ int runReference(const ReferenceOptions& o) {
     image.attributes = {{"scene", o.scene.scene},
                         {"layer", settings.layer},
                         {"method", emitters ? "vpl" : "path"},
-                        {"material", settings.paths.glossy ? "glossy" : "lambert"},
-                        {"bounces", std::to_string(settings.paths.bounces)},
+                        {"visibility", paths.unshadowed ? "direct" : "all"},
+                        {"material", paths.glossy ? "glossy" : "lambert"},
+                        {"bounces", std::to_string(paths.bounces)},
                         {"samples", std::to_string(result.samples)},
                         {"seed", std::to_string(settings.seed)},
                         {"noise", fmt::format("{:.6g}", result.noise)}};
@@ -74,7 +78,7 @@ int runReference(const ReferenceOptions& o) {
     const double raysPerSecond = double(result.rays) / seconds;
     std::cout << fmt::format(
         "{}: {} bounces, {} {} a pixel, noise {:.4f} (relative RMSE of {}), {:.2f} Mrays/s, {:.1f} s\n",
-        o.output, settings.paths.bounces, result.samples, emitters ? "emitters" : "paths", result.noise,
+        o.output, paths.bounces, result.samples, emitters ? "emitters" : "paths", result.noise,
         settings.layer, raysPerSecond * 1e-6, seconds);
     if (o.bareSpeed) {
         const double bare = reference::bareRaysPerSecond(rays, loaded->size, runner);
@@ -112,6 +116,8 @@ void addReferenceCommand(CLI::App& program, int& exitCode) {
         ->check(CLI::Range(1u, 1024u))
         ->capture_default_str();
     command->add_flag("--glossy", r.paths.glossy, "whole glTF materials instead of their Lambert part");
+    command->add_flag("--unshadowed", r.paths.unshadowed,
+                      "bounced light passes through surfaces: the aim of techniques without its visibility");
     command->add_flag("--emission", r.paths.emission, "emissive surfaces light others");
     command->add_flag("--bare-speed", o->bareSpeed, "print also what bare Embree calls reach here");
     command->callback([o, &exitCode] { exitCode = runReference(*o); });
