@@ -33,6 +33,7 @@ expect 2 "16..1024" "$bin/afterglow" render cornell -o "$work/a.png" --set val_c
 expect 2 "a size is WxH" "$bin/afterglow" render cornell -o "$work/a.png" --size 10
 expect 2 "--sun takes" "$bin/afterglow" render cornell -o "$work/a.png" --sun 1,2
 expect 2 "no camera 'nose'" "$bin/afterglow" render cornell -o "$work/a.png" --camera nose
+expect 2 "there is no preset 'best' (there are: none, rsm-brute" "$bin/afterglow" render cornell -o "$work/a.png" --preset best
 expect 2 "there is no built-in scene" "$bin/afterglow" scene nowhere -o "$work/a.glb"
 expect 2 "not a replay" "$bin/afterglow-demo" --headless --replay "$0"
 [[ -z $(ls "$work" | grep -v -E '^(out|err)$') ]] || fail "a refused command left a file behind"
@@ -47,6 +48,36 @@ expect 0 '"rel_rmse": 0.0' "$bin/afterglow" compare "$work/a.exr" "$work/a.pfm" 
 render cornell -o "$work/direct.pfm" --layer direct
 expect 1 '"rel_rmse"' "$bin/afterglow" compare "$work/a.pfm" "$work/direct.pfm" --max-rel-rmse 0.01
 expect 2 "does not exist" "$bin/afterglow" compare "$work/none.exr" "$work/a.pfm"
+expect 0 '"flip"' "$bin/afterglow" compare "$work/a.pfm" "$work/direct.pfm" --heatmap "$work/heat.png"
+[[ -s $work/heat.png ]] || fail "compare left no heatmap"
+"$bin/afterglow" render cornell -o "$work/small.pfm" --size 32x18 --frames 1 2>/dev/null
+expect 1 "sizes differ: 160x90 and 32x18" "$bin/afterglow" compare "$work/a.pfm" "$work/small.pfm"
+printf 'PF\n1 1\n-1.0\n\x00\x00\xc0\x7f\x00\x00\x00\x00\x00\x00\x00\x00' >"$work/nan.pfm"
+expect 1 "not finite" "$bin/afterglow" compare "$work/nan.pfm" "$work/nan.pfm"
+echo "hello" >"$work/text.exr"
+expect 2 "not a readable EXR" "$bin/afterglow" compare "$work/text.exr" "$work/a.pfm"
+expect 2 "neither .exr nor .pfm" "$bin/afterglow" compare "$0" "$work/a.pfm"
+expect 2 "cannot write" "$bin/afterglow" compare "$work/a.pfm" "$work/a.pfm" --heatmap "$work/none/heat.png"
+
+# The reference: noise in the file, and what cannot be asked of it.
+expect 0 "noise" "$bin/afterglow" reference cornell -o "$work/truth.exr" --layer bounce1 --size 32x18 --spp 64
+expect 0 '"noise_floor"' "$bin/afterglow" compare "$work/truth.exr" "$work/truth.exr"
+expect 0 "emitters a pixel" "$bin/afterglow" reference cornell -o "$work/vpl.exr" --layer bounce1 --size 32x18 \
+  --spp 64 --method vpl
+expect 0 "2 bounces" "$bin/afterglow" reference cornell -o "$work/b2.exr" --layer bounce2 --bounces 2 --size 32x18 --glossy
+expect 2 "needs --bounces 3" "$bin/afterglow" reference cornell -o "$work/b3.exr" --layer bounce3 --bounces 2
+expect 2 "no layer 'vals'" "$bin/afterglow" reference cornell -o "$work/b3.exr" --layer vals
+expect 2 "exactly one bounce" "$bin/afterglow" reference cornell -o "$work/b3.exr" --bounces 2 --method vpl
+
+# A small benchmark leaves all its files.
+expect 0 "rsmc" "$bin/afterglow" bench --scenes cornell --techniques rsmc,none --size 32x18 --flicker-size 16x9 \
+  --frames 5 --reference-spp 16 --cache "$work/cache" --json "$work/b.json" --csv "$work/b.csv" \
+  --plot "$work/b.svg" --markdown "$work/b.md"
+for file in b.json b.csv b.svg b.md; do
+  grep -q rsmc "$work/$file" || fail "bench left no rows in $file"
+done
+expect 2 "there is no technique 'magic'" "$bin/afterglow" bench --techniques magic
+expect 2 "does not exist" "$bin/afterglow" bench --scenes nowhere --techniques none
 
 # A scene written and read again looks the same.
 "$bin/afterglow" scene cornell -o "$work/cornell.glb" >/dev/null || fail "scene cornell"

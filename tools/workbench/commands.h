@@ -11,6 +11,7 @@ void addRenderCommand(CLI::App& program, int& exitCode);
 void addReferenceCommand(CLI::App& program, int& exitCode);
 void addSceneCommand(CLI::App& program, int& exitCode);
 void addCompareCommand(CLI::App& program, int& exitCode);
+void addBenchCommand(CLI::App& program, int& exitCode);
 
 // One sentence to stderr; returns 2.
 int refuse(const std::string& sentence);

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     ag::workbench::addReferenceCommand(program, exitCode);
     ag::workbench::addSceneCommand(program, exitCode);
     ag::workbench::addCompareCommand(program, exitCode);
+    ag::workbench::addBenchCommand(program, exitCode);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -3,12 +3,12 @@
 #include <chrono>
 #include <iostream>
 #include <map>
-#include <mutex>
 
 #include "engine/core/image.h"
 #include "tools/reference/ray_speed.h"
 #include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
+#include "tools/workbench/progress_line.h"
 #include "tools/workbench/scene_options.h"
 
 namespace ag::workbench {
@@ -21,28 +21,6 @@ struct ReferenceOptions {
     std::string output;
     reference::ReferenceSettings settings;
     bool bareSpeed = false;
-};
-
-// A line on stderr, at most twice a second: share done and time left.
-class ProgressLine {
-  public:
-    void operator()(double share) {
-        const std::lock_guard lock(mutex_);
-        const auto now = Clock::now();
-        if (now - last_ < std::chrono::milliseconds(500)) return;
-        last_ = now;
-        const double spent = std::chrono::duration<double>(now - start_).count();
-        std::cerr << fmt::format("\r{:3.0f} %, {:.0f} s left   ", share * 100, spent / share * (1 - share));
-        shown_ = true;
-    }
-    ~ProgressLine() {
-        if (shown_) std::cerr << '\n';
-    }
-
-  private:
-    std::mutex mutex_;
-    Clock::time_point start_ = Clock::now(), last_ = start_;
-    bool shown_ = false;
 };
 
 int runReference(const ReferenceOptions& o) {

@@ -4,10 +4,12 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "engine/core/log.h"
 #include "tools/scenegen/scenes.h"
+#include "tools/workbench/scene_library.h"
 
 namespace ag::workbench {
 namespace {
@@ -102,7 +104,10 @@ Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& a
 }  // namespace
 
 void addSceneOptions(CLI::App& command, SceneOptions& o) {
-    command.add_option("scene", o.scene, "glTF or GLB file, or a built-in name")->required();
+    command
+        .add_option("scene", o.scene,
+                    "glTF or GLB file, or a built-in name, or one of the scene library (see README)")
+        ->required();
     command.add_option("--param", o.param, "number of a built-in scene that takes one");
     command.add_option("--size", o.size, "pixels, WxH")->capture_default_str();
     command.add_option("--camera", o.camera, "index or name of one of the scene's cameras");
@@ -128,7 +133,25 @@ Result<glm::uvec2> parseSize(const std::string& text) {
     return size;
 }
 
-Result<LoadedScene> loadScene(const SceneOptions& options) {
+// A name from the library of scenes becomes its file, with its view and sun where none are given.
+Result<SceneOptions> withLibraryScene(SceneOptions options) {
+    std::error_code ignored;
+    if (scenegen::isBuiltIn(options.scene) || std::filesystem::exists(options.scene, ignored)) return options;
+    const auto found = findInLibrary(options.scene);
+    if (!found) return found.error();
+    if (!found->has_value()) return options;
+    const LibraryScene& scene = **found;
+    options.scene = scene.file;
+    if (options.view.empty() && options.camera.empty()) options.view = scene.view;
+    const bool lit = !options.suns.empty() || !options.points.empty() || !options.spots.empty();
+    if (!lit && !scene.sun.empty()) options.suns = {scene.sun};
+    return options;
+}
+
+Result<LoadedScene> loadScene(const SceneOptions& given) {
+    const auto resolved = withLibraryScene(given);
+    if (!resolved) return resolved.error();
+    const SceneOptions& options = *resolved;
     auto asset = scenegen::resolveScene(options.scene, options.param);
     if (!asset) return asset.error();
     const auto size = parseSize(options.size);

@@ -1,0 +1,142 @@
+// The benchmark's own arithmetic and its files; measuring itself is tested by running it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/core/settings.h"
+#include "engine/scene/static_scene.h"
+#include "gi/gi_settings.h"
+#include "tools/bench/moving_light.h"
+#include "tools/bench/report.h"
+#include "tools/bench/techniques.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::bench {
+namespace {
+
+Row row(const char* technique, double ms, double error) {
+    Row r;
+    r.scene = "room";
+    r.technique = technique;
+    r.term = "bounce1";
+    r.size = {64, 36};
+    r.gpuMsMedian = ms;
+    r.error.relativeRmse = error;
+    r.pathTracingRelRmse = 2;
+    return r;
+}
+
+TEST(Bench, ParetoFrontHasOnlyWhatNothingBeats) {
+    Report report{.rows = {row("a", 10, 0.3), row("b", 20, 0.2), row("c", 25, 0.25), row("d", 5, 0.5),
+                           row("e", 10, 0.3)}};
+    report.rows.push_back(row("path-tracing", 1, 0.01));
+    Row elsewhere = row("c", 1, 0.01);
+    elsewhere.scene = "hall";
+    report.rows.push_back(elsewhere);
+    markPareto(report);
+    const std::vector<bool> expected = {true, true, false, true, true, false, true};
+    for (size_t i = 0; i < expected.size(); ++i)
+        EXPECT_EQ(report.rows[i].pareto, expected[i]) << i;
+}
+
+TEST(Bench, FilesHoldEveryRow) {
+    Report report{.device = "a \"device\"",
+                  .driver = "driver",
+                  .commit = "abc",
+                  .rows = {row("a", 10, 0.3), row("b", 20, 0.2)}};
+    markPareto(report);
+    const auto json = nlohmann::json::parse(toJson(report));
+    ASSERT_EQ(json["rows"].size(), 2u);
+    for (const char* field :
+         {"scene",         "technique",  "settings",      "size",          "vals",
+          "gpu_ms_median", "gpu_ms_p99", "cpu_ms_median", "passes",        "skipped",
+          "gpu_bytes",     "term",       "mean_ratio",    "rel_rmse",      "rel_mse",
+          "p99",           "flip",       "noise_floor",   "flicker_still", "flicker_moving"})
+        EXPECT_TRUE(json["rows"][0].contains(field)) << field;
+    std::istringstream csv(toCsv(report));
+    std::string header, line;
+    std::getline(csv, header);
+    int lines = 0;
+    while (std::getline(csv, line)) {
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ','));
+        ++lines;
+    }
+    EXPECT_EQ(lines, 2);
+    const std::string svg = toSvg(report);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_EQ(svg.find("inf"), std::string::npos);
+    EXPECT_NE(svg.find("room"), std::string::npos);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+    EXPECT_NE(toSvg({}).find("</svg>"), std::string::npos) << "an empty report is a chart, too";
+    EXPECT_NE(toMarkdown(report).find("| b ★ |"), std::string::npos);
+}
+
+TEST(Bench, EveryTechniqueIsAPresetWithValidSettings) {
+    for (const Technique& technique : techniques()) {
+        ASSERT_FALSE(technique.variants.empty());
+        if (technique.runner != Runner::kGpu) continue;
+        gi::GiSettings settings;
+        Settings registry;
+        gi::registerSettings(registry, settings);
+        EXPECT_TRUE(gi::applyPreset(technique.name, settings)) << technique.name;
+        for (const Variant& variant : technique.variants)
+            for (const std::string& assignment : variant.settings)
+                EXPECT_TRUE(registry.set(assignment)) << assignment;
+    }
+}
+
+TEST(Bench, FlickerOfKnownSequences) {
+    std::vector<Image> steady(8, Image(4, 4)), blinking(8, Image(4, 4));
+    for (size_t f = 0; f < 8; ++f)
+        for (size_t i = 0; i < 16; ++i) {
+            steady[f].pixels[i] = glm::vec3(2);
+            blinking[f].pixels[i] = glm::vec3(f % 2 ? 3.0f : 1.0f);
+        }
+    EXPECT_EQ(flickerOf(steady, nullptr), 0);
+    EXPECT_NEAR(flickerOf(blinking, nullptr), 0.5, 1e-6) << "deviation 1 about a mean of 2";
+}
+
+TEST(Bench, TrendTakesTheTruthsOwnMotionAway) {
+    const SceneAsset asset = *scenegen::buildScene("cornell", 0);
+    RenderScene scene = staticScene(asset);
+    const glm::uvec2 size(16, 9);
+    setCamera(scene, cameraOf(asset, 0), size);
+    const std::string folder = (std::filesystem::path(testing::TempDir()) / "references").string();
+    std::filesystem::remove_all(folder);
+    ReferenceCache cache(folder);
+    JobRunner runner(2);
+    const auto silent = [](double) {};
+    const reference::ReferenceSettings settings{.samplesPerPixel = 64, .layer = "bounce1"};
+    const auto trend = ReferenceTrend::make(cache, scene, size, settings, runner, silent);
+    ASSERT_TRUE(trend);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 5) << "each key is kept";
+    std::vector<Image> frames;
+    for (uint32_t f = 0; f < 9; ++f) {
+        RenderScene moved = scene;
+        moved.lights = movedLights(scene, f / 8.0);
+        frames.push_back(*cache.get(moved, size, settings, runner, silent));
+    }
+    EXPECT_LT(flickerOf(frames, &*trend), 0.3 * flickerOf(frames, nullptr));
+}
+
+TEST(Bench, CacheKnowsWhatAReferenceDependsOn) {
+    const SceneAsset asset = *scenegen::buildScene("cornell", 0);
+    RenderScene scene = staticScene(asset);
+    const uint64_t before = sceneHash(scene);
+    EXPECT_EQ(before, sceneHash(staticScene(asset)));
+    scene.lights[0].intensity.x += 1;
+    EXPECT_NE(before, sceneHash(scene));
+    SceneAsset painted = asset;
+    painted.geometry.materials[0].baseColor.x += 0.1f;
+    EXPECT_NE(before, sceneHash(staticScene(painted)));
+    RenderScene nudged = staticScene(asset);
+    nudged.instances[0].worldFromLocal[3].x += 1e-3f;
+    EXPECT_NE(before, sceneHash(nudged));
+}
+
+}  // namespace
+}  // namespace ag::bench

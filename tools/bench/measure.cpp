@@ -1,0 +1,252 @@
+#include "tools/bench/measure.h"
+
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/core/flip.h"
+#include "engine/core/settings.h"
+#include "engine/scene/static_scene.h"
+#include "tools/reference/vpl_tracer.h"
+
+namespace ag::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr uint32_t kWarmFrames = 64;      // for clusters to settle
+constexpr uint32_t kEmitterMap = 32;      // texels along a light map's side
+constexpr uint32_t kTrendSamples = 1024;  // a pixel of each key of the flicker's trend
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double threadCpuMs() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
+}
+
+double quantile(std::vector<double> values, double q) {
+    if (values.empty()) return 0;
+    const auto at = values.begin() + std::ptrdiff_t(q * double(values.size() - 1) + 0.5);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+// Just the layer, so that only the passes it needs run.
+struct Frame {
+    gi::GiRenderer& renderer;
+    glm::uvec2 size;
+    gi::Layer layer;
+    ImageHandle shown{};
+    uint32_t emitters = 0;
+
+    void render(const RenderScene& scene, const gi::GiSettings& settings, const FrameGraphOptions& options) {
+        renderer.render(scene, size, settings, options,
+                        [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
+                            shown = gi::addLayer(graph, view, frame, layer);
+                            if (shown) graph.output(shown);
+                            emitters =
+                                settings.firstBounce == gi::FirstBounce::kAreaLights ? frame.vals.count : 0;
+                        });
+    }
+    Image image() const { return shown ? gi::readImage(renderer, shown) : Image(int(size.x), int(size.y)); }
+};
+
+}  // namespace
+
+SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::string name, ReferenceCache& cache,
+                       JobRunner& runner, const MeasureOptions& options, FunctionRef<void(double)> progress)
+    : renderer_(device),
+      scene_(scene),
+      flickerScene_(scene),
+      name_(std::move(name)),
+      cache_(cache),
+      runner_(runner),
+      options_(options),
+      progress_(progress),
+      rays_(scene) {
+    const RenderCamera& c = scene.camera;
+    setCamera(flickerScene_,
+              {.position = c.position, .forward = c.forward, .verticalFov = c.verticalFov, .near = c.near},
+              options.flickerSize);
+}
+
+reference::ReferenceSettings SceneBench::referenceSettings(std::string_view term) const {
+    return {.paths = {.bounces = term == "direct" ? 0u : 1u},
+            .samplesPerPixel = options_.referenceSamples,
+            .maxError = options_.referenceError,
+            .layer = std::string(term)};
+}
+
+Result<const Image*> SceneBench::reference(std::string_view term) {
+    const auto known = references_.find(term);
+    if (known != references_.end()) return &known->second;
+    auto made = cache_.get(scene_, options_.size, referenceSettings(term), runner_, progress_);
+    if (!made) return made.error();
+    return &references_.emplace(term, std::move(*made)).first->second;
+}
+
+Result<const ReferenceTrend*> SceneBench::trend(std::string_view term) {
+    const auto known = trends_.find(term);
+    if (known != trends_.end()) return &known->second;
+    reference::ReferenceSettings settings = referenceSettings(term);
+    settings.samplesPerPixel = kTrendSamples;
+    settings.maxError = 0;
+    auto made =
+        ReferenceTrend::make(cache_, flickerScene_, options_.flickerSize, settings, runner_, progress_);
+    if (!made) return made.error();
+    return &trends_.emplace(term, std::move(*made)).first->second;
+}
+
+void SceneBench::timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row& row) {
+    Frame frame{renderer_, options_.size, layer};
+    FrameGraphOptions everything;
+    everything.skip = false;
+    std::vector<double> totals, host;
+    std::map<std::string, std::vector<double>> passes;
+    const auto start = Clock::now();
+    // Timestamps arrive a few frames late: the first ones are of frames that also compiled.
+    constexpr uint32_t kLate = 4;
+    for (uint32_t i = 0; i < options_.frames + kLate; ++i) {
+        if (i >= 5 + kLate && secondsSince(start) > options_.secondsPerTiming) break;
+        const double before = threadCpuMs();
+        frame.render(scene_, settings, everything);
+        if (i < kLate) continue;
+        host.push_back(threadCpuMs() - before);
+        double total = 0;
+        for (const PassReport& pass : renderer_.graph().report()) {
+            if (pass.outcome != PassOutcome::kRan || pass.name.starts_with("debug_view.")) continue;
+            passes[std::string(pass.name)].push_back(pass.gpuMs);
+            total += pass.gpuMs;
+        }
+        totals.push_back(total);
+    }
+    renderer_.waitIdle();
+    row.frames = uint32_t(totals.size());
+    row.gpuMsMedian = quantile(totals, 0.5);
+    row.gpuMsP99 = quantile(totals, 0.99);
+    row.cpuMsMedian = quantile(host, 0.5);
+    for (auto& [name, times] : passes)
+        row.passes[name] = quantile(times, 0.5);
+    row.gbufferMs = row.passes["gbuffer.fill"];
+    if (settings.firstBounce == gi::FirstBounce::kNone) row.gbufferMs = row.gpuMsMedian = 0;
+}
+
+Status SceneBench::measureFlicker(const gi::GiSettings& settings, gi::Layer layer, Row& row) {
+    const auto truth = trend(row.term);
+    if (!truth) return truth.error();
+    Frame frame{renderer_, options_.flickerSize, layer};
+    RenderScene scene = flickerScene_;
+    for (uint32_t i = 0; i < kWarmFrames; ++i)
+        frame.render(scene, settings, {});
+    std::vector<Image> still, moving;
+    for (uint32_t i = 0; i < kFlickerFrames; ++i) {
+        frame.render(scene, settings, {});
+        still.push_back(frame.image());
+    }
+    for (uint32_t i = 0; i < kFlickerFrames; ++i) {
+        scene.lights = movedLights(scene_, double(i) / (kFlickerFrames - 1));
+        ++scene.lightsVersion;
+        frame.render(scene, settings, {});
+        moving.push_back(frame.image());
+        for (const PassReport& pass : renderer_.graph().report())
+            row.skipped[std::string(pass.name)] +=
+                pass.outcome == PassOutcome::kSkipped ? 1.0 / kFlickerFrames : 0;
+    }
+    row.flickerStill = flickerOf(still, nullptr);
+    row.flickerMoving = flickerOf(moving, *truth);
+    return Ok{};
+}
+
+Status SceneBench::measureGpu(const Technique& technique, const Variant& variant, Row& row, Image& image) {
+    gi::GiSettings settings;
+    Settings registry;
+    gi::registerSettings(registry, settings);
+    if (!gi::applyPreset(technique.name, settings))
+        return Error{fmt::format("there is no preset '{}'", technique.name)};
+    for (const std::string& assignment : variant.settings) {
+        if (const Status set = registry.set(assignment); !set) return set;
+        const size_t equals = assignment.find('=');
+        row.settings[assignment.substr(0, equals)] = assignment.substr(equals + 1);
+    }
+    const auto layer = gi::layerFromName(row.term);
+    if (!layer) return Error{fmt::format("there is no layer '{}'", row.term)};
+    renderer_.load(*scene_.geometry);
+    Frame frame{renderer_, options_.size, *layer};
+    for (uint32_t i = 0; i < kWarmFrames; ++i)
+        frame.render(scene_, settings, {});
+    image = frame.image();
+    row.vals = frame.emitters;
+    row.gpuBytes = renderer_.deviceBytes();
+    timeFrames(settings, *layer, row);
+    return options_.flicker ? measureFlicker(settings, *layer, row) : Status(Ok{});
+}
+
+void SceneBench::measureEmitters(Row& row, Image& image) {
+    const auto start = Clock::now();
+    uint64_t count = 0;
+    reference::FirstHits hits(options_.size);
+    reference::traceFirstHits(rays_, {}, {}, runner_, hits, count);
+    const auto emitters = reference::traceEmitters(rays_, kEmitterMap, 1, count);
+    reference::LightSums sums(options_.size, 1);
+    reference::addEmitters(rays_, hits, emitters, 1, uint32_t(emitters.size()), runner_, sums, count);
+    row.gpuMsMedian = row.gpuMsP99 = secondsSince(start) * 1e3;
+    row.frames = 1;
+    row.settings["emitter_map"] = std::to_string(kEmitterMap);
+    image = sums.bounces[1];
+    for (glm::vec3& p : image.pixels)
+        p /= float(std::max(sums.samples, 1u));
+}
+
+Row SceneBench::tracePaths(const Row& row, const Image& truth) {
+    Row paths;
+    paths.scene = row.scene;
+    paths.technique = kPathTracing;
+    paths.variant = fmt::format("as long as {} {}", row.technique, row.variant);
+    paths.size = row.size;
+    paths.term = row.term;
+    paths.noiseFloor = row.noiseFloor;
+    const auto traced = reference::traceForSeconds(rays_, options_.size, referenceSettings(row.term).paths,
+                                                   row.gpuMsMedian * 1e-3, runner_);
+    paths.gpuMsMedian = paths.gpuMsP99 = row.gpuMsMedian;
+    paths.frames = 1;
+    const Image& image = *reference::layerOf(traced, row.term);
+    if (const auto difference = compareImages(truth, image)) paths.error = *difference;
+    paths.flip = meanFlip(truth, image);
+    return paths;
+}
+
+Result<std::vector<Row>> SceneBench::measure(const Technique& technique, const Variant& variant) {
+    const auto truth = reference(technique.term);
+    if (!truth) return truth.error();
+    Row row;
+    row.scene = name_;
+    row.technique = technique.name;
+    row.variant = variant.label;
+    row.size = options_.size;
+    row.term = technique.term;
+    row.noiseFloor = noiseOf(**truth);
+    Image image;
+    if (technique.runner == Runner::kEmitters)
+        measureEmitters(row, image);
+    else if (const Status done = measureGpu(technique, variant, row, image); !done)
+        return done.error();
+    const auto difference = compareImages(**truth, image);
+    if (!difference)
+        return Error{fmt::format("{} on {}: {}", technique.name, name_, difference.error().message)};
+    row.error = *difference;
+    row.flip = meanFlip(**truth, image);
+    std::vector<Row> rows = {row};
+    if (options_.pathTracing && row.gpuMsMedian > 0 && technique.runner == Runner::kGpu) {
+        rows.push_back(tracePaths(row, **truth));
+        rows[0].pathTracingRelRmse = rows[1].error.relativeRmse;
+    }
+    return rows;
+}
+
+}  // namespace ag::bench

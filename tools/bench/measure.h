@@ -1,0 +1,56 @@
+// Measures techniques on one scene: error against the reference, time by timestamps, flicker.
+#pragma once
+
+#include <optional>
+
+#include "gi/gi_renderer.h"
+#include "tools/bench/moving_light.h"
+#include "tools/bench/report.h"
+#include "tools/bench/techniques.h"
+
+namespace ag::bench {
+
+struct MeasureOptions {
+    glm::uvec2 size{640, 360};
+    glm::uvec2 flickerSize{160, 90};
+    uint32_t frames = 30;              // timed, unless they take longer than `secondsPerTiming`
+    double secondsPerTiming = 20;      // then at least five
+    uint32_t referenceSamples = 4096;  // at most, a pixel
+    double referenceError = 0.01;      // relative RMSE at which the reference is good enough
+    bool flicker = true;
+    bool pathTracing = true;  // trace paths for each row's time
+};
+
+class SceneBench {
+  public:
+    // All must outlive this. `progress`: share of the reference at hand.
+    SceneBench(gpu::Device& device, const RenderScene& scene, std::string name, ReferenceCache& cache,
+               JobRunner& runner, const MeasureOptions& options, FunctionRef<void(double)> progress);
+
+    // The technique's row, and that of path tracing for the same time if asked for.
+    Result<std::vector<Row>> measure(const Technique& technique, const Variant& variant);
+
+  private:
+    Result<const Image*> reference(std::string_view term);
+    Result<const ReferenceTrend*> trend(std::string_view term);
+    reference::ReferenceSettings referenceSettings(std::string_view term) const;
+    Status measureGpu(const Technique& technique, const Variant& variant, Row& row, Image& image);
+    void measureEmitters(Row& row, Image& image);
+    void timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row& row);
+    Status measureFlicker(const gi::GiSettings& settings, gi::Layer layer, Row& row);
+    Row tracePaths(const Row& row, const Image& truth);
+
+    gi::GiRenderer renderer_;
+    const RenderScene& scene_;
+    RenderScene flickerScene_;  // seen at the flicker's size
+    std::string name_;
+    ReferenceCache& cache_;
+    JobRunner& runner_;
+    MeasureOptions options_;
+    FunctionRef<void(double)> progress_;
+    reference::RayScene rays_;
+    std::map<std::string, Image, std::less<>> references_;
+    std::map<std::string, ReferenceTrend, std::less<>> trends_;
+};
+
+}  // namespace ag::bench

@@ -1,0 +1,33 @@
+// References on disk, by a hash of everything they depend on: making one takes minutes, reading one
+// milliseconds.
+#pragma once
+
+#include <string>
+
+#include "engine/core/function_ref.h"
+#include "engine/core/image.h"
+#include "engine/core/result.h"
+#include "tools/reference/reference.h"
+
+namespace ag::bench {
+
+// Of what is seen: geometry, materials, textures, instances, lights, camera.
+uint64_t sceneHash(const RenderScene& scene);
+
+class ReferenceCache {
+  public:
+    explicit ReferenceCache(std::string folder) : folder_(std::move(folder)) {}
+
+    // settings.layer of the reference; its noise is in the attribute "noise".
+    Result<Image> get(const RenderScene& scene, glm::uvec2 size, const reference::ReferenceSettings& settings,
+                      JobRunner& runner, FunctionRef<void(double)> progress);
+
+  private:
+    std::string folder_;
+};
+
+// $XDG_CACHE_HOME/afterglow/references, or the same under ~/.cache.
+std::string defaultCacheFolder();
+double noiseOf(const Image& reference);
+
+}  // namespace ag::bench

@@ -1,0 +1,119 @@
+#include "tools/bench/report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace ag::bench {
+namespace {
+
+std::string settingsText(const Row& row) {
+    std::string text;
+    for (const auto& [name, value] : row.settings)
+        text += (text.empty() ? "" : " ") + name + "=" + value;
+    return text;
+}
+
+bool beats(const Row& a, const Row& b) {
+    return a.indirectMs() <= b.indirectMs() && a.error.relativeRmse <= b.error.relativeRmse &&
+           (a.indirectMs() < b.indirectMs() || a.error.relativeRmse < b.error.relativeRmse);
+}
+
+std::vector<std::string> scenesOf(const Report& report) {
+    std::vector<std::string> scenes;
+    for (const Row& row : report.rows)
+        if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end()) scenes.push_back(row.scene);
+    return scenes;
+}
+
+}  // namespace
+
+void markPareto(Report& report) {
+    for (Row& row : report.rows) {
+        row.pareto = !row.isPathTracing();
+        for (const Row& other : report.rows)
+            if (!other.isPathTracing() && other.scene == row.scene && other.term == row.term &&
+                beats(other, row))
+                row.pareto = false;
+    }
+}
+
+std::string toJson(const Report& report) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const Row& r : report.rows)
+        rows.push_back({{"scene", r.scene},
+                        {"technique", r.technique},
+                        {"variant", r.variant},
+                        {"settings", r.settings},
+                        {"size", {r.size.x, r.size.y}},
+                        {"vals", r.vals},
+                        {"frames", r.frames},
+                        {"gpu_ms_median", r.gpuMsMedian},
+                        {"gpu_ms_p99", r.gpuMsP99},
+                        {"indirect_ms_median", r.indirectMs()},
+                        {"cpu_ms_median", r.cpuMsMedian},
+                        {"passes", r.passes},
+                        {"skipped", r.skipped},
+                        {"gpu_bytes", r.gpuBytes},
+                        {"term", r.term},
+                        {"mean_ratio", r.error.meanRatio},
+                        {"rel_rmse", r.error.relativeRmse},
+                        {"rel_mse", r.error.relMse},
+                        {"p99", r.error.p99},
+                        {"flip", r.flip},
+                        {"noise_floor", r.noiseFloor},
+                        {"flicker_still", r.flickerStill},
+                        {"flicker_moving", r.flickerMoving},
+                        {"equal_time_path_tracing_rel_rmse", r.pathTracingRelRmse},
+                        {"pareto", r.pareto}});
+    const nlohmann::ordered_json out = {
+        {"device", report.device}, {"driver", report.driver}, {"commit", report.commit}, {"rows", rows}};
+    return out.dump(1) + "\n";
+}
+
+std::string toCsv(const Report& report) {
+    std::string out =
+        "scene,technique,variant,settings,width,height,vals,frames,gpu_ms_median,gpu_ms_p99,"
+        "indirect_ms_median,cpu_ms_median,gpu_bytes,term,mean_ratio,rel_rmse,rel_mse,p99,flip,noise_floor,"
+        "flicker_still,flicker_moving,equal_time_path_tracing_rel_rmse,pareto,device\n";
+    for (const Row& r : report.rows)
+        out += fmt::format(
+            "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{:.5f},{:.5f},{:.6f},{:.5f},{:.5f},"
+            "{:.5f},{:.6f},{:.6f},{:.5f},{},\"{}\"\n",
+            r.scene, r.technique, r.variant, settingsText(r), r.size.x, r.size.y, r.vals, r.frames,
+            r.gpuMsMedian, r.gpuMsP99, r.indirectMs(), r.cpuMsMedian, r.gpuBytes, r.term, r.error.meanRatio,
+            r.error.relativeRmse, r.error.relMse, r.error.p99, r.flip, r.noiseFloor, r.flickerStill,
+            r.flickerMoving, r.pathTracingRelRmse, r.pareto ? 1 : 0, report.device);
+    return out;
+}
+
+std::string toMarkdown(const Report& report) {
+    std::string out =
+        fmt::format("Device: {}, {}. Commit {}.\n", report.device, report.driver, report.commit);
+    for (const std::string& scene : scenesOf(report)) {
+        const auto first = std::find_if(report.rows.begin(), report.rows.end(),
+                                        [&](const Row& r) { return r.scene == scene; });
+        out += fmt::format(
+            "\n## {}\n\n{}x{}, {} against path tracing (noise {:.2f} %). ★: nothing is both faster and "
+            "nearer "
+            "to the truth.\n\n| technique | setting | indirect ms | relative RMSE | mean ratio | FLIP | p99 "
+            "| "
+            "flicker still | moving | path tracing in the same time | MiB |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|\n",
+            scene, first->size.x, first->size.y, first->term, first->noiseFloor * 100);
+        for (const Row& r : report.rows) {
+            if (r.scene != scene || r.isPathTracing()) continue;
+            const std::string paths =
+                r.pathTracingRelRmse > 0 ? fmt::format("{:.2f}", r.pathTracingRelRmse) : "";
+            out += fmt::format(
+                "| {}{} | {} | {:.2f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {:.4f} | {:.4f} | "
+                "{} | {:.1f} |\n",
+                r.technique, r.pareto ? " ★" : "", r.variant, r.indirectMs(), r.error.relativeRmse,
+                r.error.meanRatio, r.flip, r.error.p99, r.flickerStill, r.flickerMoving, paths,
+                double(r.gpuBytes) / 1048576.0);
+        }
+    }
+    return out;
+}
+
+}  // namespace ag::bench

@@ -1,0 +1,57 @@
+#include "tools/bench/techniques.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ag::bench {
+namespace {
+
+// Half, one, two and four times the usual budget of 128 clusters.
+std::vector<Variant> clusterBudgets() {
+    std::vector<Variant> variants;
+    for (const int count : {64, 128, 256, 512})
+        variants.push_back({fmt::format("{}", count), {fmt::format("val_clustering.count={}", count)}});
+    return variants;
+}
+
+std::vector<Variant> mapSizes(std::initializer_list<int> sizes) {
+    std::vector<Variant> variants;
+    for (const int size : sizes)
+        variants.push_back({fmt::format("{}²", size), {fmt::format("rsm.resolution={}", size)}});
+    return variants;
+}
+
+std::vector<Technique> makeTechniques() {
+    return {
+        {.name = "none", .description = "no indirect light", .variants = {{"", {}}}},
+        {.name = "rsm-brute",
+         .description = "every light-map texel a point emitter, unshadowed",
+         .variants = mapSizes({32, 64, 128})},
+        {.name = "rsm-brute-visible",
+         .description = "the same with ray-traced visibility, on the CPU",
+         .runner = Runner::kEmitters,
+         .variants = {{"32²", {}}}},
+        {.name = "rsm-400",
+         .description = "400 fixed samples of the light map (Dachsbacher & Stamminger 2005)",
+         .variants = {{"all pixels", {}}, {"interpolated", {"stochastic_rsm.interpolate=on"}}}},
+        {.name = "rsmc",
+         .description = "RSM clustering with published disks (Prutkin et al. 2012)",
+         .variants = clusterBudgets()},
+        {.name = "afterglow", .description = "ours", .variants = clusterBudgets()},
+    };
+}
+
+}  // namespace
+
+std::span<const Technique> techniques() {
+    static const std::vector<Technique> all = makeTechniques();
+    return all;
+}
+
+const Technique* findTechnique(std::string_view name) {
+    const auto found = std::ranges::find(techniques(), name, &Technique::name);
+    return found == techniques().end() ? nullptr : &*found;
+}
+
+}  // namespace ag::bench

@@ -1,0 +1,32 @@
+// What `afterglow bench` can measure: presets, each at a few settings.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ag::bench {
+
+struct Variant {
+    std::string label;                  // short, for tables and charts: "256"
+    std::vector<std::string> settings;  // on top of the preset, as --set takes them
+};
+
+enum class Runner {
+    kGpu,       // a preset of the renderer
+    kEmitters,  // light-map texels with ray-traced visibility, on the CPU
+};
+
+struct Technique {
+    std::string_view name;  // of the preset, too
+    std::string_view description;
+    Runner runner = Runner::kGpu;
+    std::string_view term = "bounce1";  // which layer its error is measured on
+    std::vector<Variant> variants;
+};
+
+std::span<const Technique> techniques();
+const Technique* findTechnique(std::string_view name);
+
+}  // namespace ag::bench

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "engine/core/log.h"
+#include "tools/bench/measure.h"
+#include "tools/workbench/commands.h"
+#include "tools/workbench/progress_line.h"
+#include "tools/workbench/scene_options.h"
+
+namespace ag::workbench {
+namespace {
+
+struct BenchOptions {
+    std::vector<std::string> scenes = {"cornell", "occluder", "corridor"};
+    std::vector<std::string> techniques;
+    std::string size = "640x360", flickerSize = "160x90";
+    std::string json, csv, plot, markdown;
+    std::string cache = bench::defaultCacheFolder();
+    uint32_t param = 0;
+    bool noFlicker = false, noPathTracing = false;
+    bench::MeasureOptions measure;
+};
+
+std::string commitOfSource() {
+    const std::string command =
+        fmt::format("git -C '{}' rev-parse --short HEAD 2>/dev/null", AFTERGLOW_SOURCE_DIR);
+    FILE* pipe = popen(command.c_str(), "r");
+    char line[64] = {};
+    if (!pipe) return "unknown";
+    const bool read = std::fgets(line, sizeof line, pipe) != nullptr;
+    pclose(pipe);
+    std::string commit = line;
+    while (!commit.empty() && commit.back() == '\n')
+        commit.pop_back();
+    return read && !commit.empty() ? commit : "unknown";
+}
+
+Result<std::vector<const bench::Technique*>> chosenTechniques(const std::vector<std::string>& names) {
+    std::vector<const bench::Technique*> chosen;
+    if (names.empty())
+        for (const bench::Technique& t : bench::techniques())
+            chosen.push_back(&t);
+    for (const std::string& name : names) {
+        chosen.push_back(bench::findTechnique(name));
+        if (chosen.back()) continue;
+        std::string known;
+        for (const bench::Technique& t : bench::techniques())
+            known += (known.empty() ? "" : ", ") + std::string(t.name);
+        return Error{fmt::format("there is no technique '{}' (there are: {})", name, known)};
+    }
+    return chosen;
+}
+
+Status write(const std::string& path, const std::string& text) {
+    if (path.empty()) return Ok{};
+    std::error_code ignored;
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
+    std::ofstream out(path, std::ios::binary);
+    out << text;
+    out.flush();
+    if (!out) return Error{fmt::format("cannot write {}", path)};
+    return Ok{};
+}
+
+// After every row, so that a long run cut short leaves what it measured.
+Status writeAll(const BenchOptions& o, bench::Report report) {
+    bench::markPareto(report);
+    for (const Status& written : {write(o.json, toJson(report)), write(o.csv, toCsv(report)),
+                                  write(o.plot, toSvg(report)), write(o.markdown, toMarkdown(report))})
+        if (!written) return written;
+    return Ok{};
+}
+
+void printRow(const bench::Row& row) {
+    std::cout << fmt::format("{:<12} {:<18} {:<14} {:9.2f} ms  relative RMSE {:.4f}  mean ratio {:.3f}\n",
+                             row.scene, row.technique, row.variant, row.indirectMs(), row.error.relativeRmse,
+                             row.error.meanRatio)
+              << std::flush;
+}
+
+Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& device,
+                  std::span<const bench::Technique* const> techniques, bench::ReferenceCache& cache,
+                  JobRunner& runner, bench::Report& report) {
+    auto loaded = loadScene({.scene = name, .param = o.param, .size = o.size});
+    if (!loaded) return loaded.error();
+    ProgressLine line(name + ", reference: ");
+    const auto progress = [&](double share) { line(share); };
+    bench::SceneBench scene(device, loaded->scene, name, cache, runner, o.measure, progress);
+    for (const bench::Technique* technique : techniques)
+        for (const bench::Variant& variant : technique->variants) {
+            auto rows = scene.measure(*technique, variant);
+            if (!rows) return rows.error();
+            printRow(rows->front());
+            report.rows.insert(report.rows.end(), rows->begin(), rows->end());
+            if (const Status written = writeAll(o, report); !written) return written;
+        }
+    return Ok{};
+}
+
+int runBench(BenchOptions o) {
+    const auto size = parseSize(o.size), flickerSize = parseSize(o.flickerSize);
+    if (!size) return refuse(size.error().message);
+    if (!flickerSize) return refuse(flickerSize.error().message);
+    const auto techniques = chosenTechniques(o.techniques);
+    if (!techniques) return refuse(techniques.error().message);
+    auto device = gpu::Device::create({});
+    if (!device) return refuse(device.error().message);
+    o.measure.size = *size;
+    o.measure.flickerSize = *flickerSize;
+    o.measure.flicker = !o.noFlicker;
+    o.measure.pathTracing = !o.noPathTracing;
+    bench::ReferenceCache cache(o.cache);
+    JobRunner runner;
+    bench::Report report{
+        .device = (*device)->info().name, .driver = (*device)->info().driver, .commit = commitOfSource()};
+    std::cout << fmt::format("{}, {}\n", report.device, report.driver);
+    for (const std::string& scene : o.scenes)
+        if (const Status done = benchScene(o, scene, **device, *techniques, cache, runner, report); !done)
+            return refuse(done.error().message);
+    return 0;
+}
+
+}  // namespace
+
+void addBenchCommand(CLI::App& program, int& exitCode) {
+    const auto o = std::make_shared<BenchOptions>();
+    CLI::App* command = program.add_subcommand("bench", "run time against error, technique by technique");
+    command->add_option("--scenes", o->scenes, "comma-separated")->delimiter(',')->capture_default_str();
+    command->add_option("--techniques", o->techniques, "comma-separated; all by default")->delimiter(',');
+    command->add_option("--param", o->param, "number of the built-in scenes that take one");
+    command->add_option("--size", o->size, "pixels, WxH")->capture_default_str();
+    command->add_option("--frames", o->measure.frames, "to time")
+        ->check(CLI::Range(1u, 10000u))
+        ->capture_default_str();
+    command->add_option("--json", o->json, "FILE");
+    command->add_option("--csv", o->csv, "FILE");
+    command->add_option("--plot", o->plot, "FILE.svg");
+    command->add_option("--markdown", o->markdown, "FILE.md");
+    command->add_option("--cache", o->cache, "folder that keeps references")->capture_default_str();
+    command
+        ->add_option("--reference-error", o->measure.referenceError, "relative RMSE to trace references to")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_option("--reference-spp", o->measure.referenceSamples, "paths a pixel, at most")
+        ->check(CLI::Range(2u, 10000000u))
+        ->capture_default_str();
+    command->add_option("--flicker-size", o->flickerSize, "pixels of the flicker sequences")
+        ->capture_default_str();
+    command->add_flag("--no-flicker", o->noFlicker, "leave the flicker sequences out");
+    command->add_flag("--no-path-tracing", o->noPathTracing, "leave path tracing for the same time out");
+    command->callback([o, &exitCode] { exitCode = runBench(*o); });
+}
+
+}  // namespace ag::workbench

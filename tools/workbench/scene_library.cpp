@@ -1,0 +1,56 @@
+#include "tools/workbench/scene_library.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace ag::workbench {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// AFTERGLOW_SCENES names the folder; without it, shared/scenes beside the repository.
+fs::path libraryFolder() {
+    const char* named = std::getenv("AFTERGLOW_SCENES");
+    return named ? fs::path(named) : fs::path(AFTERGLOW_SOURCE_DIR) / "../shared/scenes";
+}
+
+std::string triple(const json& v) {
+    return fmt::format("{},{},{}", v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>());
+}
+
+}  // namespace
+
+Result<std::optional<LibraryScene>> findInLibrary(const std::string& name) {
+    const std::optional<LibraryScene> none;
+    const size_t colon = name.find(':');
+    const std::string folder = name.substr(0, colon);
+    const size_t view = colon == std::string::npos ? 0 : std::strtoul(name.c_str() + colon + 1, nullptr, 10);
+    const fs::path list = libraryFolder() / "scenes.json";
+    std::ifstream in(list);
+    if (!in) return none;
+    try {
+        for (const json& scene : json::parse(in).at("scenes")) {
+            const fs::path file = scene.at("file").get<std::string>();
+            if (file.begin()->string() != folder) continue;
+            LibraryScene found{.file = (libraryFolder() / file).lexically_normal().string()};
+            if (scene.contains("sun_direction") && !scene["sun_direction"].is_null())
+                found.sun = triple(scene["sun_direction"]) + ",10";
+            const json views = scene.value("views", json::array());
+            if (!views.empty() && view >= views.size())
+                return Error{fmt::format("scene {} has {} views", folder, views.size())};
+            if (!views.empty())
+                found.view = triple(views[view].at("position")) + "," + triple(views[view].at("target"));
+            return std::optional(found);
+        }
+    } catch (const json::exception& e) {
+        return Error{fmt::format("{} cannot be read: {}", list.string(), e.what())};
+    }
+    return none;
+}
+
+}  // namespace ag::workbench
