@@ -34,7 +34,8 @@ Result<std::optional<LibraryScene>> findInLibrary(const std::string& name) {
     std::ifstream in(list);
     if (!in) return none;
     try {
-        for (const json& scene : json::parse(in).at("scenes")) {
+        const json listed = json::parse(in);
+        for (const json& scene : listed.at("scenes")) {
             const fs::path file = scene.at("file").get<std::string>();
             if (file.begin()->string() != folder) continue;
             LibraryScene found{.file = (libraryFolder() / file).lexically_normal().string()};
