@@ -89,9 +89,14 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"val_clustering", "settle_frames", 0, 1000, "frames",
            "clustering steps after the light maps last changed"},
           &gi.valClustering.settleFrames);
-    s.add(
-        {"val_shading", "shape", 0, 0, "", "form factor of an area light", {"point", "disk", "vector_disk"}},
-        &gi.valShading.shape);
+    s.add({"val_shading",
+           "shape",
+           0,
+           0,
+           "",
+           "form factor of an area light",
+           {"point", "disk", "vector_disk", "rectangle"}},
+          &gi.valShading.shape);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},
           &gi.stochasticRsm.samples);
     s.add({"stochastic_rsm", "radius", 0.001, 2, "map widths",

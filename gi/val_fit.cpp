@@ -8,9 +8,12 @@ Vals addValFit(FrameGraph& graph, const Clusters& clusters) {
     Vals v{.count = (clusters.count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
     v.vals = graph.buffer("val_fit.vals", {.sizeBytes = v.count * sizeof(io::Val),
                                            .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    v.shapes = graph.buffer("val_fit.shapes", {.sizeBytes = v.count * sizeof(io::ValShapeVectors),
+                                               .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     graph.compute("val_fit.fit", "val_fit/fit_vals.comp")
         .read("clusters", clusters.clusters)
         .write("vals", v.vals)
+        .write("shapes", v.shapes)
         .push(glm::uvec2(clusters.count, v.count))
         .dispatchThreads(v.count);
     return v;

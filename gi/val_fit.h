@@ -1,4 +1,5 @@
-// Clusters to virtual area lights: disks of the cluster's area about its flux-weighted centre.
+// Clusters to virtual area lights about their flux-weighted centres: disks of the cluster's area, and
+// rectangles of its second moments.
 #pragma once
 
 #include "gi/val_clustering.h"
@@ -7,7 +8,9 @@
 namespace ag::gi {
 
 struct Vals {
-    BufferHandle vals;   // io::Val; also a texel buffer of vec4
+    BufferHandle vals;  // io::Val; also a texel buffer of vec4
+    BufferHandle
+        shapes;  // io::ValShapeVectors; also a texel buffer of vec4; invalid for lights that are points
     uint32_t count = 0;  // padded with black lights to whole subgroups
 };
 

@@ -47,6 +47,7 @@ Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffe
             .sample("depthMap", gbuffer.depth)
             .read("camera", scene.camera)
             .read("vals", vals.vals)
+            .read("shapes", vals.shapes ? vals.shapes : vals.vals)
             .spec(0, uint32_t(settings.shape))
             .spec(1, slice == 0)
             .push(glm::uvec2(first, std::min(first + kSliceLights, vals.count)))

@@ -11,10 +11,11 @@ enum class ValShape : uint32_t {
     kPoint,       // the cluster as a point emitter
     kDisk,        // RSMC eq. 2, ACRSM eq. 3.9: as published, loses energy near the light
     kVectorDisk,  // closed form of the disk's vector irradiance
+    kRectangle,   // the rectangle of the cluster's second moments by its edges
 };
 
 struct ValShadingSettings {
-    ValShape shape = ValShape::kVectorDisk;
+    ValShape shape = ValShape::kRectangle;
 };
 
 // Every texel of the light maps as a point emitter (Dachsbacher & Stamminger 2005 without their sampling):

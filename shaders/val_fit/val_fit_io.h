@@ -17,6 +17,13 @@ struct Val {        // 3 vec4; black lights pad the list to whole subgroups
     float texelCount;
 };
 
+struct ValShapeVectors {  // 2 vec4: the rectangle of the cluster's second moments
+    vec3 halfU;           // m, in the light's plane
+    float inverseArea;    // 1/m²
+    vec3 halfV;
+    float unused;
+};
+
 #ifdef __cplusplus
 }  // namespace ag::io
 #endif

@@ -12,7 +12,8 @@ layout(local_size_x = 64) in;  // 16 x 16 pixels, a 2 x 2 block each
 const uint kShapePoint = 0;
 const uint kShapeDisk = 1;        // as published: RSMC eq. 2
 const uint kShapeVectorDisk = 2;  // closed form of a disk's vector irradiance
-layout(constant_id = 0) const uint kShape = kShapeVectorDisk;
+const uint kShapeRectangle = 3;   // a rectangle's vector irradiance by its edges
+layout(constant_id = 0) const uint kShape = kShapeRectangle;
 
 layout(constant_id = 1) const bool kFirst = true;  // starts from zero instead of adding
 layout(push_constant, scalar) uniform Push { uint first, last; } push;  // lights, whole subgroups of them
@@ -21,28 +22,57 @@ layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 3) uniform samplerBuffer vals;
+layout(set = 0, binding = 5) uniform samplerBuffer shapes;
 layout(set = 0, binding = 4, rgba16f) uniform image2D irradiance;
 
 const int kPixels = 4;
 
-// With flux premultiplied by what the shape leaves constant: see loadVal.
-float shapeTerm(vec3 x, vec3 n, vec4 a, vec3 valNormal) {
-    if (kShape == kShapePoint) return vplTerm(x, n, a.xyz, valNormal);
-    if (kShape == kShapeDisk) return diskPublishedTerm(x, n, a.xyz, valNormal, a.w);
-    return diskVectorFactor(x, n, a.xyz, valNormal, a.w);
+struct AreaLight {
+    vec4 place;   // centre; area, or radius² of a vector disk
+    vec3 normal;
+    vec3 power;   // flux, or radiosity where the shape's term is a form factor
+    vec3 halfU, halfV;
+};
+
+AreaLight loadLight(int index) {
+    AreaLight l;
+    l.place = texelFetch(vals, index * 3);
+    l.normal = texelFetch(vals, index * 3 + 1).xyz;
+    l.power = texelFetch(vals, index * 3 + 2).xyz;
+    l.halfU = l.halfV = vec3(0.0);
+    if (kShape == kShapeVectorDisk) {
+        l.power /= l.place.w;
+        l.place.w *= kInvPi;
+    }
+    if (kShape == kShapeRectangle) {
+        vec4 u = texelFetch(shapes, index * 2);
+        l.halfU = u.xyz;
+        l.power *= u.w;
+        l.halfV = texelFetch(shapes, index * 2 + 1).xyz;
+    }
+    return l;
 }
 
-void loadVal(int index, out vec4 a, out vec3 normal, out vec3 flux) {
-    a = texelFetch(vals, index * 3);
-    normal = texelFetch(vals, index * 3 + 1).xyz;
-    flux = texelFetch(vals, index * 3 + 2).xyz;
-    if (kShape != kShapeVectorDisk) return;
-    flux /= a.w;      // radiosity
-    a.w *= kInvPi;    // radius²
+// The light another lane holds.
+AreaLight lightOfLane(AreaLight mine, uint lane) {
+    AreaLight l;
+    l.place = subgroupShuffle(mine.place, lane);
+    l.normal = subgroupShuffle(mine.normal, lane);
+    l.power = subgroupShuffle(mine.power, lane);
+    l.halfU = kShape == kShapeRectangle ? subgroupShuffle(mine.halfU, lane) : vec3(0.0);
+    l.halfV = kShape == kShapeRectangle ? subgroupShuffle(mine.halfV, lane) : vec3(0.0);
+    return l;
 }
 
-void accumulate(inout vec3 e[kPixels], vec3 x[kPixels], vec3 n[kPixels], vec4 a, vec3 valNormal, vec3 flux) {
-    [[unroll]] for (int p = 0; p < kPixels; ++p) e[p] += flux * shapeTerm(x[p], n[p], a, valNormal);
+float shapeTerm(vec3 x, vec3 n, AreaLight l) {
+    if (kShape == kShapePoint) return vplTerm(x, n, l.place.xyz, l.normal);
+    if (kShape == kShapeDisk) return diskPublishedTerm(x, n, l.place.xyz, l.normal, l.place.w);
+    if (kShape == kShapeVectorDisk) return diskVectorFactor(x, n, l.place.xyz, l.normal, l.place.w);
+    return rectangleVectorFactor(x, n, l.place.xyz, l.normal, l.halfU, l.halfV);
+}
+
+void accumulate(inout vec3 e[kPixels], vec3 x[kPixels], vec3 n[kPixels], AreaLight l) {
+    [[unroll]] for (int p = 0; p < kPixels; ++p) e[p] += l.power * shapeTerm(x[p], n[p], l);
 }
 
 ivec2 pixelOf(int p) {
@@ -65,20 +95,11 @@ void main() {
     }
     if (kLaneParallel) {
         for (uint base = push.first; base < push.last; base += kSubgroupSize) {
-            vec4 a;
-            vec3 valNormal, flux;
-            loadVal(int(base + gl_SubgroupInvocationID), a, valNormal, flux);
-            [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane)
-                accumulate(e, x, n, subgroupShuffle(a, lane), subgroupShuffle(valNormal, lane),
-                           subgroupShuffle(flux, lane));
+            AreaLight mine = loadLight(int(base + gl_SubgroupInvocationID));
+            [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) accumulate(e, x, n, lightOfLane(mine, lane));
         }
     } else {
-        for (uint i = push.first; i < push.last; ++i) {
-            vec4 a;
-            vec3 valNormal, flux;
-            loadVal(int(i), a, valNormal, flux);
-            accumulate(e, x, n, a, valNormal, flux);
-        }
+        for (uint i = push.first; i < push.last; ++i) accumulate(e, x, n, loadLight(int(i)));
     }
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(p);
