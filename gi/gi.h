@@ -5,6 +5,7 @@
 #include "gi/composite.h"
 #include "gi/direct_lighting.h"
 #include "gi/gi_settings.h"
+#include "gi/texel_shading.h"
 #include "gi/val_fit.h"
 
 namespace ag::gi {
@@ -21,6 +22,8 @@ struct GiFrame {
     Importance importance;
     Clusters clusters;
     Vals vals;
+    SurfacePoints surfacePoints;
+    IsmAtlas isms;
     ShadowMaps shadows;
     Irradiance direct, bounce1;
     GiOutputs outputs;

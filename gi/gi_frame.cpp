@@ -14,13 +14,17 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.importance = addImportance(graph, scene, f.rsm, f.gbuffer, s.importance);
     f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
                                   h.valClustering);
-    f.vals = addValFit(graph, f.clusters);
+    f.vals = addValFit(graph, f.rsm, f.clusters);
+
+    // What each area light sees
+    if (f.vals.count > 0 && s.ismAtlas.enabled) f.surfacePoints = addSurfacePoints(graph, scene);
+    f.isms = addIsmAtlas(graph, f.surfacePoints, f.vals, s.ismAtlas);
 
     // Gather on screen
     if (s.firstBounce == FirstBounce::kAreaLights)
-        f.bounce1 = addValShading(graph, scene, f.gbuffer, f.vals, s.valShading);
+        f.bounce1 = addValShading(graph, scene, f.gbuffer, f.vals, f.isms, s.valShading);
     else if (s.firstBounce == FirstBounce::kTexels)
-        f.bounce1 = addValShading(graph, scene, f.gbuffer, texelsAsVals(f.rsm), {ValShape::kPoint});
+        f.bounce1 = addTexelShading(graph, scene, f.gbuffer, f.rsm);
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
         f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, s.stochasticRsm);
 

@@ -23,7 +23,10 @@ void setRsm400(GiSettings& gi) {
 }
 
 void setRsmc(GiSettings& gi) {
-    gi.valShading.shape = ValShape::kDisk;
+    gi.ismAtlas.enabled = false;
+    gi.valShading.interleave = 1;
+    gi.valShading.farShape = ValShape::kDisk;
+    gi.valShading.nearReach = 0;
     gi.importance.viewWeight = 1;  // the geometry term toward the view alone
     gi.valClustering.distanceWeight = gi.valClustering.normalWeight = 1;
     gi.valClustering.chromaWeight = 10;
@@ -94,9 +97,31 @@ void registerSettings(Settings& s, GiSettings& gi) {
            0,
            0,
            "",
-           "form factor of an area light",
-           {"point", "disk", "vector_disk", "rectangle"}},
+           "form factor of a near area light",
+           {"point", "disk", "vector_disk", "rectangle", "polygon"}},
           &gi.valShading.shape);
+    s.add({"val_shading",
+           "far_shape",
+           0,
+           0,
+           "",
+           "form factor of a far area light",
+           {"point", "disk", "vector_disk", "rectangle", "polygon"}},
+          &gi.valShading.farShape);
+    s.add({"val_shading", "near_reach", 0, 1e6, "half lengths",
+           "lights nearer to a screen tile than this are met by each of its pixels; 0: none"},
+          &gi.valShading.nearReach);
+    s.add({"val_shading", "interleave", 1, 4, "pixels",
+           "blocks of n x n pixels share the far lights, each pixel meets a part of them"},
+          &gi.valShading.interleave);
+    s.add({"ism_atlas", "enabled", 0, 0, "", "visibility of indirect light"}, &gi.ismAtlas.enabled);
+    s.add({"ism_atlas", "tile_size", 16, 128, "texels",
+           "side of a light's depth map, rounded down to a power of two"},
+          &gi.ismAtlas.tileSize);
+    s.add({"ism_atlas", "points_per_map", 64, 131072, "points", "splatted into each depth map"},
+          &gi.ismAtlas.pointsPerMap);
+    s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
+    s.add({"val_shading", "taps", 1, 64, "taps", "of soft shadows; 1: hard ones"}, &gi.valShading.taps);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},
           &gi.stochasticRsm.samples);
     s.add({"stochastic_rsm", "radius", 0.001, 2, "map widths",

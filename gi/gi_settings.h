@@ -7,6 +7,7 @@
 
 #include "gi/composite.h"
 #include "gi/importance.h"
+#include "gi/ism_atlas.h"
 #include "gi/rsm.h"
 #include "gi/shadow_maps.h"
 #include "gi/stochastic_rsm.h"
@@ -32,6 +33,7 @@ struct GiSettings {
     RsmSettings rsm;
     ImportanceSettings importance;
     ValClusteringSettings valClustering;
+    IsmAtlasSettings ismAtlas;
     ValShadingSettings valShading;
     StochasticRsmSettings stochasticRsm;
     ShadowMapSettings shadowMaps;

@@ -57,8 +57,10 @@ RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& sett
     rsm.faces = uploadItems<io::RsmFace>(graph, "rsm.faces", faces);
     rsm.maps = uploadItems<io::RsmMap>(graph, "rsm.maps", maps);
     const uint64_t texelCount = uint64_t(layout.atlasSize.x) * layout.atlasSize.y;
-    rsm.texels = graph.buffer("rsm.texels", {.sizeBytes = texelCount * sizeof(io::RsmTexel),
-                                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    const BufferInfo texels{.sizeBytes = texelCount * sizeof(io::RsmTexel),
+                            .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};
+    const BufferHandle whole = graph.buffer("rsm.whole_texels", texels);
+    rsm.texels = graph.buffer("rsm.texels", texels);
     rsm.tileMaps = graph.buffer("rsm.tile_maps", {.sizeBytes = rsm.tileCount * sizeof(uint32_t)});
     graph.compute("rsm.build_texels", "rsm/build_texels.comp")
         .sample("normalMap", rsm.normal)
@@ -66,8 +68,16 @@ RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& sett
         .sample("depthMap", rsm.depth)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
-        .write("texels", rsm.texels)
+        .write("texels", whole)
         .write("tileMaps", rsm.tileMaps)
+        .push(rsm.atlas)
+        .dispatchGroups(rsm.tileCount);
+    graph.compute("rsm.trim_texels", "rsm/trim_texels.comp")
+        .read("texels", whole)
+        .read("tileMaps", rsm.tileMaps)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
+        .write("trimmed", rsm.texels)
         .push(rsm.atlas)
         .dispatchGroups(rsm.tileCount);
     return rsm;

@@ -5,12 +5,14 @@
 
 #include "engine/core/hash.h"
 #include "engine/gpu/device.h"
+#include "gi/surface_sampling.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
 
 namespace ag::gi {
 namespace {
 
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr uint32_t kSurfaceSamples = 1u << 17;  // over the whole scene
 
 io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
     const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
@@ -78,6 +80,14 @@ std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, Vk
     return image;
 }
 
+// Which instances there are, wherever they stand.
+uint64_t instanceSet(const RenderScene& scene) {
+    uint64_t hash = scene.geometry->version;
+    for (const RenderInstance& instance : scene.instances)
+        hash = combineHash(hash, instance.primitive);
+    return hash;
+}
+
 void transferBarrier(VkCommandBuffer commands, bool before) {
     VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = before ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -110,7 +120,7 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     materials_ = loadBuffer(device_, "scene.materials", rows, false, kVec4Texels);
     loadTextures(geometry);
     geometryVersion_ = geometry.version;
-    instancesVersion_ = 0;
+    instancesVersion_ = sampledVersion_ = sampledSet_ = 0;
 }
 
 void SceneGpu::loadTextures(const GeometryArrays& geometry) {
@@ -148,10 +158,30 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
     commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
 }
 
+// Points stay on their instances while these move; they are chosen anew when instances come or go.
+void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
+    const bool mayDiffer = scene.allInstancesChanged || sampledVersion_ == 0;
+    if (sampledVersion_ == scene.instancesVersion || !mayDiffer) return;
+    sampledVersion_ = scene.instancesVersion;
+    const uint64_t set = instanceSet(scene);
+    if (set == sampledSet_) return;
+    sampledSet_ = set;
+    const SurfaceSamples chosen = sampleSurfaces(scene, kSurfaceSamples);
+    sampleCount_ = uint32_t(chosen.samples.size());
+    surfaceArea_ = chosen.area;
+    if (samples_) {
+        std::shared_ptr<gpu::Buffer> retired = std::move(samples_);
+        device_.retire([retired]() mutable { retired.reset(); });
+    }
+    if (sampleCount_ > 0)
+        samples_ = loadBuffer(device_, "scene.surface_samples", chosen.samples, false, kVec4Texels);
+}
+
 SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
+    sampleSurfacesAnew(scene);
     SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = hasEmissive_};
     view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
     // Constant versions: what a view draws of them is in its draws' versions.
@@ -165,6 +195,11 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     for (size_t c = 0; c < 4; ++c) {
         view.srgbTextures[c] = graph.importImage(kSrgbNames[c], *srgb_[c], geometryVersion_);
         view.linearTextures[c] = graph.importImage(kLinearNames[c], *linear_[c], geometryVersion_);
+    }
+    if (sampleCount_ > 0) {
+        view.surfaceSamples = graph.importBuffer("scene.surface_samples", *samples_, sampledSet_);
+        view.surfaceSampleCount = sampleCount_;
+        view.surfaceArea = surfaceArea_;
     }
     const RenderCamera& camera = scene.camera;
     const io::CameraConstants constants{.clipFromWorld = camera.clipFromWorld,
@@ -235,7 +270,7 @@ void SceneGpu::upload(VkCommandBuffer commands, const RenderScene& scene, uint32
 uint64_t SceneGpu::deviceBytes() const {
     uint64_t bytes = 0;
     for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(),
-                               instances_.get(), commands_.get()})
+                               instances_.get(), commands_.get(), samples_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes;
 }

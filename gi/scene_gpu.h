@@ -29,6 +29,9 @@ struct SceneView {
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
     glm::uvec2 size{0};                                       // pixels of the camera's image
     bool hasEmissive = false;
+    BufferHandle surfaceSamples;      // io::SurfaceSample; also a texel buffer of vec4
+    uint32_t surfaceSampleCount = 0;  // 0: no surface
+    float surfaceArea = 0;            // m²
     mutable uint32_t viewsClaimed = 0;
     // The next free slot of DrawLists; claimed in the same order every frame.
     uint32_t claimView() const { return viewsClaimed++; }
@@ -64,6 +67,7 @@ class SceneGpu {
                const gpu::Buffer& to, uint64_t offset);
     void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
+    void sampleSurfacesAnew(const RenderScene& scene);
     std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
                                        VkFormat texel, bool indirect);
 
@@ -73,8 +77,12 @@ class SceneGpu {
     bool hasEmissive_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
-    std::vector<io::Instance> rows_;  // scratch for the conversion
-    uint64_t instancesVersion_ = 0;   // last uploaded
+    std::unique_ptr<gpu::Buffer> samples_;
+    uint32_t sampleCount_ = 0;
+    float surfaceArea_ = 0;
+    uint64_t sampledVersion_ = 0, sampledSet_ = 0;  // of the instances the samples are on
+    std::vector<io::Instance> rows_;                // scratch for the conversion
+    uint64_t instancesVersion_ = 0;                 // last uploaded
     std::array<Staging, kFramesInFlight> staging_;
     uint64_t uploadedBytes_ = 0;
 };

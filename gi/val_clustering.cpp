@@ -83,6 +83,7 @@ void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHa
         .read("slotOfCluster", slotOfCluster)
         .read("partials", partials)
         .write("clusters", c.clusters)
+        .write("extents", c.extents)
         .push(push)
         .dispatchGroups(c.count);
 }
@@ -106,6 +107,8 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
     const HistoryBuffer state = graph.historyBuffer(
         "val_clustering.clusters", {.sizeBytes = settings.count * sizeof(io::Cluster), .texelFormat = kVec4});
     Clusters c{.clusters = state.current, .count = settings.count};
+    c.extents =
+        graph.buffer("val_clustering.extents", {.sizeBytes = settings.count * sizeof(io::ClusterExtent)});
     c.seeds = graph.buffer("val_clustering.seeds",
                            {.sizeBytes = settings.count * sizeof(io::ClusterSeed), .texelFormat = kVec4});
     c.candidates =

@@ -26,6 +26,7 @@ struct ValClusteringHistory {
 
 struct Clusters {
     BufferHandle clusters;                     // io::Cluster
+    BufferHandle extents;                      // io::ClusterExtent
     BufferHandle seeds;                        // io::ClusterSeed the texels were compared with
     BufferHandle candidates, candidateCounts;  // per tile: cluster indices, how many
     BufferHandle slotOfTexel;                  // per texel: place in its tile's candidates, ~0 unlit

@@ -2,7 +2,7 @@
 
 namespace ag::gi {
 
-Vals addValFit(FrameGraph& graph, const Clusters& clusters) {
+Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters) {
     if (clusters.count == 0) return {};
     constexpr uint32_t kLargestSubgroup = 64;
     Vals v{.count = (clusters.count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
@@ -12,9 +12,13 @@ Vals addValFit(FrameGraph& graph, const Clusters& clusters) {
                                                .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     graph.compute("val_fit.fit", "val_fit/fit_vals.comp")
         .read("clusters", clusters.clusters)
+        .read("extents", clusters.extents)
+        .read("texels", rsm.texels)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
         .write("vals", v.vals)
         .write("shapes", v.shapes)
-        .push(glm::uvec2(clusters.count, v.count))
+        .push(glm::uvec3(clusters.count, v.count, rsm.atlas.size.x))
         .dispatchThreads(v.count);
     return v;
 }

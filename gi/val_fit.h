@@ -1,5 +1,5 @@
-// Clusters to virtual area lights about their flux-weighted centres: disks of the cluster's area, and
-// rectangles of its second moments.
+// Clusters to virtual area lights about their flux-weighted centres: disks of the cluster's area, rectangles
+// of its second moments, and convex polygons of its farthest texels (RSMC section 5).
 #pragma once
 
 #include "gi/val_clustering.h"
@@ -14,6 +14,6 @@ struct Vals {
     uint32_t count = 0;  // padded with black lights to whole subgroups
 };
 
-Vals addValFit(FrameGraph& graph, const Clusters& clusters);
+Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters);
 
 }  // namespace ag::gi

@@ -1,62 +1,91 @@
 #include "gi/val_shading.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <string>
 
-#include "engine/core/check.h"
+#include "shaders/val_shading/val_shading_io.h"
 
 namespace ag::gi {
 namespace {
 
-// Lights a pass meets: CPU devices end loops silently after 65,535 rounds, and watchdogs end long passes.
-constexpr uint32_t kSliceLights = 1u << 18;
-// What all bounce lights' maps of the largest size hold.
-constexpr uint32_t kMostSlices = io::kMaxBounceLights * 1024 * 1024 / kSliceLights;
+// A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks.
+uint32_t tileSizeFor(uint32_t interleave) {
+    return interleave == 3 ? 24 : 32;
+}
 
-// The graph keeps views of pass names, so they live as long as the program.
-std::string_view passName(uint32_t slice) {
-    static const auto names = [] {
-        std::array<std::string, kMostSlices> all;
-        for (uint32_t i = 0; i < kMostSlices; ++i)
-            all[i] = i == 0 ? "val_shading.gather" : "val_shading.gather" + std::to_string(i);
-        return all;
-    }();
-    AG_CHECK(slice < kMostSlices);
-    return names[slice];
+struct Gather {
+    FrameGraph& graph;
+    const SceneView& scene;
+    const GBuffer& gbuffer;
+    const Vals& vals;
+    const IsmAtlas& isms;
+    io::ValShadingPush push;
+    BufferHandle lists, counts;
+    uint32_t taps;  // 0: no visibility
+    uint32_t interleave;
+};
+
+void addClassification(const Gather& g) {
+    g.graph.compute("val_shading.classify", "val_shading/classify_lights.comp")
+        .sample("depthMap", g.gbuffer.depth)
+        .read("camera", g.scene.camera)
+        .read("vals", g.vals.vals)
+        .read("shapes", g.vals.shapes)
+        .write("lists", g.lists)
+        .write("counts", g.counts)
+        .push(g.push)
+        .dispatchGroups(g.push.tiles.x * g.push.tiles.y);
+}
+
+PassBuilder addGather(const Gather& g, std::string_view name, std::string_view shader, ValShape shape) {
+    PassBuilder pass = g.graph.compute(name, shader);
+    pass.sample("normalMap", g.gbuffer.normal)
+        .sample("depthMap", g.gbuffer.depth)
+        .read("camera", g.scene.camera)
+        .read("vals", g.vals.vals)
+        .read("shapes", g.vals.shapes)
+        .read("isms", g.isms.planes ? g.isms.planes : g.vals.vals)
+        .read("lists", g.lists)
+        .read("counts", g.counts)
+        .spec(0, uint32_t(shape))
+        .spec(1, g.taps)
+        .spec(2, g.interleave)
+        .push(g.push)
+        .dispatchThreads(g.push.tiles.x * g.push.tiles.y * g.push.tileSize * g.push.tileSize / 4);
+    return pass;
 }
 
 }  // namespace
 
-Vals texelsAsVals(const RsmSet& rsm) {
-    static_assert(sizeof(io::RsmTexel) == sizeof(io::Val) &&
-                  offsetof(io::RsmTexel, normal) == offsetof(io::Val, normal) &&
-                  offsetof(io::RsmTexel, flux) == offsetof(io::Val, flux));
-    return {.vals = rsm.texels, .count = rsm.tileCount * io::kRsmTileSize * io::kRsmTileSize};
-}
-
 Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
-                         const ValShadingSettings& settings) {
+                         const IsmAtlas& isms, const ValShadingSettings& settings) {
     if (vals.count == 0) return {};
-    const Irradiance result{graph.image("val_shading.irradiance",
-                                        {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
-    for (uint32_t first = 0, slice = 0; first < vals.count; first += kSliceLights, ++slice) {
-        PassBuilder pass = graph.compute(passName(slice), "val_shading/gather_vals.comp");
-        pass.sample("normalMap", gbuffer.normal)
-            .sample("depthMap", gbuffer.depth)
-            .read("camera", scene.camera)
-            .read("vals", vals.vals)
-            .read("shapes", vals.shapes ? vals.shapes : vals.vals)
-            .spec(0, uint32_t(settings.shape))
-            .spec(1, slice == 0)
-            .push(glm::uvec2(first, std::min(first + kSliceLights, vals.count)))
-            .dispatchGroups((gbuffer.size.x + 15) / 16, (gbuffer.size.y + 15) / 16);
-        if (slice == 0)
-            pass.write("irradiance", result.image);
-        else
-            pass.readWrite("irradiance", result.image);
-    }
+    const uint32_t n = std::clamp(settings.interleave, 1u, 4u), tileSize = tileSizeFor(n);
+    const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
+    const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
+    const Gather g{.graph = graph,
+                   .scene = scene,
+                   .gbuffer = gbuffer,
+                   .vals = vals,
+                   .isms = isms,
+                   .push = {.valCount = vals.count,
+                            .tileSize = tileSize,
+                            .tiles = tiles,
+                            .nearReach = settings.nearReach,
+                            .ismTileSize = isms.tileSize},
+                   .lists = graph.buffer("val_shading.lists",
+                                         {.sizeBytes = tileCount * io::kLightLists * io::kMaxVals * 4,
+                                          .texelFormat = VK_FORMAT_R32_UINT}),
+                   .counts = graph.buffer("val_shading.counts", {.sizeBytes = tileCount * 8}),
+                   .taps = isms.planes ? settings.taps : 0,
+                   .interleave = n};
+    const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
+    const ImageHandle parts = graph.image("val_shading.parts", info);
+    const Irradiance result{graph.image("val_shading.irradiance", info)};
+    addClassification(g);
+    addGather(g, "val_shading.far", "val_shading/gather_far.comp", settings.farShape).write("parts", parts);
+    addGather(g, "val_shading.near", "val_shading/gather_near.comp", settings.shape)
+        .sample("parts", parts)
+        .write("irradiance", result.image);
     return result;
 }
 

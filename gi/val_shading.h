@@ -1,9 +1,10 @@
-// Irradiance from virtual lights: every pixel meets every light, unshadowed. The lights are fitted to
-// clusters, or they are the light maps' texels themselves.
+// Irradiance from virtual area lights, seen through imperfect shadow maps. Each tile of the screen sorts the
+// lights: near ones are met by every pixel in their exact shape, far ones as disks, shared out over blocks of
+// n x n pixels (interleaved, Wald et al. 2002) and gathered by a filter that keeps to the surface.
 #pragma once
 
 #include "gi/gbuffer.h"
-#include "gi/val_fit.h"
+#include "gi/ism_atlas.h"
 
 namespace ag::gi {
 
@@ -12,21 +13,22 @@ enum class ValShape : uint32_t {
     kDisk,        // RSMC eq. 2, ACRSM eq. 3.9: as published, loses energy near the light
     kVectorDisk,  // closed form of the disk's vector irradiance
     kRectangle,   // the rectangle of the cluster's second moments by its edges
+    kPolygon,     // the convex polygon of its farthest texels by its edges
 };
 
 struct ValShadingSettings {
-    ValShape shape = ValShape::kRectangle;
+    ValShape shape = ValShape::kPolygon;  // of near lights
+    ValShape farShape = ValShape::kVectorDisk;
+    float nearReach = 3;      // lights nearer than this many of their half lengths are near; 0: none
+    uint32_t interleave = 3;  // n: each pixel meets one of n² parts of the far lights
+    uint32_t taps = 8;        // of soft shadows; 1: hard ones, from the light's centre
 };
-
-// Every texel of the light maps as a point emitter (Dachsbacher & Stamminger 2005 without their sampling):
-// slow, and exact but for visibility as the maps grow.
-Vals texelsAsVals(const RsmSet& rsm);
 
 struct Irradiance {
     ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add
 };
 
 Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
-                         const ValShadingSettings& settings);
+                         const IsmAtlas& isms, const ValShadingSettings& settings);
 
 }  // namespace ag::gi

@@ -126,5 +126,38 @@ AG_FUNCTION float rectangleVectorFactor(vec3 x, vec3 n, vec3 c, vec3 m, vec3 u, 
     return facing > 0.0f ? factor : 0.0f;
 }
 
+// A polygon's vector irradiance in the frame of its plane: receiver at p (z its height) with normal n, eight
+// corners counter-clockwise about the origin, equal neighbours allowed. Each edge is the cross product of the
+// unit vectors to its ends times angle / sine, as in edgeVector; horizon as for the disk. Radiosity varies
+// over the polygon as gradient.xy . y + gradient.z: it is taken where the mean direction to the polygon meets
+// it, plus what the receiver's cosine adds to first order (its logarithm's slope times the second moment
+// gradient.w), less so where the polygon fills the view. Returns the form factor: E = flux / area x factor.
+AG_FUNCTION float polygonVectorFactor(vec3 p, vec3 n, vec2 corners[8], vec4 gradient) {
+    vec3 sum = vec3(0.0f);
+    vec3 a = vec3(corners[7].x - p.x, corners[7].y - p.y, -p.z);
+    float ra = inversesqrt(max(dot(a, a), 1e-20f));
+    for (int i = 0; i < 8; ++i) {
+        vec3 b = vec3(corners[i].x - p.x, corners[i].y - p.y, -p.z);
+        float rb = inversesqrt(max(dot(b, b), 1e-20f));
+        sum += edgeVector(a * ra, b * rb);
+        a = b;
+        ra = rb;
+    }
+    vec3 f = sum * (-0.5f * kInvPi);
+    float l = min(sqrt(max(dot(f, f), 1e-30f)), 1.0f);
+    float lc = dot(n, f);
+    float ls = l * sqrt(l);
+    float above = max(lc + ls, 0.0f);
+    float factor = lc >= ls ? lc : 0.25f * above * above / max(ls, 1e-20f);
+    vec3 d = f * (-p.z / min(f.z, -1e-12f));  // from the receiver to the plane
+    float radiosity = gradient.x * (p.x + d.x) + gradient.y * (p.y + d.y) + gradient.z;
+    float nd = max(dot(n, d), 0.0f);
+    float tilt = gradient.w * (gradient.x * n.x + gradient.y * n.y);
+    radiosity += tilt * nd / (nd * nd + gradient.w + 1e-12f);
+    // On the polygon's own plane rounding decides the sign of everything.
+    float above_ = clamp(p.z * inversesqrt(max(dot(p, p), 1e-20f)) * 1e3f - 1.0f, 0.0f, 1.0f);
+    return above_ * factor * clamp(radiosity, 0.0f, 4.0f);
+}
+
 AG_END
 #endif

@@ -5,7 +5,7 @@
 // Segmented update, second half: each cluster gathers its sums from the tiles that list it and becomes their
 // flux-weighted mean. Flux and area are sums over the texels (not the centre's sample: ACRSM section 4.7 differs).
 #include "common/lane_loop.glsl"
-#include "rsm/rsm_io.h"
+#include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
 layout(local_size_x_id = 100) in;  // one subgroup a cluster
@@ -16,20 +16,46 @@ layout(set = 0, binding = 1, scalar) readonly buffer Maps { RsmMap items[]; } ma
 layout(set = 0, binding = 2) uniform usamplerBuffer slotOfCluster;
 layout(set = 0, binding = 3) uniform samplerBuffer partials;
 layout(set = 0, binding = 4, scalar) writeonly buffer Clusters { Cluster items[]; } clusters;
+layout(set = 0, binding = 5, scalar) writeonly buffer Extents { ClusterExtent items[]; } extents;
+
+const int kSumVec4s = 6;
+
+struct Extreme {  // of a tile's texels in one direction
+    float reach;
+    uint texel;
+};
+
+// The farthest over all lanes; of equals the texel of the lowest index.
+uint farthestTexel(Extreme e) {
+    bool farthest = e.reach == subgroupMax(e.reach);
+    return subgroupMin(farthest ? e.texel : 0xffffffffu);
+}
 
 void main() {
     uint cluster = gl_WorkGroupID.x;
     uint tileCount = (push.settings.atlasSize.x / kRsmTileSize) * (push.settings.atlasSize.y / kRsmTileSize);
-    vec4 sums[kPartialVec4s] = vec4[](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    vec4 sums[kSumVec4s] = vec4[](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+    Extreme extremes[kExtremes];
+    for (int i = 0; i < int(kExtremes); ++i) extremes[i] = Extreme(-3.0e38, 0);
+    float before = -3.0e38;
     for (uint base = 0; base < tileCount; base += kSubgroupSize) {
         uint tile = min(base + gl_SubgroupInvocationID, tileCount - 1);
         uint slot = texelFetch(slotOfCluster, int(tile * push.settings.clusterCount + cluster)).x;
         bool listed = slot != kNoCluster && base + gl_SubgroupInvocationID < tileCount;
         int at = int((tile * kMaxCandidates + (listed ? slot : 0)) * kPartialVec4s);
-        if (listed)
-            for (int i = 0; i < int(kPartialVec4s); ++i) sums[i] += texelFetch(partials, at + i);
+        if (!listed) continue;
+        for (int i = 0; i < kSumVec4s; ++i) sums[i] += texelFetch(partials, at + i);
+        before = max(before, texelFetch(partials, at + 3).w);
+        for (int i = 0; i < int(kExtremes); ++i) {
+            float reach = texelFetch(partials, at + kSumVec4s + i / 4)[i % 4];
+            uint texel = rsmTexelIndex(tile, uint(texelFetch(partials, at + kSumVec4s + 2 + i / 4)[i % 4]));
+            if (reach > extremes[i].reach) extremes[i] = Extreme(reach, texel);
+        }
     }
-    for (int i = 0; i < int(kPartialVec4s); ++i) sums[i] = subgroupAdd(sums[i]);
+    for (int i = 0; i < kSumVec4s; ++i) sums[i] = subgroupAdd(sums[i]);
+    ClusterExtent extent;
+    for (int i = 0; i < int(kExtremes); ++i) extent.texels[i] = farthestTexel(extremes[i]);
+    before = subgroupMax(before);
     if (gl_SubgroupInvocationID != 0) return;
 
     ClusterSeed seed = seeds.items[cluster];
@@ -51,4 +77,7 @@ void main() {
     c.map = seed.map;
     c.age = seed.age;
     clusters.items[cluster] = c;
+    extent.before = max(before - dot(offset, seed.normal), 0.0);
+    extent.areaCentre = empty ? vec3(0.0) : sums[5].xyz / max(c.area, 1e-38) - offset;
+    extents.items[cluster] = extent;
 }

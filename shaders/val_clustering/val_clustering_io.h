@@ -11,7 +11,8 @@ namespace ag::io {
 const uint kMaxClusters = 1024;
 const uint kMaxCandidates = 256;  // a tile considers at most so many clusters
 const uint kNoCluster = 0xffffffffu;
-const uint kPartialVec4s = 5;  // sums a tile keeps for each of its candidates
+const uint kPartialVec4s = 10;  // what a tile keeps for each of its candidates: 6 of sums, 4 of extremes
+const uint kExtremes = 8;       // directions in the seed's plane, 45 degrees apart
 
 struct ClusterSeed {  // 3 vec4: what a texel is compared with
     vec3 position;    // m
@@ -35,6 +36,12 @@ struct Cluster {       // 6 vec4: the state after a step
     uint map;
     vec3 covarianceMixed;  // xy xz yz, m²
     float cosineSpread;    // |mean of normals| before normalising: 1 flat, 0 all round
+};
+
+struct ClusterExtent {       // 3 vec4: how far a cluster's texels reach from it
+    uint texels[kExtremes];  // the farthest ones, in the directions' order
+    float before;            // m, before the plane through the centre
+    vec3 areaCentre;         // m, from the centre: the mean of its texels' places by area
 };
 
 struct ClusterSettings {  // push constants

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Clusters to virtual area lights: centre, area and flux, and the rectangle that has the cluster's second moments in
-// the light's plane (a uniform rectangle's are a third of its half sides squared). Empty clusters and the padding to
-// whole subgroups become black lights.
+// Clusters to virtual area lights: centre, area and flux, the rectangle that has the cluster's second moments in the
+// light's plane (a uniform rectangle's are a third of its half sides squared), and the convex polygon of its farthest
+// texels. Empty clusters and the padding to whole subgroups become black lights.
 #include "common/sampling.h"
+#include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 #include "val_fit/val_fit_io.h"
 
@@ -12,15 +13,24 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
     uint clusterCount;
     uint valCount;  // with padding
+    uint atlasWidth;
 } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Clusters { Cluster items[]; } clusters;
+layout(set = 0, binding = 3, scalar) readonly buffer Extents { ClusterExtent items[]; } extents;
+layout(set = 0, binding = 4) uniform samplerBuffer texels;
+layout(set = 0, binding = 5, scalar) readonly buffer Faces { RsmFace items[]; } faces;
+layout(set = 0, binding = 6, scalar) readonly buffer Maps { RsmMap items[]; } maps;
 layout(set = 0, binding = 1, scalar) writeonly buffer Vals { Val items[]; } vals;
 layout(set = 0, binding = 2, scalar) writeonly buffer Shapes { ValShapeVectors items[]; } shapes;
 
-ValShapeVectors rectangleOf(Cluster c) {
-    vec3 t, b;
-    orthonormalBasis(c.normal, t, b);
+#include "rsm/footprint.glsl"
+
+// Fewer texels than this have no outline worth following.
+const float kLeastTexels = 8.0;
+const float kLeastFill = 0.5;     // of the cluster's area by the polygon
+
+void fitRectangle(Cluster c, vec3 t, vec3 b, inout ValShapeVectors shape) {
     mat3 moments = mat3(c.covarianceDiagonal.x, c.covarianceMixed.x, c.covarianceMixed.y,
                         c.covarianceMixed.x, c.covarianceDiagonal.y, c.covarianceMixed.z,
                         c.covarianceMixed.y, c.covarianceMixed.z, c.covarianceDiagonal.z);
@@ -35,19 +45,93 @@ ValShapeVectors rectangleOf(Cluster c) {
     float least = 0.05 * sqrt(c.area);
     float u = max(sqrt(max(3.0 * (middle + spread), 0.0)), least);
     float v = max(sqrt(max(3.0 * (middle - spread), 0.0)), least);
-    return ValShapeVectors(axis * u, 0.25 / (u * v), across * v, 0.0);
+    shape.halfU = axis * u;
+    shape.halfV = across * v;
+    shape.inverseRectangle = 0.25 / (u * v);
+}
+
+struct PolygonMoments {
+    float area;
+    vec2 centre;
+    vec3 covariance;  // xx, xy, yy
+};
+
+// Over the triangles between the origin and each side.
+PolygonMoments momentsOf(vec2 corners[kValCorners]) {
+    float area = 0.0;
+    vec2 first = vec2(0.0);
+    vec3 second = vec3(0.0);
+    for (int i = 0; i < int(kValCorners); ++i) {
+        vec2 p = corners[i], q = corners[(i + 1) % int(kValCorners)], r = p + q;
+        float triangle = 0.5 * (p.x * q.y - p.y * q.x);
+        area += triangle;
+        first += triangle / 3.0 * r;
+        second += triangle / 12.0 * (vec3(r.x * r.x, r.x * r.y, r.y * r.y) + vec3(p.x * p.x, p.x * p.y, p.y * p.y) +
+                                     vec3(q.x * q.x, q.x * q.y, q.y * q.y));
+    }
+    float inverse = 1.0 / max(area, 1e-20);
+    vec2 centre = first * inverse;
+    return PolygonMoments(area, centre, second * inverse - vec3(centre.x * centre.x, centre.x * centre.y,
+                                                                centre.y * centre.y));
+}
+
+// The linear radiosity over the polygon, relative to its mean, that parts the centre of its flux (the origin) from that
+// of its area as its texels do: 1 + slope . (y - centre), as (slope, value at the origin, mean second moment). Nowhere below
+// zero.
+vec4 gradientOf(PolygonMoments m, vec2 areaCentre, vec2 corners[kValCorners]) {
+    vec3 k = m.covariance;
+    float det = k.x * k.z - k.y * k.y;
+    if (det < 1e-6 * (k.x + k.z) * (k.x + k.z)) return vec4(0.0, 0.0, 1.0, 0.0);
+    vec2 slope = vec2(k.y * areaCentre.y - k.z * areaCentre.x, k.y * areaCentre.x - k.x * areaCentre.y) / det;
+    float least = 0.0;
+    for (int i = 0; i < int(kValCorners); ++i) least = min(least, dot(slope, corners[i] - m.centre));
+    slope /= max(-least, 1.0);
+    return vec4(slope, 1.0 - dot(slope, m.centre), 0.5 * (k.x + k.z));
+}
+
+// The farthest texels' farthest corners, so that neighbours' polygons meet and those in a crease reach it.
+void fitPolygon(Cluster c, ClusterExtent extent, vec3 t, vec3 b, inout ValShapeVectors shape) {
+    for (int i = 0; i < int(kValCorners); ++i) {
+        vec3 corners[4];
+        footprint(extent.texels[i], c.map, push.atlasWidth, corners);
+        float angle = float(i) * (kPi / 4.0), most = -3.0e38;
+        for (int k = 0; k < 4; ++k) {
+            vec2 p = vec2(dot(corners[k] - c.position, t), dot(corners[k] - c.position, b));
+            float reach = dot(p, vec2(cos(angle), sin(angle)));
+            if (reach > most) shape.corners[i] = p;
+            most = max(most, reach);
+        }
+    }
+    PolygonMoments m = momentsOf(shape.corners);
+    if (c.texelCount >= kLeastTexels && m.area > kLeastFill * c.area) {
+        shape.inversePolygon = 1.0 / m.area;
+        shape.gradient = gradientOf(m, vec2(dot(extent.areaCentre, t), dot(extent.areaCentre, b)), shape.corners);
+        return;
+    }
+    vec2 u = vec2(dot(shape.halfU, t), dot(shape.halfU, b)), v = vec2(dot(shape.halfV, t), dot(shape.halfV, b));
+    vec2 rectangle[4] = vec2[](u + v, v - u, -u - v, u - v);
+    for (int i = 0; i < int(kValCorners); ++i) shape.corners[i] = rectangle[i / 2];
+    shape.inversePolygon = shape.inverseRectangle;
 }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.valCount) return;
     Val val = Val(vec3(0.0), 1.0, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0), 0.0);
-    ValShapeVectors shape = ValShapeVectors(vec3(0.5, 0.0, 0.0), 1.0, vec3(0.0, 0.0, 0.5), 0.0);
+    ValShapeVectors shape;
+    shape.halfU = vec3(0.5, 0.0, 0.0);
+    shape.halfV = vec3(0.0, 0.0, 0.5);
+    shape.inverseRectangle = shape.inversePolygon = 1.0;
+    shape.gradient = vec4(0.0, 0.0, 1.0, 0.0);
+    for (int k = 0; k < int(kValCorners); ++k) shape.corners[k] = vec2(0.0);
     if (i < push.clusterCount) {
         Cluster c = clusters.items[i];
         if (c.texelCount > 0.0) {
-            val = Val(c.position, c.area, c.normal, sqrt(c.area * 0.31830989), c.flux, c.texelCount);
-            shape = rectangleOf(c);
+            val = Val(c.position, c.area, c.normal, sqrt(c.area * 0.31830989), c.flux, extents.items[i].before);
+            vec3 t, b;
+            orthonormalBasis(c.normal, t, b);
+            fitRectangle(c, t, b, shape);
+            fitPolygon(c, extents.items[i], t, b, shape);
         }
     }
     vals.items[i] = val;

@@ -14,15 +14,22 @@ struct Val {        // 3 vec4; black lights pad the list to whole subgroups
     vec3 normal;    // unit
     float radius;   // of the disk of that area, m
     vec3 flux;      // W
-    float texelCount;
+    float before;   // m, its texels reach before the plane through the centre
 };
 
-struct ValShapeVectors {  // 2 vec4: the rectangle of the cluster's second moments
-    vec3 halfU;           // m, in the light's plane
-    float inverseArea;    // 1/m²
+const uint kValCorners = 8;
+
+struct ValShapeVectors {     // 7 vec4
+    vec3 halfU;              // m, of the rectangle of the cluster's second moments, in the light's plane
+    float inverseRectangle;  // 1/m²
     vec3 halfV;
-    float unused;
+    float inversePolygon;       // 1/m²
+    vec2 corners[kValCorners];  // m, of the convex polygon along orthonormalBasis(normal), counter-clockwise
+    vec4 gradient;  // of the polygon's radiosity over its mean: slope [1/m] in the same axes, value at the
+                    // centre; the polygon's mean second moment [m²]
 };
+
+const uint kValShapeVec4s = 7;
 
 #ifdef __cplusplus
 }  // namespace ag::io

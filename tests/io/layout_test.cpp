@@ -92,7 +92,7 @@ const std::map<std::string, Layout>& layouts() {
         {"Val",
          {sizeof(io::Val),
           {AG_MEMBER(Val, position), AG_MEMBER(Val, area), AG_MEMBER(Val, normal), AG_MEMBER(Val, radius),
-           AG_MEMBER(Val, flux), AG_MEMBER(Val, texelCount)}}}};
+           AG_MEMBER(Val, flux), AG_MEMBER(Val, before)}}}};
     return all;
 }
 

@@ -76,6 +76,8 @@ TEST(Parity, FirstBounceWithoutVisibility) {
         brute.rsm.resolution = 256;
         const Image texels = p.render(Layer::kBounce1, brute, 1);
         GiSettings clusters;
+        clusters.ismAtlas.enabled = false;
+        clusters.valShading.interleave = 1;
         clusters.rsm.resolution = 256;
         const bool folds = std::string_view(name) == "corridor";
         clusters.valClustering.count = folds ? 1024 : 256;

@@ -1,0 +1,80 @@
+#include "gi/ism_atlas.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace ag::gi {
+namespace {
+
+constexpr uint32_t kCoarsestSize = 4;  // texels along the last level's tile
+constexpr uint32_t kMostLevels = 6;
+
+// The graph keeps views of pass names, so they are literals.
+constexpr std::array<std::string_view, kMostLevels> kPullNames = {"ism_atlas.pull1", "ism_atlas.pull2",
+                                                                  "ism_atlas.pull3", "ism_atlas.pull4",
+                                                                  "ism_atlas.pull5", "ism_atlas.pull6"};
+constexpr std::array<std::string_view, kMostLevels> kPushNames = {"ism_atlas.push1", "ism_atlas.push2",
+                                                                  "ism_atlas.push3", "ism_atlas.push4",
+                                                                  "ism_atlas.push5", "ism_atlas.push6"};
+
+void addPullPush(FrameGraph& graph, BufferHandle planes, uint32_t mapCount, uint32_t tileSize) {
+    std::array<io::IsmLevelPush, kMostLevels> levels{};
+    uint32_t count = 0, fine = 0;
+    for (uint32_t size = tileSize / 2; size >= kCoarsestSize; size /= 2) {
+        const uint32_t coarse = fine + mapCount * size * size * 4;
+        levels[count++] = {size, fine, coarse};
+        fine = coarse;
+    }
+    for (uint32_t i = 0; i < count; ++i)
+        graph.compute(kPullNames[i], "ism_atlas/pull_level.comp")
+            .readWrite("pyramid", planes)
+            .push(levels[i])
+            .dispatchGroups((levels[i].coarseSize * levels[i].coarseSize + 63) / 64, mapCount);
+    for (uint32_t i = count; i-- > 0;)
+        graph.compute(kPushNames[i], "ism_atlas/push_level.comp")
+            .readWrite("pyramid", planes)
+            .push(levels[i])
+            .dispatchGroups(levels[i].coarseSize * levels[i].coarseSize * 4 / 64, mapCount);
+}
+
+}  // namespace
+
+IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,
+                     const IsmAtlasSettings& settings) {
+    if (!settings.enabled || points.count == 0 || vals.count == 0) return {};
+    IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms),
+                   .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u)};
+    const uint32_t perMap = std::min(settings.pointsPerMap, points.count);
+    // Fewer points stand for the same surfaces: their disks are larger.
+    atlas.pointRadius = points.radius * std::sqrt(float(points.count) / float(perMap));
+    const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
+    const BufferHandle keys =
+        graph.buffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = VK_FORMAT_R32_UINT});
+    atlas.planes = graph.buffer("ism_atlas.planes", {.sizeBytes = (texels + texels / 3 + 1) * 16,
+                                                     .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    const io::IsmSplatPush push{.pointCount = points.count,
+                                .tileSize = atlas.tileSize,
+                                .pointsPerMap = perMap,
+                                .pointRadius = atlas.pointRadius,
+                                .inverseExtent = 1 / points.extent};
+    graph.fill("ism_atlas.clear", keys, io::kIsmNoPoint);
+    graph.compute("ism_atlas.splat", "ism_atlas/splat_points.comp")
+        .read("points", points.points)
+        .read("vals", vals.vals)
+        .readWrite("keys", keys)
+        .push(push)
+        .dispatchGroups((perMap + 63) / 64, atlas.mapCount);
+    graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
+        .read("points", points.points)
+        .read("vals", vals.vals)
+        .read("keys", keys)
+        .write("planes", atlas.planes)
+        .push(push)
+        .dispatchGroups(atlas.tileSize * atlas.tileSize / 256, atlas.mapCount);
+    if (settings.pullPush) addPullPush(graph, atlas.planes, atlas.mapCount, atlas.tileSize);
+    return atlas;
+}
+
+}  // namespace ag::gi

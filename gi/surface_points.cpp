@@ -1,0 +1,26 @@
+#include "gi/surface_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ag::gi {
+
+SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
+    if (scene.surfaceSampleCount == 0) return {};
+    SurfacePoints p{.count = scene.surfaceSampleCount};
+    p.radius = std::sqrt(scene.surfaceArea / (std::numbers::pi_v<float> * float(p.count)));
+    p.extent = std::max(glm::length(scene.scene->bounds.max - scene.scene->bounds.min), 1e-6f);
+    p.points = graph.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
+                                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.compute("surface_points.place", "surface_points/place_points.comp")
+        .read("instances", scene.instances)
+        .read("samples", scene.surfaceSamples)
+        .write("points", p.points)
+        .push(p.count)
+        .key(scene.scene->instancesVersion)
+        .dispatchThreads(p.count);
+    return p;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,21 @@
+// Points spread over the scene's surfaces by area (ACRSM section 5.1.3; Ritschel et al. 2008), chosen once
+// and carried along by their instances. Every prefix and every n-th of them is spread over the whole scene.
+#pragma once
+
+#include <vector>
+
+#include "gi/scene_gpu.h"
+#include "shaders/surface_points/surface_points_io.h"
+
+namespace ag::gi {
+
+struct SurfacePoints {
+    BufferHandle points;  // io::SurfacePoint; also a texel buffer of vec4
+    uint32_t count = 0;
+    float extent = 0;  // m: no two points are farther apart
+    float radius = 0;  // m: disks of this radius have the area of all surfaces together
+};
+
+SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene);
+
+}  // namespace ag::gi

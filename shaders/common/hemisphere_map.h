@@ -1,0 +1,39 @@
+// The hemisphere about +z on the unit square, octahedral: straight edges, texels of much the same solid angle
+// (between 0.65 and 1.9 times the mean), and no trigonometry.
+#ifndef AG_HEMISPHERE_MAP_H
+#define AG_HEMISPHERE_MAP_H
+
+#include "common/portable.h"
+
+AG_BEGIN
+
+// d need not be unit; d.z >= 0.
+AG_FUNCTION vec2 hemisphereEncode(vec3 d) {
+    float inverse = 0.5f / max(abs(d.x) + abs(d.y) + d.z, 1e-20f);
+    return vec2(d.x + d.y, d.x - d.y) * inverse + vec2(0.5f);
+}
+
+// The direction, not unit.
+AG_FUNCTION vec3 hemisphereDirection(vec2 uv) {
+    vec2 e = uv * 2.0f - vec2(1.0f);
+    vec2 p = vec2(e.x + e.y, e.x - e.y) * 0.5f;
+    return vec3(p.x, p.y, max(1.0f - abs(p.x) - abs(p.y), 0.0f));
+}
+
+AG_FUNCTION vec3 hemisphereDecode(vec2 uv) {
+    return normalize(hemisphereDirection(uv));
+}
+
+// The paraboloid map of Brabec et al. (2002), as the sources have it: a disk in the square.
+AG_FUNCTION vec2 paraboloidEncode(vec3 unit) {
+    return vec2(unit.x, unit.y) / (2.0f * (1.0f + unit.z)) + vec2(0.5f);
+}
+
+AG_FUNCTION vec3 paraboloidDecode(vec2 uv) {
+    vec2 p = uv * 2.0f - vec2(1.0f);
+    float r2 = dot(p, p);
+    return normalize(vec3(2.0f * p.x, 2.0f * p.y, 1.0f - r2));
+}
+
+AG_END
+#endif

@@ -1,0 +1,36 @@
+// Imperfect shadow maps: one small square map a virtual light, of the hemisphere before it. A texel holds the
+// plane of the nearest surface: m with dot(m, d) = 1 for offsets d from the light to its points, in the
+// light's frame, and the distance in w (0: nothing was met). What lies beyond the plane is in shadow.
+#ifndef AG_ISM_ATLAS_IO_H
+#define AG_ISM_ATLAS_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+const uint kMaxIsms = 1024;
+
+// A splat's key: distance above, point below, so that the least key is the nearest point's. The distance is 4
+// bits of octave and 11 of mantissa below the greatest distance.
+const uint kIsmPointBits = 17;
+const uint kIsmNoPoint = 0xffffffffu;
+
+struct IsmSplatPush {
+    uint pointCount;
+    uint tileSize;  // texels along a map's side
+    uint pointsPerMap;
+    float pointRadius;    // m
+    float inverseExtent;  // 1/m: of the greatest distance
+};
+
+struct IsmLevelPush {
+    uint coarseSize;                // texels along the coarser level's tile
+    uint fineOffset, coarseOffset;  // first texel of the levels in the pyramid
+};
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif

@@ -1,0 +1,31 @@
+// The place and frame an imperfect shadow map is seen from, and the points in that frame.
+#ifndef AG_ISM_LIGHT_GLSL
+#define AG_ISM_LIGHT_GLSL
+
+#include "common/sampling.h"
+
+struct IsmLight {
+    vec3 place, normal, t, b;
+    bool lit;
+};
+
+#define AG_ISM_LIGHT(vals, map) ismLight_(texelFetch(vals, int(map) * 3), texelFetch(vals, int(map) * 3 + 1), texelFetch(vals, int(map) * 3 + 2).w)
+
+// From just before all of the light's own texels, so that it does not stand in its own way.
+IsmLight ismLight_(vec4 place, vec4 normal, float before) {
+    IsmLight l;
+    l.place = place.xyz + normal.xyz * before;
+    l.normal = normal.xyz;
+    l.lit = normal.w > 0.0;
+    orthonormalBasis(l.normal, l.t, l.b);
+    return l;
+}
+
+vec3 toLight(IsmLight l, vec3 v) { return vec3(dot(v, l.t), dot(v, l.b), dot(v, l.normal)); }
+
+// The plane through p with normal n as dot(m, d) = 1; planes through the light itself bound nothing.
+vec3 planeThrough(vec3 p, vec3 n) {
+    float h = dot(n, p);
+    return abs(h) > 1e-4 * length(p) ? n / h : vec3(0.0);
+}
+#endif

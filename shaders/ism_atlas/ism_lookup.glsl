@@ -1,0 +1,58 @@
+// How much of a light a place sees, by the light's imperfect shadow map.
+#ifndef AG_ISM_LOOKUP_GLSL
+#define AG_ISM_LOOKUP_GLSL
+
+#extension GL_EXT_control_flow_attributes : require
+#include "common/hemisphere_map.h"
+
+// Beyond a plane by less than this share of the distance counts as on it.
+const float kIsmPlaneSlack = 0.01;
+
+struct IsmTile {
+    int first, size;  // texels
+};
+
+// d: from the light to the place, in the light's frame.
+float ismShadow(vec4 plane, vec3 d) { return dot(plane.xyz, d) > 1.0 + kIsmPlaneSlack ? 1.0 : 0.0; }
+
+// What was met in a direction, which need not be unit.
+vec4 ismPlane(samplerBuffer atlas, IsmTile tile, vec3 direction) {
+    vec2 uv = hemisphereEncode(vec3(direction.xy, max(direction.z, 0.0)));
+    ivec2 at = clamp(ivec2(uv * float(tile.size)), ivec2(0), ivec2(tile.size - 1));
+    return texelFetch(atlas, tile.first + at.y * tile.size + at.x);
+}
+
+// From the light's centre, the four nearest texels weighted.
+float ismHardVisibility(samplerBuffer atlas, IsmTile tile, vec3 d) {
+    vec2 at = hemisphereEncode(vec3(d.xy, max(d.z, 0.0))) * float(tile.size) - 0.5;
+    vec2 low = clamp(floor(at), vec2(0.0), vec2(float(tile.size) - 2.0)), f = clamp(at - low, vec2(0.0), vec2(1.0));
+    int texel = tile.first + int(low.y) * tile.size + int(low.x);
+    vec4 shadow = vec4(ismShadow(texelFetch(atlas, texel), d), ismShadow(texelFetch(atlas, texel + 1), d),
+                       ismShadow(texelFetch(atlas, texel + tile.size), d),
+                       ismShadow(texelFetch(atlas, texel + tile.size + 1), d));
+    return 1.0 - mix(mix(shadow.x, shadow.y, f.x), mix(shadow.z, shadow.w, f.x), f.y);
+}
+
+// Percentage-closer soft shadows (Fernando 2005; ACRSM section 5.3.2) of a rectangle with half sides u, v in the
+// light's plane. A ray from the light's point s to d passes a blocker at the share rho of the way where the centre sees it
+// in the direction d + s (1 - rho) / rho.
+float ismSoftVisibility(samplerBuffer atlas, IsmTile tile, vec3 d, vec2 u, vec2 v, int taps) {
+    const vec2 kSearch[5] = vec2[](vec2(0.0), vec2(0.6, 0.6), vec2(-0.6, 0.6), vec2(-0.6, -0.6), vec2(0.6, -0.6));
+    const float kMostSpread = 4.0;
+    float blockers = 0.0, share = 0.0;
+    [[unroll]] for (int i = 0; i < 5; ++i) {
+        vec4 plane = ismPlane(atlas, tile, d + vec3(u * kSearch[i].x + v * kSearch[i].y, 0.0));
+        float beyond = dot(plane.xyz, d), shadow = beyond > 1.0 + kIsmPlaneSlack ? 1.0 : 0.0;
+        blockers += shadow;
+        share += shadow / max(beyond, 1.0);
+    }
+    if (blockers == 0.0) return 1.0;
+    float rho = share / blockers, spread = min((1.0 - rho) / rho, kMostSpread);
+    float shadow = 0.0;
+    [[unroll]] for (int i = 0; i < taps; ++i) {
+        vec2 s = fract(vec2(0.5) + float(i) * vec2(0.7548776662, 0.5698402910)) * 2.0 - 1.0;
+        shadow += ismShadow(ismPlane(atlas, tile, d + vec3(u * s.x + v * s.y, 0.0) * spread), d);
+    }
+    return 1.0 - shadow / float(taps);
+}
+#endif

@@ -1,0 +1,108 @@
+// A virtual area light in registers: loading it, handing it from lane to lane, what it sends to a place. Needs buffers
+// `vals`, `shapes`, `isms`, the constants kShape and kVisibilityTaps.
+#ifndef AG_AREA_LIGHT_GLSL
+#define AG_AREA_LIGHT_GLSL
+
+#include "common/form_factors.h"
+#include "common/lane_loop.glsl"
+#include "common/sampling.h"
+#include "ism_atlas/ism_lookup.glsl"
+#include "val_fit/val_fit_io.h"
+
+const uint kShapePoint = 0;
+const uint kShapeDisk = 1;        // as published: RSMC eq. 2
+const uint kShapeVectorDisk = 2;  // closed form of a disk's vector irradiance
+const uint kShapeRectangle = 3;   // of the second moments, by its edges
+const uint kShapePolygon = 4;     // of the farthest texels, by its edges
+
+const bool kPolygon = kShape == kShapePolygon;
+const bool kSoft = kVisibilityTaps > 1;  // else shadows are hard, or with 0 taps none
+const bool kRectangle = kShape == kShapeRectangle || kSoft;
+
+struct AreaLight {
+    vec4 place;   // centre; area, or radius² of a vector disk
+    vec3 normal;
+    vec4 power;   // flux, or radiosity where the shape's term is a form factor; how far texels stand before the centre
+    vec3 halfU, halfV;
+    vec4 corners[kValCorners / 2];  // two each
+    vec4 gradient;
+    uint index;  // and so which depth map
+};
+
+AreaLight loadLight(uint index) {
+    AreaLight l;
+    int at = int(index) * 3, shape = int(index * kValShapeVec4s);
+    l.index = index;
+    l.place = texelFetch(vals, at);
+    l.normal = texelFetch(vals, at + 1).xyz;
+    l.power = texelFetch(vals, at + 2);
+    vec4 u = kRectangle ? texelFetch(shapes, shape) : vec4(0.0);
+    vec4 v = kRectangle || kPolygon ? texelFetch(shapes, shape + 1) : vec4(0.0);
+    l.halfU = u.xyz;
+    l.halfV = v.xyz;
+    [[unroll]] for (int i = 0; i < int(kValCorners) / 2; ++i)
+        l.corners[i] = kPolygon ? texelFetch(shapes, shape + 2 + i) : vec4(0.0);
+    l.gradient = kPolygon ? texelFetch(shapes, shape + 6) : vec4(0.0);
+    if (kShape == kShapeVectorDisk) {
+        l.power.rgb /= l.place.w;
+        l.place.w *= kInvPi;
+    }
+    if (kShape == kShapeRectangle) l.power.rgb *= u.w;
+    if (kPolygon) l.power.rgb *= v.w;
+    return l;
+}
+
+// The light another lane holds.
+AreaLight lightOfLane(AreaLight mine, uint lane) {
+    AreaLight l;
+    l.index = subgroupShuffle(mine.index, lane);
+    l.place = subgroupShuffle(mine.place, lane);
+    l.normal = subgroupShuffle(mine.normal, lane);
+    l.power = subgroupShuffle(mine.power, lane);
+    l.halfU = kRectangle ? subgroupShuffle(mine.halfU, lane) : vec3(0.0);
+    l.halfV = kRectangle ? subgroupShuffle(mine.halfV, lane) : vec3(0.0);
+    [[unroll]] for (int i = 0; i < int(kValCorners) / 2; ++i)
+        l.corners[i] = kPolygon ? subgroupShuffle(mine.corners[i], lane) : vec4(0.0);
+    l.gradient = kPolygon ? subgroupShuffle(mine.gradient, lane) : vec4(0.0);
+    return l;
+}
+
+struct LightFrame {
+    vec3 t, b, n;
+};
+
+LightFrame frameOf(AreaLight l) {
+    LightFrame f;
+    f.n = l.normal;
+    orthonormalBasis(l.normal, f.t, f.b);
+    return f;
+}
+
+vec3 toFrame(LightFrame f, vec3 v) { return vec3(dot(v, f.t), dot(v, f.b), dot(v, f.n)); }
+
+float shapeTerm(vec3 x, vec3 n, AreaLight l, LightFrame f) {
+    if (kShape == kShapePoint) return vplTerm(x, n, l.place.xyz, l.normal);
+    if (kShape == kShapeDisk) return diskPublishedTerm(x, n, l.place.xyz, l.normal, l.place.w);
+    if (kShape == kShapeVectorDisk) return diskVectorFactor(x, n, l.place.xyz, l.normal, l.place.w);
+    if (kShape == kShapeRectangle) return rectangleVectorFactor(x, n, l.place.xyz, l.normal, l.halfU, l.halfV);
+    vec2 corners[kValCorners];
+    [[unroll]] for (int i = 0; i < int(kValCorners) / 2; ++i) {
+        corners[2 * i] = l.corners[i].xy;
+        corners[2 * i + 1] = l.corners[i].zw;
+    }
+    return polygonVectorFactor(toFrame(f, x - l.place.xyz), toFrame(f, n), corners, l.gradient);
+}
+
+float visibility(vec3 x, AreaLight l, LightFrame f, uint ismTileSize) {
+    if (kVisibilityTaps == 0) return 1.0;
+    vec3 d = toFrame(f, x - l.place.xyz) - vec3(0.0, 0.0, l.power.w);
+    IsmTile tile = IsmTile(int(l.index * ismTileSize * ismTileSize), int(ismTileSize));
+    if (!kSoft) return ismHardVisibility(isms, tile, d);
+    return ismSoftVisibility(isms, tile, d, toFrame(f, l.halfU).xy, toFrame(f, l.halfV).xy, kVisibilityTaps);
+}
+
+vec3 irradianceFrom(AreaLight l, vec3 x, vec3 n, uint ismTileSize) {
+    LightFrame f = frameOf(l);
+    return l.power.rgb * (shapeTerm(x, n, l, f) * visibility(x, l, f, ismTileSize));
+}
+#endif

@@ -1,0 +1,57 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Irradiance from far lights. Of each n x n pixels of a tile each takes another n²-th of the tile's list (Wald et al.
+// 2002; ACRSM section 3.2.3); four pixels an invocation share the loads.
+layout(constant_id = 0) const uint kShape = 2;
+layout(constant_id = 1) const int kVisibilityTaps = 0;
+layout(constant_id = 2) const uint kInterleave = 1;
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 3) uniform samplerBuffer vals;
+layout(set = 0, binding = 4) uniform samplerBuffer shapes;
+layout(set = 0, binding = 5) uniform samplerBuffer isms;
+layout(set = 0, binding = 6) uniform usamplerBuffer lists;
+#include "val_shading/area_light.glsl"
+#include "val_shading/screen_tiles.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
+layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
+layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
+
+void main() {
+    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
+    uvec2 size = camera.camera.size;
+    vec3 x[kPixels], n[kPixels], e[kPixels];
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = min(pixelOf(block, p), ivec2(size) - 1);
+        x[p] = worldFromPixel(camera.camera.worldFromClip, size, pixel, texelFetch(depthMap, pixel, 0).x);
+        n[p] = texelFetch(normalMap, pixel, 0).xyz;
+        e[p] = vec3(0.0);
+    }
+    const uint kParts = kInterleave * kInterleave;
+    uint start = listStart(block.tile, kFarList), count = counts.items[block.tile].y;
+    if (kLaneParallel) {
+        for (uint base = block.part; base < count; base += kSubgroupSize * kParts) {
+            uint entry = base + gl_SubgroupInvocationID * kParts;
+            AreaLight mine = loadLight(texelFetch(lists, int(start + min(entry, count - 1))).x);
+            if (entry >= count) mine.power = vec4(0.0);
+            [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
+                AreaLight l = lightOfLane(mine, lane);
+                [[unroll]] for (int p = 0; p < kPixels; ++p) e[p] += irradianceFrom(l, x[p], n[p], push.p.ismTileSize);
+            }
+        }
+    } else {
+        for (uint entry = block.part; entry < count; entry += kParts) {
+            AreaLight l = loadLight(texelFetch(lists, int(start + entry)).x);
+            [[unroll]] for (int p = 0; p < kPixels; ++p) e[p] += irradianceFrom(l, x[p], n[p], push.p.ismTileSize);
+        }
+    }
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = pixelOf(block, p);
+        if (all(lessThan(pixel, ivec2(size)))) imageStore(parts, pixel, vec4(e[p], 1.0));
+    }
+}

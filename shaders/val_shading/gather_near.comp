@@ -1,0 +1,118 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Irradiance from near lights, all of them at every pixel, and the far ones' from the n x n pixels that hold a part each
+// (Laine et al. 2007): only from those on the same surface and in the same tile, whose parts fit together.
+layout(constant_id = 0) const uint kShape = 4;
+layout(constant_id = 1) const int kVisibilityTaps = 0;
+layout(constant_id = 2) const int kInterleave = 1;
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 3) uniform samplerBuffer vals;
+layout(set = 0, binding = 4) uniform samplerBuffer shapes;
+layout(set = 0, binding = 5) uniform samplerBuffer isms;
+layout(set = 0, binding = 6) uniform usamplerBuffer lists;
+#include "val_shading/area_light.glsl"
+#include "val_shading/screen_tiles.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
+layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
+layout(set = 0, binding = 8) uniform sampler2D parts;
+layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D irradiance;
+
+const float kLeastCosine = 0.9;
+const float kMostPlaneShare = 0.01;  // of the depth, from the plane
+
+struct Surface {
+    vec3 position, normal;
+    float depth;
+    vec2 slope;  // of depth over pixels: near / distance is linear in the image along a plane
+};
+
+Surface surfaceAt(ivec2 pixel) {
+    Surface s;
+    mat4 worldFromClip = camera.camera.worldFromClip;
+    uvec2 size = camera.camera.size;
+    vec3 eye = camera.camera.position;
+    s.depth = texelFetch(depthMap, pixel, 0).x;
+    s.normal = texelFetch(normalMap, pixel, 0).xyz;
+    s.position = worldFromPixel(worldFromClip, size, pixel, max(s.depth, 1e-9));
+    float height = dot(s.normal, s.position - eye);
+    vec3 across = worldFromPixel(worldFromClip, size, pixel + ivec2(1, 0), 1.0) - eye;
+    vec3 down = worldFromPixel(worldFromClip, size, pixel + ivec2(0, 1), 1.0) - eye;
+    s.slope = vec2(dot(s.normal, across), dot(s.normal, down)) / min(height, -1e-9) - s.depth;
+    return s;
+}
+
+bool onSurface(Surface s, ivec2 pixel, ivec2 at) {
+    float depth = texelFetch(depthMap, at, 0).x;
+    float expected = s.depth + dot(s.slope, vec2(at - pixel));
+    return depth > 0.0 && abs(depth - expected) <= kMostPlaneShare * s.depth &&
+           dot(s.normal, texelFetch(normalMap, at, 0).xyz) >= kLeastCosine;
+}
+
+struct TileBounds {
+    ivec2 first, end;
+};
+
+// One part of the lights: from the nearest pixel that holds it, or, where that is on another surface, from those n
+// further to the other sides.
+vec4 partAt(Surface s, TileBounds bounds, ivec2 pixel, ivec2 toward) {
+    ivec2 back = kInterleave * (1 - 2 * ivec2(greaterThanEqual(toward, ivec2(0))));
+    // A loop, not unrolled: almost always the first is found, and CPU devices skip rounds but not branches.
+    vec4 sum = vec4(0.0);
+    [[dont_unroll]] for (int k = 0; k < 4 && sum.w == 0.0; ++k) {
+        ivec2 at = pixel + toward + back * ivec2(k & 1, k >> 1);
+        bool inside = all(greaterThanEqual(at, bounds.first)) && all(lessThan(at, bounds.end));
+        at = clamp(at, bounds.first, bounds.end - 1);
+        if (inside && onSurface(s, pixel, at)) sum = vec4(texelFetch(parts, at, 0).rgb, 1.0);
+    }
+    return sum;
+}
+
+vec3 farIrradiance(Surface s, TileBounds bounds, ivec2 pixel) {
+    if (kInterleave == 1) return texelFetch(parts, pixel, 0).rgb;
+    vec4 sum = vec4(0.0);
+    [[unroll]] for (int i = 0; i < kInterleave * kInterleave; ++i)
+        sum += partAt(s, bounds, pixel, ivec2(i % kInterleave, i / kInterleave) - kInterleave / 2);
+    return sum.rgb * (float(kInterleave * kInterleave) / max(sum.w, 1.0));
+}
+
+void main() {
+    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    ivec2 size = ivec2(camera.camera.size);
+    TileBounds bounds = TileBounds(ivec2(block.origin), min(ivec2(block.origin + push.p.tileSize), size));
+    Surface s[kPixels];
+    vec3 e[kPixels];
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = min(pixelOf(block, p), size - 1);
+        s[p] = surfaceAt(pixel);
+        e[p] = farIrradiance(s[p], bounds, pixel);
+    }
+    uint start = listStart(block.tile, kNearList), count = counts.items[block.tile].x;
+    if (kLaneParallel) {
+        for (uint base = 0; base < count; base += kSubgroupSize) {
+            AreaLight mine = loadLight(texelFetch(lists, int(start + min(base + gl_SubgroupInvocationID, count - 1))).x);
+            uint here = min(kSubgroupSize, count - base);
+            [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {
+                AreaLight l = lightOfLane(mine, lane);
+                [[unroll]] for (int p = 0; p < kPixels; ++p)
+                    e[p] += irradianceFrom(l, s[p].position, s[p].normal, push.p.ismTileSize);
+            }
+        }
+    } else {
+        for (uint i = 0; i < count; ++i) {
+            AreaLight l = loadLight(texelFetch(lists, int(start + i)).x);
+            [[unroll]] for (int p = 0; p < kPixels; ++p)
+                e[p] += irradianceFrom(l, s[p].position, s[p].normal, push.p.ismTileSize);
+        }
+    }
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = pixelOf(block, p);
+        vec3 sum = s[p].depth > 0.0 ? e[p] : vec3(0.0);
+        if (all(lessThan(pixel, size))) imageStore(irradiance, pixel, vec4(sum, 1.0));
+    }
+}

@@ -1,0 +1,26 @@
+// Gathering virtual lights. The screen is cut into square tiles; each sorts the lights into near ones, far
+// ones, and those that do not reach it.
+#ifndef AG_VAL_SHADING_IO_H
+#define AG_VAL_SHADING_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+const uint kMaxVals = 1024;  // entries of a list
+const uint kNearList = 0, kFarList = 1, kLightLists = 2;
+
+struct ValShadingPush {
+    uint valCount;
+    uint tileSize;  // pixels, a multiple of the interleaving
+    uvec2 tiles;
+    float nearReach;  // lights nearer than this many of their half lengths are near
+    uint ismTileSize;
+};
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif
