@@ -120,6 +120,9 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.ismAtlas.tileSize);
     s.add({"ism_atlas", "points_per_map", 64, 131072, "points", "splatted into each depth map"},
           &gi.ismAtlas.pointsPerMap);
+    s.add(
+        {"ism_atlas", "splat_scale", 0.1, 10, "", "of the points' disks; at 1 they have the surfaces' area"},
+        &gi.ismAtlas.splatScale);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
     s.add({"val_shading", "taps", 1, 64, "taps", "of soft shadows; 1: hard ones"}, &gi.valShading.taps);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},

@@ -48,7 +48,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                    .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u)};
     const uint32_t perMap = std::min(settings.pointsPerMap, points.count);
     // Fewer points stand for the same surfaces: their disks are larger.
-    atlas.pointRadius = points.radius * std::sqrt(float(points.count) / float(perMap));
+    atlas.pointRadius = settings.splatScale * points.radius * std::sqrt(float(points.count) / float(perMap));
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
     const BufferHandle keys =
         graph.buffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = VK_FORMAT_R32_UINT});

@@ -10,7 +10,7 @@
 namespace ag::gi {
 
 struct ValClusteringSettings {
-    uint32_t count = 256;        // clusters over all bounce lights, 16 to 1024
+    uint32_t count = 128;        // clusters over all bounce lights, 16 to 1024
     float distanceWeight = 1;    // w_d, 1/m²
     float normalWeight = 10;     // w_n
     float chromaWeight = 0;      // w_flux of RSMC eq. 1

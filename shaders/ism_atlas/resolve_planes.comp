@@ -19,7 +19,7 @@ void main() {
     uint key = texelFetch(keys, int(texel)).x;
     int point = int(min(key & ((1u << kIsmPointBits) - 1u), push.p.pointCount - 1u));
     IsmLight light = AG_ISM_LIGHT(vals, map);
-    vec3 p = toLight(light, texelFetch(points, point * 2).xyz - light.place);
-    vec3 m = planeThrough(p, toLight(light, texelFetch(points, point * 2 + 1).xyz));
+    vec3 p = toLight(light, texelFetch(points, point * 4).xyz - light.place);
+    vec3 m = planeThrough(p, toLight(light, texelFetch(points, point * 4 + 1).xyz));
     planes.items[texel] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, length(p));
 }

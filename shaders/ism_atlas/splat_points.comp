@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 // Each map gets its own share of the points (Ritschel et al. 2008), as disks in the surfaces' planes: a texel is met
 // where the disk is, at the distance of its plane there, and keeps the nearest by an atomic minimum of its key.
 #include "common/hemisphere_map.h"
@@ -15,7 +17,8 @@ layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 2, scalar) buffer Keys { uint items[]; } keys;
 
 const float kLeastSine = 0.01;  // lower above the light's plane is its own surface
-const int kMostTexels = 3;      // of a splat to each side; what a nearer point leaves open is filled afterwards
+const int kSmallReach = 2;      // texels to each side: splatted by one lane, larger ones by the whole subgroup
+const int kMostReach = 16;
 
 uint keyOf(float distance_, uint point) {
     const uint kLeastExponent = 111u << 11;
@@ -23,34 +26,82 @@ uint keyOf(float distance_, uint point) {
     return clamp(bits, kLeastExponent, kLeastExponent + 32766u) - kLeastExponent << kIsmPointBits | point;
 }
 
-void main() {
-    uint map = gl_WorkGroupID.y;
-    if (gl_GlobalInvocationID.x >= push.p.pointsPerMap) return;
-    uint point = (map * push.p.pointsPerMap + gl_GlobalInvocationID.x) % push.p.pointCount;
-    IsmLight light = AG_ISM_LIGHT(vals, map);
-    vec3 p = toLight(light, texelFetch(points, int(point) * 2).xyz - light.place);
-    float distance2 = max(dot(p, p), 1e-12), distance_ = sqrt(distance2);
-    if (!light.lit || p.z <= kLeastSine * distance_) return;
-    vec3 m = planeThrough(p, toLight(light, texelFetch(points, int(point) * 2 + 1).xyz));
-    if (m == vec3(0.0)) return;
+struct Splat {
+    vec3 place, plane;  // of the point and through it, in the light's frame
+    vec4 edges[2];      // inward, distance
+    uint point;
+    int reach;  // texels to each side; -1: nothing
+};
 
-    int size = int(push.p.tileSize);
-    vec2 at = hemisphereEncode(p) * float(size);
+Splat splatOf(uint point, IsmLight light) {
+    Splat s;
+    s.point = point;
+    s.place = toLight(light, texelFetch(points, int(point) * 4).xyz - light.place);
+    s.plane = planeThrough(s.place, toLight(light, texelFetch(points, int(point) * 4 + 1).xyz));
+    for (int k = 0; k < 2; ++k) {
+        vec4 edge = texelFetch(points, int(point) * 4 + 2 + k);
+        s.edges[k] = vec4(toLight(light, edge.xyz), edge.w);
+    }
+    float distance_ = length(s.place);
     // Half the tile's side spans about a right angle.
-    float reach = push.p.pointRadius / distance_ * float(size) * (2.0 * kInvPi);
-    int r = clamp(int(ceil(reach)), 0, kMostTexels);
-    ivec2 centre = clamp(ivec2(at), ivec2(0), ivec2(size - 1));
-    ivec2 low = max(centre - r, ivec2(0)), high = min(centre + r, ivec2(size - 1));
-    float radius2 = push.p.pointRadius * push.p.pointRadius;
-    uint tile = map * push.p.tileSize * push.p.tileSize;
+    float reach = push.p.pointRadius / max(distance_, 1e-6) * float(push.p.tileSize) * (2.0 * kInvPi);
+    bool seen = light.lit && s.place.z > kLeastSine * distance_ && s.plane != vec3(0.0);
+    s.reach = seen ? min(int(ceil(reach)), kMostReach) : -1;
+    return s;
+}
+
+void touch(Splat s, uint tile, ivec2 texel, ivec2 centre) {
+    vec3 w = hemisphereDirection((vec2(texel) + 0.5) / float(push.p.tileSize));
+    vec3 hit = w / max(dot(s.plane, w), 1e-12);
+    vec3 off = hit - s.place;
+    bool isCentre = texel == centre;
+    bool inside = dot(off, off) <= push.p.pointRadius * push.p.pointRadius &&
+                  dot(off, s.edges[0].xyz) >= -s.edges[0].w && dot(off, s.edges[1].xyz) >= -s.edges[1].w;
+    if (!inside && !isCentre) return;
+    float d = isCentre ? length(s.place) : length(hit);
+    atomicMin(keys.items[tile + uint(texel.y) * push.p.tileSize + uint(texel.x)], keyOf(d, s.point));
+}
+
+ivec2 centreOf(Splat s) {
+    int size = int(push.p.tileSize);
+    return clamp(ivec2(hemisphereEncode(vec3(s.place.xy, max(s.place.z, 0.0))) * float(size)), ivec2(0), ivec2(size - 1));
+}
+
+void splatAlone(Splat s, uint tile) {
+    ivec2 centre = centreOf(s);
+    ivec2 low = max(centre - s.reach, ivec2(0)), high = min(centre + s.reach, ivec2(push.p.tileSize) - 1);
     for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) {
-            vec3 w = hemisphereDirection((vec2(x, y) + 0.5) / float(size));
-            vec3 hit = w / max(dot(m, w), 1e-12);
-            vec3 off = hit - p;
-            bool isCentre = x == centre.x && y == centre.y;
-            if (dot(off, off) > radius2 && !isCentre) continue;
-            float d = isCentre ? distance_ : length(hit);
-            atomicMin(keys.items[tile + uint(y * size + x)], keyOf(d, point));
-        }
+        for (int x = low.x; x <= high.x; ++x) touch(s, tile, ivec2(x, y), centre);
+}
+
+void splatTogether(Splat s, uint tile) {
+    ivec2 centre = centreOf(s);
+    ivec2 low = max(centre - s.reach, ivec2(0)), high = min(centre + s.reach, ivec2(push.p.tileSize) - 1);
+    ivec2 extent = high - low + 1;
+    for (int i = int(gl_SubgroupInvocationID); i < extent.x * extent.y; i += int(gl_SubgroupSize))
+        touch(s, tile, low + ivec2(i % extent.x, i / extent.x), centre);
+}
+
+Splat splatOfLane(Splat mine, uint lane) {
+    Splat s;
+    s.place = subgroupShuffle(mine.place, lane);
+    s.plane = subgroupShuffle(mine.plane, lane);
+    for (int k = 0; k < 2; ++k) s.edges[k] = subgroupShuffle(mine.edges[k], lane);
+    s.point = subgroupShuffle(mine.point, lane);
+    s.reach = subgroupShuffle(mine.reach, lane);
+    return s;
+}
+
+void main() {
+    uint map = gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
+    uint point = (map * push.p.pointsPerMap + gl_GlobalInvocationID.x) % push.p.pointCount;
+    Splat mine = splatOf(point, AG_ISM_LIGHT(vals, map));
+    if (gl_GlobalInvocationID.x >= push.p.pointsPerMap) mine.reach = -1;
+    if (mine.reach <= kSmallReach) splatAlone(mine, tile);
+    uvec4 large = subgroupBallot(mine.reach > kSmallReach);
+    while (large != uvec4(0)) {
+        uint lane = subgroupBallotFindLSB(large);
+        large[lane / 32] &= large[lane / 32] - 1;
+        splatTogether(splatOfLane(mine, lane), tile);
+    }
 }

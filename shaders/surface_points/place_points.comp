@@ -12,11 +12,22 @@ layout(push_constant, scalar) uniform Push { uint count; } push;
 layout(set = 0, binding = 1) uniform samplerBuffer samples;
 layout(set = 0, binding = 2, scalar) writeonly buffer Points { SurfacePoint items[]; } points;
 
+SurfaceEdge placeEdge(InstanceTransform t, vec4 edge) {
+    vec3 d = transformDirection(t, edge.xyz);
+    float scale = length(d);
+    return SurfaceEdge(d / max(scale, 1e-20), edge.w * scale);
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
-    vec4 a = texelFetch(samples, int(i) * 2);
-    vec3 n = texelFetch(samples, int(i) * 2 + 1).xyz;
+    vec4 a = texelFetch(samples, int(i) * 4);
+    vec3 n = texelFetch(samples, int(i) * 4 + 1).xyz;
     InstanceTransform t = fetchInstance(int(floatBitsToUint(a.w)));
-    points.items[i] = SurfacePoint(transformPoint(t, a.xyz), 0.0, normalize(transformNormal(t, n)), 0.0);
+    SurfacePoint p;
+    p.position = transformPoint(t, a.xyz);
+    p.normal = normalize(transformNormal(t, n));
+    p.unused0 = p.unused1 = 0.0;
+    for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, texelFetch(samples, int(i) * 4 + 2 + k));
+    points.items[i] = p;
 }
