@@ -32,18 +32,44 @@ void setRsmc(GiSettings& gi) {
     gi.valClustering.chromaWeight = 10;
 }
 
+// Ours by budget: lights, points a shadow map is made of, and how far the gather is shared out.
+void setAfterglowLow(GiSettings& gi) {
+    gi.valClustering.count = 64;
+    gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
+    gi.valShading.interleave = 4;
+    gi.valShading.taps = 4;
+}
+
 void setAfterglow(GiSettings&) {}
+
+void setAfterglowHigh(GiSettings& gi) {
+    gi.valClustering.count = 256;
+    gi.ismAtlas.pointsPerMap = 8192;
+    gi.valShading.interleave = 2;
+}
+
+void setAfterglowUltra(GiSettings& gi) {
+    gi.rsm.resolution = 512;
+    gi.valClustering.count = 512;
+    gi.ismAtlas = {.tileSize = 128, .pointsPerMap = 16384};
+    gi.valShading.interleave = 1;
+    gi.valShading.nearReach = 6;
+    gi.valShading.taps = 16;
+}
 
 struct Preset {
     std::string_view name;
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 5> kPresets = {{{"none", setNone},
+constexpr std::array<Preset, 8> kPresets = {{{"none", setNone},
                                              {"rsm-brute", setRsmBrute},
                                              {"rsm-400", setRsm400},
                                              {"rsmc", setRsmc},
-                                             {"afterglow", setAfterglow}}};
+                                             {"afterglow", setAfterglow},
+                                             {"afterglow-low", setAfterglowLow},
+                                             {"afterglow-high", setAfterglowHigh},
+                                             {"afterglow-ultra", setAfterglowUltra}}};
 constexpr auto kPresetNames = [] {
     std::array<std::string_view, kPresets.size()> names;
     for (size_t i = 0; i < names.size(); ++i)

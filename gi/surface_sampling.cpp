@@ -117,12 +117,22 @@ void noteEdges(const Corners& c, io::SurfaceSample& sample) {
     }
 }
 
-// Number `index` of an additive recurrence, folded onto the triangle.
-glm::vec3 pointOn(const Corners& c, uint32_t index) {
-    const glm::uvec2 fixed = index * glm::uvec2(0xc13fa9a9u, 0x91e10da5u);
-    glm::vec2 uv = glm::vec2(fixed >> 8u) / 16777216.0f;
-    if (uv.x + uv.y > 1) uv = 1.0f - uv;
-    return c.local[0] * (1 - uv.x - uv.y) + c.local[1] * uv.x + c.local[2] * uv.y;
+// The place at a share of a triangle's area along a curve through all of it: each digit to base 4 picks one
+// of the four triangles between corners and middles of sides (Basu & Owen 2015), so that equal steps along
+// the curve are spread evenly over the triangle.
+glm::vec3 pointOn(const Corners& c, double share) {
+    glm::vec3 p = c.local[0], q = c.local[1], r = c.local[2];
+    for (int digits = 0; digits < 12; ++digits) {
+        share *= 4;
+        const int digit = std::clamp(int(share), 0, 3);
+        share -= digit;
+        const glm::vec3 pq = 0.5f * (p + q), qr = 0.5f * (q + r), rp = 0.5f * (r + p);
+        if (digit == 0) p = qr, q = rp, r = pq;
+        if (digit == 1) q = pq, r = rp;
+        if (digit == 2) p = pq, r = qr;
+        if (digit == 3) p = rp, q = qr;
+    }
+    return (p + q + r) / 3.0f;
 }
 
 // By mirrored bits of their places along the surfaces: neighbours in the order are far apart, and any run of
@@ -158,7 +168,7 @@ SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
         if (edges.empty()) edges = sharpEdges(*scene.geometry, scene.geometry->primitives[primitive]);
         c.sharpEdges = edges[triangle];
         for (; next < before; next += step) {
-            io::SurfaceSample sample{.positionLocal = pointOn(c, uint32_t(out.samples.size())),
+            io::SurfaceSample sample{.positionLocal = pointOn(c, 1 - (before - next) / c.area),
                                      .instance = instance,
                                      .normalLocal = faceNormal({c.local[0], c.local[1], c.local[2]})};
             noteEdges(c, sample);

@@ -9,7 +9,7 @@
 namespace ag::gi {
 
 struct SurfaceSamples {
-    std::vector<io::SurfaceSample> samples;  // in an order without order
+    std::vector<io::SurfaceSample> samples;  // any run of them is spread over everything
     float area = 0;                          // m² of all sampled surfaces, one side
 };
 

@@ -1,5 +1,5 @@
 // The hemisphere about +z on the unit square, octahedral: straight edges, texels of much the same solid angle
-// (between 0.65 and 1.9 times the mean), and no trigonometry.
+// (0.32 to 1.66 times the mean), and no trigonometry.
 #ifndef AG_HEMISPHERE_MAP_H
 #define AG_HEMISPHERE_MAP_H
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 #include <numbers>
 #include <random>
@@ -122,6 +123,76 @@ TEST(FormFactors, RectangleAgainstQuadrature) {
         EXPECT_NEAR(io::rectangleTerm(x, n, vec3(0), m, u, v) * area, truth, 2e-4 + 1e-3 * truth);
     }
     EXPECT_EQ(io::rectangleTerm(vec3(0, -1, 0), vec3(0, 1, 0), vec3(0), m, u, v), 0) << "lit from behind";
+}
+
+constexpr glm::vec2 kSquare[8] = {{0.2f, 0.2f},   {0.2f, 0.2f},   {-0.2f, 0.2f}, {-0.2f, 0.2f},
+                                  {-0.2f, -0.2f}, {-0.2f, -0.2f}, {0.2f, -0.2f}, {0.2f, -0.2f}};
+
+struct PolygonErrors {
+    double meanRatio, relativeRmse;
+};
+
+// A square of side 0.4 whose radiosity rises by `slope` a metre along x, against quadrature, over receivers
+// at one distance with random orientations that face it.
+PolygonErrors polygonErrors(float distance, float slope) {
+    std::mt19937 random(1);
+    glm::vec2 corners[8];
+    std::ranges::copy(kSquare, corners);
+    const glm::vec4 gradient(slope, 0, 1, 0.4f * 0.4f / 12);
+    double got = 0, wanted = 0, squares = 0;
+    constexpr int kReceivers = 300, kSteps = 120;
+    for (int i = 0; i < kReceivers; ++i) {
+        vec3 p = randomUnit(random);
+        p = glm::normalize(vec3(p.x, p.y, std::abs(p.z) + 0.1f)) * distance;
+        const vec3 n = glm::normalize(randomUnit(random) - p / distance);
+        double truth = 0;
+        for (int a = 0; a < kSteps; ++a)
+            for (int b = 0; b < kSteps; ++b) {
+                const dvec3 y((a + 0.5) / kSteps * 0.4 - 0.2, (b + 0.5) / kSteps * 0.4 - 0.2, 0);
+                const dvec3 d = y - dvec3(p);
+                const double d2 = glm::dot(d, d);
+                truth += std::max(glm::dot(dvec3(n), d), 0.0) * double(p.z) / (std::numbers::pi * d2 * d2) *
+                         (1 + double(slope) * y.x) * 0.16 / (kSteps * kSteps);
+            }
+        const double f = double(io::polygonVectorFactor(p, n, corners, gradient));
+        got += f, wanted += truth, squares += (f - truth) * (f - truth);
+    }
+    return {got / wanted, std::sqrt(squares / kReceivers) / (wanted / kReceivers)};
+}
+
+TEST(FormFactors, PolygonAgainstQuadrature) {
+    for (const float slope : {0.0f, 3.0f}) {
+        const PolygonErrors near = polygonErrors(0.3f, slope), mid = polygonErrors(0.6f, slope),
+                            far = polygonErrors(1.2f, slope);
+        std::cout << "polygon, slope " << slope << ": " << near.relativeRmse << ' ' << mid.relativeRmse << ' '
+                  << far.relativeRmse << '\n';
+        EXPECT_NEAR(near.meanRatio, 1, 0.02);
+        EXPECT_NEAR(mid.meanRatio, 1, 0.005);
+        EXPECT_NEAR(far.meanRatio, 1, 0.005);
+        EXPECT_LT(near.relativeRmse, 0.08);
+        EXPECT_LT(mid.relativeRmse, 0.02);
+        EXPECT_LT(far.relativeRmse, 0.01);
+    }
+}
+
+TEST(FormFactors, PolygonIsBoundedEverywhereAndDarkOnItsPlane) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> exponent(-4, 4);
+    glm::vec2 corners[8];
+    std::ranges::copy(kSquare, corners);
+    for (int i = 0; i < 20000; ++i) {
+        vec3 p = randomUnit(random) * std::pow(10.0f, exponent(random));
+        if (i % 3 == 0) p.z *= 1e-5f;
+        if (i % 7 == 0) p = vec3(0);
+        if (i % 11 == 0) p = vec3(0.2f, 0, 0);
+        const float f = io::polygonVectorFactor(p, randomUnit(random), corners, {1, -2, 1, 0.013f});
+        ASSERT_TRUE(std::isfinite(f)) << p.x << ' ' << p.y << ' ' << p.z;
+        ASSERT_GE(f, 0);
+        ASSERT_LE(f, 4.01f);
+        EXPECT_EQ(io::polygonVectorFactor(vec3(p.x, p.y, -std::abs(p.z)), {0, 0, 1}, corners, {0, 0, 1, 0}),
+                  0);
+        EXPECT_LT(io::polygonVectorFactor(vec3(p.x, p.y, 0), {0, 0, 1}, corners, {0, 0, 1, 0}), 1e-6f);
+    }
 }
 
 TEST(Sampling, HaltonFillsTheSquareEvenly) {
