@@ -26,7 +26,8 @@ constexpr std::array<LayerInfo, size_t(Layer::kCount)> kLayers = {{{"final", Sho
                                                                    {"rsm", Show::kLight},
                                                                    {"importance", Show::kDisplay},
                                                                    {"clusters", Show::kDisplay},
-                                                                   {"vals", Show::kDisplay}}};
+                                                                   {"vals", Show::kDisplay},
+                                                                   {"ism", Show::kDistance}}};
 
 ImageHandle layerImage(FrameGraph& graph, glm::uvec2 size) {
     return graph.image("debug_view.layer", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size});
@@ -64,10 +65,22 @@ ImageHandle addVals(FrameGraph& graph, const SceneView& scene, const GiFrame& f)
     const ImageHandle out = layerImage(graph, scene.size);
     graph.fullscreen("debug_view.vals", "debug_view/vals.frag")
         .read("vals", f.vals.vals)
+        .read("shapes", f.vals.shapes)
         .sample("depthMap", f.gbuffer.depth)
         .sample("normalMap", f.gbuffer.normal)
         .read("camera", scene.camera)
         .push(f.vals.count)
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+ImageHandle addIsmView(FrameGraph& graph, const IsmAtlas& isms) {
+    const uint32_t columns = uint32_t(std::ceil(std::sqrt(float(isms.mapCount))));
+    const uint32_t rows = (isms.mapCount + columns - 1) / columns;
+    const ImageHandle out = layerImage(graph, glm::uvec2(columns, rows) * isms.tileSize);
+    graph.fullscreen("debug_view.ism", "debug_view/ism.frag")
+        .read("planes", isms.planes)
+        .push(glm::uvec3(isms.mapCount, isms.tileSize, columns))
         .colorClear(out, glm::vec4(0));
     return out;
 }
@@ -135,6 +148,8 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
             return lit ? addClusters(graph, scene, f) : ImageHandle{};
         case Layer::kVals:
             return lit ? addVals(graph, scene, f) : ImageHandle{};
+        case Layer::kIsm:
+            return f.isms.planes ? addIsmView(graph, f.isms) : ImageHandle{};
         case Layer::kCount:
             break;
     }

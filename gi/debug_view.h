@@ -22,7 +22,8 @@ enum class Layer : uint32_t {
     kRsm,    // radiosity over the light maps, W/m²
     kImportance,
     kClusters,  // Voronoi colours over the scene
-    kVals,      // area lights drawn as disks over the scene
+    kVals,      // area lights drawn as polygons over the scene
+    kIsm,       // imperfect shadow maps side by side, m
     kCount
 };
 

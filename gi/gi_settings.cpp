@@ -27,13 +27,14 @@ void setRsmc(GiSettings& gi) {
     gi.valShading.interleave = 1;
     gi.valShading.farShape = ValShape::kDisk;
     gi.valShading.nearReach = 0;
+    gi.valClustering.adaptive = false;
     gi.importance.viewWeight = 1;  // the geometry term toward the view alone
     gi.valClustering.distanceWeight = gi.valClustering.normalWeight = 1;
     gi.valClustering.chromaWeight = 10;
 }
 
 // Ours by budget: lights, points a shadow map is made of, and how far the gather is shared out.
-void setAfterglowLow(GiSettings& gi) {
+void setLow(GiSettings& gi) {
     gi.valClustering.count = 64;
     gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
     gi.valShading.interleave = 4;
@@ -42,17 +43,17 @@ void setAfterglowLow(GiSettings& gi) {
 
 void setAfterglow(GiSettings&) {}
 
-void setAfterglowHigh(GiSettings& gi) {
+void setHigh(GiSettings& gi) {
     gi.valClustering.count = 256;
     gi.ismAtlas.pointsPerMap = 8192;
     gi.valShading.interleave = 2;
 }
 
-void setAfterglowUltra(GiSettings& gi) {
+void setUltra(GiSettings& gi) {
     gi.rsm.resolution = 512;
     gi.valClustering.count = 512;
-    gi.ismAtlas = {.tileSize = 128, .pointsPerMap = 16384};
-    gi.valShading.interleave = 1;
+    gi.ismAtlas = {.tileSize = 128, .pointsPerMap = 8192};
+    gi.valShading.interleave = 2;
     gi.valShading.nearReach = 6;
     gi.valShading.taps = 16;
 }
@@ -62,14 +63,15 @@ struct Preset {
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 8> kPresets = {{{"none", setNone},
+constexpr std::array<Preset, 9> kPresets = {{{"none", setNone},
                                              {"rsm-brute", setRsmBrute},
                                              {"rsm-400", setRsm400},
                                              {"rsmc", setRsmc},
                                              {"afterglow", setAfterglow},
-                                             {"afterglow-low", setAfterglowLow},
-                                             {"afterglow-high", setAfterglowHigh},
-                                             {"afterglow-ultra", setAfterglowUltra}}};
+                                             {"medium", setAfterglow},
+                                             {"low", setLow},
+                                             {"high", setHigh},
+                                             {"ultra", setUltra}}};
 constexpr auto kPresetNames = [] {
     std::array<std::string_view, kPresets.size()> names;
     for (size_t i = 0; i < names.size(); ++i)
@@ -115,6 +117,8 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.valClustering.normalWeight);
     s.add({"val_clustering", "chroma_weight", 0, 1000, "", "metric: squared difference of flux colour"},
           &gi.valClustering.chromaWeight);
+    s.add({"val_clustering", "adaptive", 0, 0, "", "split clusters with much error, drop those with little"},
+          &gi.valClustering.adaptive);
     s.add({"val_clustering", "settle_frames", 0, 1000, "frames",
            "clustering steps after the light maps last changed"},
           &gi.valClustering.settleFrames);

@@ -42,7 +42,7 @@ struct GiSettings {
 
 // Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
 // "rsm-400" (Dachsbacher & Stamminger 2005), "rsmc" (RSM clustering as published), "afterglow" (the default),
-// "afterglow-low", "-high" and "-ultra".
+// and that by budget: "low", "medium" (the same), "high", "ultra".
 // False if there is no such preset.
 bool applyPreset(std::string_view name, GiSettings& gi);
 std::span<const std::string_view> presetNames();

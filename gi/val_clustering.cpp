@@ -23,20 +23,49 @@ uint32_t advance(ValClusteringHistory& history, uint64_t inputsVersion, uint32_t
     return history.step;
 }
 
+// Member by member: the struct has padding.
+uint64_t hashOf(const ValClusteringSettings& s) {
+    const glm::vec4 metric(s.distanceWeight, s.normalWeight, s.chromaWeight, s.adaptive ? 1 : 0);
+    return combineHash(hashValue(metric), hashValue(glm::uvec2(s.count, s.settleFrames)));
+}
+
 struct SeedPush {
     io::ClusterSettings settings;
     uint32_t faceCount;
     uint32_t pyramidStride;
 };
 
+// Clusters and how far they reach, of this step and the one before.
+struct State {
+    HistoryBuffer clusters, extents;
+};
+
+BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const State& state,
+                         const io::ClusterSettings& push) {
+    const BufferHandle plans =
+        graph.buffer("val_clustering.plans", {.sizeBytes = push.clusterCount * sizeof(uint32_t)});
+    graph.compute("val_clustering.adapt", "val_clustering/adapt.comp")
+        .readPrevious("previous", state.clusters)
+        .readPrevious("extents", state.extents)
+        .read("maps", rsm.maps)
+        .read("texels", rsm.texels)
+        .write("plans", plans)
+        .push(push)
+        .dispatchGroups(push.mapCount);
+    return plans;
+}
+
 void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
-                const HistoryBuffer& clusters, BufferHandle seeds, const io::ClusterSettings& push) {
+                const HistoryBuffer& clusters, BufferHandle plans, BufferHandle seeds,
+                const io::ClusterSettings& push) {
     graph.compute("val_clustering.seed", "val_clustering/seed.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
         .read("pyramid", importance.pyramid)
         .readPrevious("previous", clusters)
+        .read("plans", plans ? plans : rsm.maps)
+        .spec(0, bool(plans))
         .write("seeds", seeds)
         .push(SeedPush{push, rsm.atlas.faceCount, importance.pyramidStride})
         .dispatchThreads(push.clusterCount);
@@ -95,7 +124,7 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
                           ValClusteringHistory& history) {
     if (rsm.empty()) return {};
     const uint64_t inputs = combineHash(
-        combineHash(rsm.inputsVersion, importance.viewDependent ? viewVersion : 0), hashValue(settings));
+        combineHash(rsm.inputsVersion, importance.viewDependent ? viewVersion : 0), hashOf(settings));
     const io::ClusterSettings push{
         .metricWeights = {settings.distanceWeight, settings.normalWeight, settings.chromaWeight},
         .clusterCount = settings.count,
@@ -104,11 +133,12 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
         .step = advance(history, inputs, settings.settleFrames)};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
-    const HistoryBuffer state = graph.historyBuffer(
-        "val_clustering.clusters", {.sizeBytes = settings.count * sizeof(io::Cluster), .texelFormat = kVec4});
-    Clusters c{.clusters = state.current, .count = settings.count};
-    c.extents =
-        graph.buffer("val_clustering.extents", {.sizeBytes = settings.count * sizeof(io::ClusterExtent)});
+    const State state{
+        graph.historyBuffer("val_clustering.clusters",
+                            {.sizeBytes = settings.count * sizeof(io::Cluster), .texelFormat = kVec4}),
+        graph.historyBuffer("val_clustering.extents",
+                            {.sizeBytes = settings.count * sizeof(io::ClusterExtent)})};
+    Clusters c{.clusters = state.clusters.current, .extents = state.extents.current, .count = settings.count};
     c.seeds = graph.buffer("val_clustering.seeds",
                            {.sizeBytes = settings.count * sizeof(io::ClusterSeed), .texelFormat = kVec4});
     c.candidates =
@@ -121,7 +151,8 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
         graph.buffer("val_clustering.slot_of_cluster",
                      {.sizeBytes = uint64_t(rsm.tileCount) * settings.count * 4, .texelFormat = kUint});
 
-    addSeeding(graph, rsm, importance, state, c.seeds, push);
+    const BufferHandle plans = settings.adaptive ? addAdaption(graph, rsm, state, push) : BufferHandle{};
+    addSeeding(graph, rsm, importance, state.clusters, plans, c.seeds, push);
     addAssignment(graph, rsm, c, slotOfCluster, push);
     addUpdate(graph, rsm, c, slotOfCluster, push);
     return c;

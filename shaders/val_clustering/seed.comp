@@ -9,6 +9,7 @@
 #include "val_clustering/val_clustering_io.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kAdaptive = false;
 layout(push_constant, scalar) uniform Push {
     ClusterSettings settings;
     uint faceCount;
@@ -20,6 +21,7 @@ layout(set = 0, binding = 1, scalar) readonly buffer Faces { RsmFace items[]; } 
 layout(set = 0, binding = 2, scalar) readonly buffer Maps { RsmMap items[]; } maps;
 layout(set = 0, binding = 3, scalar) readonly buffer Pyramid { float items[]; } pyramid;
 layout(set = 0, binding = 4, scalar) readonly buffer Previous { Cluster items[]; } previous;
+layout(set = 0, binding = 6, scalar) readonly buffer Plans { uint items[]; } plans;
 layout(set = 0, binding = 5, scalar) writeonly buffer Seeds { ClusterSeed items[]; } seeds;
 
 uint tileOfTexel(uvec2 coord) {
@@ -124,6 +126,11 @@ ClusterSeed seedFromImportance(uint cluster, uint mapIndex) {
     return ClusterSeed(s.position, tileOfTexel(origin), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
 }
 
+ClusterSeed seedFromTexel(uint texel, uint mapIndex) {
+    RsmSurface s = AG_RSM_FETCH(texels, texel);
+    return ClusterSeed(s.position, texel / (kRsmTileSize * kRsmTileSize), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
+}
+
 void main() {
     uint cluster = gl_GlobalInvocationID.x;
     if (cluster >= push.settings.clusterCount) return;
@@ -131,6 +138,11 @@ void main() {
     for (uint i = 0; i < push.settings.mapCount; ++i)
         if (cluster >= maps.items[i].firstCluster) mapIndex = i;
 
+    uint plan = kAdaptive ? plans.items[cluster] : kPlanKeep;
+    if (plan != kPlanKeep && plan != kPlanAnew) {
+        seeds.items[cluster] = seedFromTexel(plan, mapIndex);
+        return;
+    }
     Cluster before = previous.items[cluster];
     bool kept = before.texelCount > 0.0 && before.lightIdLow == maps.items[mapIndex].lightIdLow;
     uint tile = kept ? projectToTile(before.position, maps.items[mapIndex]) : kNoCluster;

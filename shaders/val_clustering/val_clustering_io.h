@@ -11,6 +11,10 @@ namespace ag::io {
 const uint kMaxClusters = 1024;
 const uint kMaxCandidates = 256;  // a tile considers at most so many clusters
 const uint kNoCluster = 0xffffffffu;
+
+// What a step has planned for a cluster's place: keep it, seed it anew, or (any other number) start at that
+// texel.
+const uint kPlanKeep = 0xffffffffu, kPlanAnew = 0xfffffffeu;
 const uint kPartialVec4s = 10;  // what a tile keeps for each of its candidates: 6 of sums, 4 of extremes
 const uint kExtremes = 8;       // directions in the seed's plane, 45 degrees apart
 

@@ -39,9 +39,9 @@ std::vector<Technique> makeTechniques() {
          .description = "RSM clustering with published disks (Prutkin et al. 2012)",
          .variants = clusterBudgets()},
         {.name = "afterglow", .description = "ours", .variants = clusterBudgets()},
-        {.name = "afterglow-low", .description = "ours, least work", .variants = {{"", {}}}},
-        {.name = "afterglow-high", .description = "ours, for more accuracy", .variants = {{"", {}}}},
-        {.name = "afterglow-ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},
+        {.name = "low", .description = "ours, least work", .variants = {{"", {}}}},
+        {.name = "high", .description = "ours, for more accuracy", .variants = {{"", {}}}},
+        {.name = "ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},
     };
 }
 
