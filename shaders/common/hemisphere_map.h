@@ -24,16 +24,5 @@ AG_FUNCTION vec3 hemisphereDecode(vec2 uv) {
     return normalize(hemisphereDirection(uv));
 }
 
-// The paraboloid map of Brabec et al. (2002), as the sources have it: a disk in the square.
-AG_FUNCTION vec2 paraboloidEncode(vec3 unit) {
-    return vec2(unit.x, unit.y) / (2.0f * (1.0f + unit.z)) + vec2(0.5f);
-}
-
-AG_FUNCTION vec3 paraboloidDecode(vec2 uv) {
-    vec2 p = uv * 2.0f - vec2(1.0f);
-    float r2 = dot(p, p);
-    return normalize(vec3(2.0f * p.x, 2.0f * p.y, 1.0f - r2));
-}
-
 AG_END
 #endif

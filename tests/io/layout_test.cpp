@@ -7,11 +7,14 @@
 
 #include "engine/gpu/shader.h"
 #include "shaders/importance/importance_io.h"
+#include "shaders/ism_atlas/ism_atlas_io.h"
 #include "shaders/rsm/rsm_io.h"
 #include "shaders/scene/scene_io.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
+#include "shaders/surface_points/surface_points_io.h"
 #include "shaders/val_clustering/val_clustering_io.h"
 #include "shaders/val_fit/val_fit_io.h"
+#include "shaders/val_shading/val_shading_io.h"
 
 namespace ag {
 namespace {
@@ -92,7 +95,33 @@ const std::map<std::string, Layout>& layouts() {
         {"Val",
          {sizeof(io::Val),
           {AG_MEMBER(Val, position), AG_MEMBER(Val, area), AG_MEMBER(Val, normal), AG_MEMBER(Val, radius),
-           AG_MEMBER(Val, flux), AG_MEMBER(Val, before)}}}};
+           AG_MEMBER(Val, flux), AG_MEMBER(Val, before)}}},
+        {"ValShapeVectors",
+         {sizeof(io::ValShapeVectors),
+          {AG_MEMBER(ValShapeVectors, halfU), AG_MEMBER(ValShapeVectors, inverseRectangle),
+           AG_MEMBER(ValShapeVectors, halfV), AG_MEMBER(ValShapeVectors, inversePolygon),
+           AG_MEMBER(ValShapeVectors, corners), AG_MEMBER(ValShapeVectors, gradient)}}},
+        {"ClusterExtent",
+         {sizeof(io::ClusterExtent),
+          {AG_MEMBER(ClusterExtent, texels), AG_MEMBER(ClusterExtent, before),
+           AG_MEMBER(ClusterExtent, areaCentre)}}},
+        {"SurfaceEdge",
+         {sizeof(io::SurfaceEdge), {AG_MEMBER(SurfaceEdge, inward), AG_MEMBER(SurfaceEdge, distance)}}},
+        {"SurfacePoint",
+         {sizeof(io::SurfacePoint),
+          {AG_MEMBER(SurfacePoint, position), AG_MEMBER(SurfacePoint, unused0),
+           AG_MEMBER(SurfacePoint, normal), AG_MEMBER(SurfacePoint, unused1),
+           AG_MEMBER(SurfacePoint, edges)}}},
+        {"IsmSplatPush",
+         {sizeof(io::IsmSplatPush),
+          {AG_MEMBER(IsmSplatPush, pointCount), AG_MEMBER(IsmSplatPush, tileSize),
+           AG_MEMBER(IsmSplatPush, pointsPerMap), AG_MEMBER(IsmSplatPush, pointRadius),
+           AG_MEMBER(IsmSplatPush, inverseExtent)}}},
+        {"ValShadingPush",
+         {sizeof(io::ValShadingPush),
+          {AG_MEMBER(ValShadingPush, valCount), AG_MEMBER(ValShadingPush, tileSize),
+           AG_MEMBER(ValShadingPush, tiles), AG_MEMBER(ValShadingPush, nearReach),
+           AG_MEMBER(ValShadingPush, ismTileSize)}}}};
     return all;
 }
 

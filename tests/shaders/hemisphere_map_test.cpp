@@ -25,17 +25,6 @@ TEST(HemisphereMap, OctahedralRoundTrip) {
     }
 }
 
-TEST(HemisphereMap, ParaboloidRoundTripInADisk) {
-    std::mt19937 random(5);
-    std::normal_distribution<float> g;
-    for (int i = 0; i < 10000; ++i) {
-        const vec3 d = glm::normalize(vec3(g(random), g(random), std::abs(g(random))));
-        const vec2 uv = io::paraboloidEncode(d);
-        EXPECT_LT(glm::length(uv - 0.5f), 0.5001f);
-        EXPECT_LT(glm::length(io::paraboloidDecode(uv) - d), 1e-5f);
-    }
-}
-
 TEST(HemisphereMap, OctahedralTexelsSeeSimilarSolidAngles) {
     constexpr int kSize = 64;
     double least = 1e9, most = 0, sum = 0;
