@@ -36,7 +36,7 @@ void setRsmc(GiSettings& gi) {
 // Ours by budget: lights, points a shadow map is made of, and how far the gather is shared out.
 void setLow(GiSettings& gi) {
     gi.valClustering.count = 64;
-    gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
+    gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 2048};
     gi.valShading.interleave = 4;
     gi.valShading.taps = 4;
 }
@@ -150,6 +150,8 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.ismAtlas.tileSize);
     s.add({"ism_atlas", "points_per_map", 64, 131072, "points", "splatted into each depth map"},
           &gi.ismAtlas.pointsPerMap);
+    s.add({"ism_atlas", "near_more", 0, 0, "", "more points from surfaces near the light, fewer far off"},
+          &gi.ismAtlas.nearMore);
     s.add(
         {"ism_atlas", "splat_scale", 0.1, 10, "", "of the points' disks; at 1 they have the surfaces' area"},
         &gi.ismAtlas.splatScale);

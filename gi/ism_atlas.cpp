@@ -47,22 +47,34 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
     IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms),
                    .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u)};
     const uint32_t perMap = std::min(settings.pointsPerMap, points.count);
-    // Fewer points stand for the same surfaces: their disks are larger.
-    atlas.pointRadius = settings.splatScale * points.radius * std::sqrt(float(points.count) / float(perMap));
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
     const BufferHandle keys =
         graph.buffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = VK_FORMAT_R32_UINT});
     atlas.planes = graph.buffer("ism_atlas.planes", {.sizeBytes = (texels + texels / 3 + 1) * 16,
                                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     const io::IsmSplatPush push{.pointCount = points.count,
+                                .segmentCount = points.segmentCount,
                                 .tileSize = atlas.tileSize,
                                 .pointsPerMap = perMap,
-                                .pointRadius = atlas.pointRadius,
+                                .pointRadius = settings.splatScale * points.radius,
                                 .inverseExtent = 1 / points.extent};
+    const BufferHandle chosen = graph.buffer(
+        "ism_atlas.chosen", {.sizeBytes = atlas.mapCount * perMap * 4ull, .texelFormat = VK_FORMAT_R32_UINT});
+    const BufferHandle counts = graph.buffer("ism_atlas.counts", {.sizeBytes = atlas.mapCount * 4ull});
+    graph.compute("ism_atlas.choose", "ism_atlas/choose_points.comp")
+        .read("segments", points.segments)
+        .read("vals", vals.vals)
+        .write("chosen", chosen)
+        .write("counts", counts)
+        .spec(0, settings.nearMore)
+        .push(push)
+        .dispatchGroups(atlas.mapCount);
     graph.fill("ism_atlas.clear", keys, io::kIsmNoPoint);
     graph.compute("ism_atlas.splat", "ism_atlas/splat_points.comp")
         .read("points", points.points)
         .read("vals", vals.vals)
+        .read("chosen", chosen)
+        .read("counts", counts)
         .readWrite("keys", keys)
         .push(push)
         .dispatchGroups((perMap + 63) / 64, atlas.mapCount);
@@ -70,6 +82,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
         .read("points", points.points)
         .read("vals", vals.vals)
         .read("keys", keys)
+        .read("chosen", chosen)
         .write("planes", atlas.planes)
         .push(push)
         .dispatchGroups(atlas.tileSize * atlas.tileSize / 256, atlas.mapCount);

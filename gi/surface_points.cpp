@@ -9,6 +9,7 @@ namespace ag::gi {
 SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     if (scene.surfaceSampleCount == 0) return {};
     SurfacePoints p{.count = scene.surfaceSampleCount};
+    p.segmentCount = (p.count + io::kSegmentPoints - 1) / io::kSegmentPoints;
     p.radius = std::sqrt(scene.surfaceArea / (std::numbers::pi_v<float> * float(p.count)));
     p.extent = std::max(glm::length(scene.scene->bounds.max - scene.scene->bounds.min), 1e-6f);
     p.points = graph.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
@@ -20,6 +21,14 @@ SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
         .push(p.count)
         .key(scene.scene->instancesVersion)
         .dispatchThreads(p.count);
+    p.segments =
+        graph.buffer("surface_points.segments", {.sizeBytes = p.segmentCount * sizeof(io::SurfaceSegment),
+                                                 .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.compute("surface_points.bound", "surface_points/bound_segments.comp")
+        .read("points", p.points)
+        .write("segments", p.segments)
+        .push(p.count)
+        .dispatchThreads(p.segmentCount);
     return p;
 }
 

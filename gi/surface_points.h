@@ -1,5 +1,6 @@
 // Points spread over the scene's surfaces by area (ACRSM section 5.1.3; Ritschel et al. 2008), chosen once
-// and carried along by their instances. Every prefix and every n-th of them is spread over the whole scene.
+// and carried along by their instances. They lie along a curve through all surfaces; segments of it are
+// bounded by balls, so that what is near a place can be found.
 #pragma once
 
 #include <vector>
@@ -10,8 +11,9 @@
 namespace ag::gi {
 
 struct SurfacePoints {
-    BufferHandle points;  // io::SurfacePoint; also a texel buffer of vec4
-    uint32_t count = 0;
+    BufferHandle points;    // io::SurfacePoint; also a texel buffer of vec4
+    BufferHandle segments;  // io::SurfaceSegment; also a texel buffer of vec4
+    uint32_t count = 0, segmentCount = 0;
     float extent = 0;  // m: no two points are farther apart
     float radius = 0;  // m: disks of this radius have the area of all surfaces together
 };

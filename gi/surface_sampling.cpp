@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <tuple>
 #include <unordered_map>
@@ -14,9 +13,9 @@ namespace ag::gi {
 namespace {
 
 struct Corners {
-    glm::vec3 local[3];
+    std::array<glm::vec3, 3> local;
     uint8_t sharpEdges = 0;  // bit i: the surface ends or bends at the edge from corner i on
-    double area = 0;         // m², in the world
+    float bend = 0;          // 1/m
 };
 
 constexpr float kFlatCosine = 0.94f;  // 20 degrees: a bend that disks may span
@@ -72,31 +71,64 @@ std::vector<uint8_t> sharpEdges(const GeometryArrays& g, const Primitive& p) {
     return sharp;
 }
 
-Corners cornersOf(const RenderScene& scene, const RenderInstance& instance, uint32_t triangle) {
-    const GeometryArrays& g = *scene.geometry;
-    const Primitive& p = g.primitives[instance.primitive];
-    Corners c;
-    glm::vec3 world[3];
-    const auto local = localCorners(g, p, triangle);
-    for (uint32_t i = 0; i < 3; ++i) {
-        c.local[i] = local[i];
-        world[i] = instance.worldFromLocal * glm::vec4(c.local[i], 1);
-    }
-    c.area = 0.5 * double(glm::length(glm::cross(world[1] - world[0], world[2] - world[0])));
-    return c;
+std::array<glm::vec3, 3> worldCorners(const RenderInstance& instance, const std::array<glm::vec3, 3>& local) {
+    std::array<glm::vec3, 3> world;
+    for (uint32_t i = 0; i < 3; ++i)
+        world[i] = instance.worldFromLocal * glm::vec4(local[i], 1);
+    return world;
 }
 
-template <class F>
-void forEachTriangle(const RenderScene& scene, F&& visit) {
+// A triangle of an instance, and where along the curve through all of them it comes.
+struct CurveTriangle {
+    uint32_t place;  // Morton code of its centre in the scene's box
+    uint32_t instance, triangle;
+    double area;  // m², in the world
+};
+
+// Every third bit of 30 from ten.
+uint32_t spreadThird(uint32_t x) {
+    x = (x | x << 16) & 0x030000ffu;
+    x = (x | x << 8) & 0x0300f00fu;
+    x = (x | x << 4) & 0x030c30c3u;
+    return (x | x << 2) & 0x09249249u;
+}
+
+uint32_t mortonCode(glm::vec3 p, const Bounds& bounds) {
+    const glm::vec3 size = glm::max(bounds.max - bounds.min, glm::vec3(1e-6f));
+    const glm::uvec3 cell(glm::clamp((p - bounds.min) / size, 0.0f, 1.0f) * 1023.0f);
+    return spreadThird(cell.x) | spreadThird(cell.y) << 1 | spreadThird(cell.z) << 2;
+}
+
+// All that block light, neighbours in space near each other.
+std::vector<CurveTriangle> curveOf(const RenderScene& scene) {
     const GeometryArrays& g = *scene.geometry;
+    std::vector<CurveTriangle> curve;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Primitive& p = g.primitives[scene.instances[i].primitive];
         if (g.materials[p.material].alphaMode == AlphaMode::kBlend) continue;
         for (uint32_t t = 0; t < p.indexCount / 3; ++t) {
-            Corners c = cornersOf(scene, scene.instances[i], t);
-            visit(i, t, c);
+            const auto w = worldCorners(scene.instances[i], localCorners(g, p, t));
+            const double area = 0.5 * double(glm::length(glm::cross(w[1] - w[0], w[2] - w[0])));
+            curve.push_back({mortonCode((w[0] + w[1] + w[2]) / 3.0f, scene.bounds), i, t, area});
         }
     }
+    std::ranges::stable_sort(curve, {}, &CurveTriangle::place);
+    return curve;
+}
+
+// The most that smooth normals turn along a side of the triangle, over its length.
+float bendOf(const GeometryArrays& g, const Primitive& p, uint32_t triangle,
+             const std::array<glm::vec3, 3>& corners) {
+    std::array<glm::vec3, 3> normals;
+    for (uint32_t i = 0; i < 3; ++i)
+        normals[i] =
+            g.attributes[size_t(int64_t(p.vertexOffset) + g.indices[p.firstIndex + 3 * triangle + i])].normal;
+    float bend = 0;
+    for (uint32_t i = 0; i < 3; ++i) {
+        const float length = glm::length(corners[(i + 1) % 3] - corners[i]);
+        bend = std::max(bend, glm::length(normals[(i + 1) % 3] - normals[i]) / std::max(length, 1e-12f));
+    }
+    return bend;
 }
 
 // The two nearest of the triangle's sharp edges.
@@ -135,24 +167,13 @@ glm::vec3 pointOn(const Corners& c, double share) {
     return (p + q + r) / 3.0f;
 }
 
-// By mirrored bits of their places along the surfaces: neighbours in the order are far apart, and any run of
-// them is spread evenly.
-std::vector<io::SurfaceSample> interleaved(const std::vector<io::SurfaceSample>& samples) {
-    const uint32_t count = uint32_t(samples.size()), bits = uint32_t(std::bit_width(count - 1));
-    std::vector<io::SurfaceSample> out;
-    out.reserve(count);
-    for (uint32_t i = 0; i < 1u << bits; ++i) {
-        const uint32_t mirrored = uint32_t(double(io::radicalInverse2(i)) * (1u << bits));
-        if (mirrored < count) out.push_back(samples[mirrored]);
-    }
-    return out;
-}
-
 }  // namespace
 
 SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
+    const std::vector<CurveTriangle> curve = curveOf(scene);
     double total = 0;
-    forEachTriangle(scene, [&](uint32_t, uint32_t, const Corners& c) { total += c.area; });
+    for (const CurveTriangle& t : curve)
+        total += t.area;
     SurfaceSamples out{.area = float(total)};
     if (!(total > 0) || count == 0) return out;
     out.samples.reserve(count + 1);
@@ -160,22 +181,24 @@ SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
     // Equal steps along all triangles' area laid end to end.
     const double step = total / count;
     double before = 0, next = 0.5 * step;
-    forEachTriangle(scene, [&](uint32_t instance, uint32_t triangle, Corners& c) {
-        before += c.area;
-        if (next >= before) return;
-        const uint32_t primitive = scene.instances[instance].primitive;
+    for (const CurveTriangle& t : curve) {
+        before += t.area;
+        if (next >= before) continue;
+        const uint32_t primitive = scene.instances[t.instance].primitive;
+        const Primitive& p = scene.geometry->primitives[primitive];
         auto& edges = sharp[primitive];
-        if (edges.empty()) edges = sharpEdges(*scene.geometry, scene.geometry->primitives[primitive]);
-        c.sharpEdges = edges[triangle];
+        if (edges.empty()) edges = sharpEdges(*scene.geometry, p);
+        Corners c{localCorners(*scene.geometry, p, t.triangle), edges[t.triangle]};
+        c.bend = bendOf(*scene.geometry, p, t.triangle, c.local);
         for (; next < before; next += step) {
-            io::SurfaceSample sample{.positionLocal = pointOn(c, 1 - (before - next) / c.area),
-                                     .instance = instance,
-                                     .normalLocal = faceNormal({c.local[0], c.local[1], c.local[2]})};
+            io::SurfaceSample sample{.positionLocal = pointOn(c, 1 - (before - next) / t.area),
+                                     .instance = t.instance,
+                                     .normalLocal = faceNormal(c.local),
+                                     .bendLocal = c.bend};
             noteEdges(c, sample);
             out.samples.push_back(sample);
         }
-    });
-    out.samples = interleaved(out.samples);
+    }
     return out;
 }
 

@@ -9,12 +9,12 @@
 namespace ag::gi {
 
 struct SurfaceSamples {
-    std::vector<io::SurfaceSample> samples;  // any run of them is spread over everything
+    std::vector<io::SurfaceSample> samples;  // along a curve: neighbours in the list are neighbours in space
     float area = 0;                          // m² of all sampled surfaces, one side
 };
 
-// About `count` points, as many on equal areas as can be; none on alpha-blended surfaces. The same scene
-// gives the same points.
+// About `count` points at equal steps of area along a curve through all surfaces but alpha-blended ones, so
+// that every n-th of any stretch is spread evenly over it. The same scene gives the same points.
 SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
 
 }  // namespace ag::gi

@@ -18,10 +18,10 @@ const uint kIsmPointBits = 17;
 const uint kIsmNoPoint = 0xffffffffu;
 
 struct IsmSplatPush {
-    uint pointCount;
+    uint pointCount, segmentCount;
     uint tileSize;  // texels along a map's side
     uint pointsPerMap;
-    float pointRadius;    // m
+    float pointRadius;    // m, where all points are used
     float inverseExtent;  // 1/m: of the greatest distance
 };
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The nearest points' planes and distances, for the lookup.
+// The nearest points' planes and distances, for the lookup. Where the surface is bent, the plane is moved behind it, so
+// that a fold does not shadow itself.
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
 
@@ -11,15 +12,29 @@ layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 2) uniform usamplerBuffer keys;
+layout(set = 0, binding = 4) uniform usamplerBuffer chosen;
 layout(set = 0, binding = 3, scalar) writeonly buffer Planes { vec4 items[]; } planes;
+
+// How far the surface may lie off the plane within a disk or a texel, whichever is larger: a bend of k gives k r² / 2.
+float depthOfBend(float bend, float radius, float distance_) {
+    const float kTexelShare = 1.2533141;  // half the side of a texel of 2 pi / tileSize²
+    float r = max(radius, kTexelShare * distance_ / float(push.p.tileSize));
+    return min(0.5 * bend * r * r, r);
+}
 
 void main() {
     uint map = gl_WorkGroupID.y, texels = push.p.tileSize * push.p.tileSize;
     uint texel = map * texels + gl_GlobalInvocationID.x;  // tiles are whole workgroups
     uint key = texelFetch(keys, int(texel)).x;
-    int point = int(min(key & ((1u << kIsmPointBits) - 1u), push.p.pointCount - 1u));
+    uint entry = min(key & ((1u << kIsmPointBits) - 1u), push.p.pointsPerMap - 1u);
+    uint packed = texelFetch(chosen, int(map * push.p.pointsPerMap + entry)).x;
+    int point = int(min(pointOf(packed), push.p.pointCount - 1u)) * 4;
     IsmLight light = AG_ISM_LIGHT(vals, map);
-    vec3 p = toLight(light, texelFetch(points, point * 4).xyz - light.place);
-    vec3 m = planeThrough(p, toLight(light, texelFetch(points, point * 4 + 1).xyz));
-    planes.items[texel] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, length(p));
+    vec4 place = texelFetch(points, point);
+    vec3 p = toLight(light, place.xyz - light.place);
+    float distance_ = length(p);
+    // Farther along the way from the light: there the surface is for certain behind.
+    p *= 1.0 + depthOfBend(place.w, radiusOf(packed), distance_) / max(distance_, 1e-6);
+    vec3 m = planeThrough(p, toLight(light, texelFetch(points, point + 1).xyz));
+    planes.items[texel] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, distance_);
 }

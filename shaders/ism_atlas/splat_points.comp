@@ -3,8 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_shuffle : require
-// Each map gets its own share of the points (Ritschel et al. 2008), as disks in the surfaces' planes: a texel is met
-// where the disk is, at the distance of its plane there, and keeps the nearest by an atomic minimum of its key.
+// Each map's own points (Ritschel et al. 2008) as disks in the surfaces' planes: a texel is met where the disk is, at
+// the distance of its plane there, and keeps the nearest by an atomic minimum of its key.
 #include "common/hemisphere_map.h"
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
@@ -14,28 +14,34 @@ layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
+layout(set = 0, binding = 3) uniform usamplerBuffer chosen;
+layout(set = 0, binding = 4, scalar) readonly buffer Counts { uint items[]; } counts;
 layout(set = 0, binding = 2, scalar) buffer Keys { uint items[]; } keys;
 
 const float kLeastSine = 0.01;  // lower above the light's plane is its own surface
 const int kSmallReach = 2;      // texels to each side: splatted by one lane, larger ones by the whole subgroup
 const int kMostReach = 16;
 
-uint keyOf(float distance_, uint point) {
+uint keyOf(float distance_, uint entry) {
     const uint kLeastExponent = 111u << 11;
     uint bits = floatBitsToUint(distance_ * push.p.inverseExtent) >> 12;
-    return clamp(bits, kLeastExponent, kLeastExponent + 32766u) - kLeastExponent << kIsmPointBits | point;
+    return clamp(bits, kLeastExponent, kLeastExponent + 32766u) - kLeastExponent << kIsmPointBits | entry;
 }
 
 struct Splat {
     vec3 place, plane;  // of the point and through it, in the light's frame
     vec4 edges[2];      // inward, distance
-    uint point;
+    uint entry;    // among the map's points
+    float radius;  // m
     int reach;  // texels to each side; -1: nothing
 };
 
-Splat splatOf(uint point, IsmLight light) {
+Splat splatOf(uint map, uint entry, IsmLight light) {
+    uint packed = texelFetch(chosen, int(map * push.p.pointsPerMap + entry)).x;
+    uint point = min(pointOf(packed), push.p.pointCount - 1);
     Splat s;
-    s.point = point;
+    s.entry = entry;
+    s.radius = radiusOf(packed);
     s.place = toLight(light, texelFetch(points, int(point) * 4).xyz - light.place);
     s.plane = planeThrough(s.place, toLight(light, texelFetch(points, int(point) * 4 + 1).xyz));
     for (int k = 0; k < 2; ++k) {
@@ -44,7 +50,7 @@ Splat splatOf(uint point, IsmLight light) {
     }
     float distance_ = length(s.place);
     // Half the tile's side spans about a right angle.
-    float reach = push.p.pointRadius / max(distance_, 1e-6) * float(push.p.tileSize) * (2.0 * kInvPi);
+    float reach = s.radius / max(distance_, 1e-6) * float(push.p.tileSize) * (2.0 * kInvPi);
     bool seen = light.lit && s.place.z > kLeastSine * distance_ && s.plane != vec3(0.0);
     s.reach = seen ? min(int(ceil(reach)), kMostReach) : -1;
     return s;
@@ -55,11 +61,11 @@ void touch(Splat s, uint tile, ivec2 texel, ivec2 centre) {
     vec3 hit = w / max(dot(s.plane, w), 1e-12);
     vec3 off = hit - s.place;
     bool isCentre = texel == centre;
-    bool inside = dot(off, off) <= push.p.pointRadius * push.p.pointRadius &&
+    bool inside = dot(off, off) <= s.radius * s.radius &&
                   dot(off, s.edges[0].xyz) >= -s.edges[0].w && dot(off, s.edges[1].xyz) >= -s.edges[1].w;
     if (!inside && !isCentre) return;
     float d = isCentre ? length(s.place) : length(hit);
-    atomicMin(keys.items[tile + uint(texel.y) * push.p.tileSize + uint(texel.x)], keyOf(d, s.point));
+    atomicMin(keys.items[tile + uint(texel.y) * push.p.tileSize + uint(texel.x)], keyOf(d, s.entry));
 }
 
 ivec2 centreOf(Splat s) {
@@ -87,16 +93,17 @@ Splat splatOfLane(Splat mine, uint lane) {
     s.place = subgroupShuffle(mine.place, lane);
     s.plane = subgroupShuffle(mine.plane, lane);
     for (int k = 0; k < 2; ++k) s.edges[k] = subgroupShuffle(mine.edges[k], lane);
-    s.point = subgroupShuffle(mine.point, lane);
+    s.entry = subgroupShuffle(mine.entry, lane);
+    s.radius = subgroupShuffle(mine.radius, lane);
     s.reach = subgroupShuffle(mine.reach, lane);
     return s;
 }
 
 void main() {
     uint map = gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
-    uint point = (map * push.p.pointsPerMap + gl_GlobalInvocationID.x) % push.p.pointCount;
-    Splat mine = splatOf(point, AG_ISM_LIGHT(vals, map));
-    if (gl_GlobalInvocationID.x >= push.p.pointsPerMap) mine.reach = -1;
+    uint entry = min(gl_GlobalInvocationID.x, push.p.pointsPerMap - 1);
+    Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
+    if (gl_GlobalInvocationID.x >= counts.items[map]) mine.reach = -1;
     if (mine.reach <= kSmallReach) splatAlone(mine, tile);
     uvec4 large = subgroupBallot(mine.reach > kSmallReach);
     while (large != uvec4(0)) {

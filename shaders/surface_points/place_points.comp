@@ -22,12 +22,13 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.count) return;
     vec4 a = texelFetch(samples, int(i) * 4);
-    vec3 n = texelFetch(samples, int(i) * 4 + 1).xyz;
+    vec4 n = texelFetch(samples, int(i) * 4 + 1);
     InstanceTransform t = fetchInstance(int(floatBitsToUint(a.w)));
     SurfacePoint p;
     p.position = transformPoint(t, a.xyz);
-    p.normal = normalize(transformNormal(t, n));
-    p.unused0 = p.unused1 = 0.0;
+    p.normal = normalize(transformNormal(t, n.xyz));
+    p.bend = n.w / max(length(transformDirection(t, n.xyz)), 1e-20);
+    p.unused = 0.0;
     for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, texelFetch(samples, int(i) * 4 + 2 + k));
     points.items[i] = p;
 }

@@ -17,16 +17,24 @@ struct SurfaceSample {  // 4 vec4: where on which instance, moving with it
     vec3 positionLocal;
     uint instance;
     vec3 normalLocal;  // unit, of the triangle
-    uint unused;
+    float bendLocal;   // 1/m: how fast the smooth normal turns along the triangle
     SurfaceEdge edgesLocal[2];
 };
 
 struct SurfacePoint {  // 4 vec4
     vec3 position;     // m
-    float unused0;
-    vec3 normal;  // unit
-    float unused1;
+    float bend;        // 1/m
+    vec3 normal;       // unit
+    float unused;
     SurfaceEdge edges[2];
+};
+
+// Points lie along a curve through all surfaces; so many in a row make a segment.
+const uint kSegmentPoints = 64;
+
+struct SurfaceSegment {  // 1 vec4: a ball round a segment's points
+    vec3 centre;         // m
+    float radius;        // m
 };
 
 #ifdef __cplusplus

@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// A ball round the points of each segment of the curve: about the middle of their box.
+#include "surface_points/surface_points_io.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { uint pointCount; } push;
+
+layout(set = 0, binding = 0) uniform samplerBuffer points;
+layout(set = 0, binding = 1, scalar) writeonly buffer Segments { SurfaceSegment items[]; } segments;
+
+vec3 placeOf(uint segment, uint i) {
+    return texelFetch(points, int(min(segment * kSegmentPoints + i, push.pointCount - 1)) * 4).xyz;
+}
+
+void main() {
+    uint segment = gl_GlobalInvocationID.x;
+    if (segment * kSegmentPoints >= push.pointCount) return;
+    vec3 least = vec3(3.0e38), most = vec3(-3.0e38);
+    for (uint i = 0; i < kSegmentPoints; ++i) {
+        vec3 p = placeOf(segment, i);
+        least = min(least, p);
+        most = max(most, p);
+    }
+    vec3 centre = 0.5 * (least + most);
+    float radius2 = 0.0;
+    for (uint i = 0; i < kSegmentPoints; ++i) {
+        vec3 d = placeOf(segment, i) - centre;
+        radius2 = max(radius2, dot(d, d));
+    }
+    segments.items[segment] = SurfaceSegment(centre, sqrt(radius2));
+}
