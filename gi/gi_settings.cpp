@@ -36,7 +36,7 @@ void setRsmc(GiSettings& gi) {
 // Ours by budget: lights, points a shadow map is made of, and how far the gather is shared out.
 void setLow(GiSettings& gi) {
     gi.valClustering.count = 64;
-    gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 2048};
+    gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
     gi.valShading.interleave = 4;
     gi.valShading.taps = 4;
 }
@@ -44,8 +44,9 @@ void setLow(GiSettings& gi) {
 void setAfterglow(GiSettings&) {}
 
 void setHigh(GiSettings& gi) {
+    gi.rsm.resolution = 512;
     gi.valClustering.count = 256;
-    gi.ismAtlas.pointsPerMap = 8192;
+    gi.ismAtlas.pointsPerMap = 4096;
     gi.valShading.interleave = 2;
 }
 

@@ -30,6 +30,7 @@ Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet
                          const ImportanceSettings& settings) {
     if (rsm.empty()) return {};
     Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace),
+                          .viewWeight = settings.viewWeight,
                           .viewDependent = settings.viewWeight > 0};
     const io::ImportanceSettings push{.atlasSize = rsm.atlas.size,
                                       .faceCount = rsm.atlas.faceCount,
@@ -38,8 +39,7 @@ Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet
     importance.pyramid =
         graph.buffer("importance.pyramid",
                      {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
-    const BufferHandle viewPoints =
-        importance.viewDependent ? addViewPoints(graph, scene, gbuffer) : BufferHandle{};
+    if (importance.viewDependent) importance.viewPoints = addViewPoints(graph, scene, gbuffer);
 
     const uint32_t blocks =
         (rsm.largestFace / io::kImportanceBlock) * (rsm.largestFace / io::kImportanceBlock);
@@ -47,7 +47,7 @@ Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet
         graph.compute("importance.evaluate", importance.viewDependent ? "importance/evaluate_view.comp"
                                                                       : "importance/evaluate_flux.comp");
     evaluate.read("texels", rsm.texels).read("faces", rsm.faces).read("maps", rsm.maps);
-    if (importance.viewDependent) evaluate.read("viewPoints", viewPoints);
+    if (importance.viewDependent) evaluate.read("viewPoints", importance.viewPoints);
     evaluate.write("pyramid", importance.pyramid)
         .push(push)
         .dispatchGroups((blocks + 63) / 64, rsm.atlas.faceCount);

@@ -10,12 +10,14 @@
 namespace ag::gi {
 
 struct ImportanceSettings {
-    float viewWeight = 0.0f;  // w_v: 0 flux alone (clusters then do not depend on the camera), 1 view alone
+    float viewWeight = 0.7f;  // w_v: 0 flux alone (clusters then do not depend on the camera), 1 view alone
 };
 
 struct Importance {
     BufferHandle pyramid;  // floats, per face: see shaders/importance/pyramid.glsl
     uint32_t pyramidStride = 0;
+    BufferHandle viewPoints;  // io::ViewPoint, also a texel buffer of vec4; invalid unless viewDependent
+    float viewWeight = 0;
     bool viewDependent = false;
 };
 

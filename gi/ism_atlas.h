@@ -14,9 +14,9 @@ namespace ag::gi {
 struct IsmAtlasSettings {
     bool enabled = true;           // off: bounced light passes through everything
     uint32_t tileSize = 64;        // texels along a map's side, a power of two from 16 to 128
-    uint32_t pointsPerMap = 4096;  // splatted into each map
+    uint32_t pointsPerMap = 2048;  // splatted into each map
     bool nearMore = true;          // points by the solid angle of surfaces instead of their area
-    float splatScale = 1.25f;      // of the points' disks, which at 1 have the surfaces' area
+    float splatScale = 1.5f;      // of the points' disks, which at 1 have the surfaces' area
     bool pullPush = true;          // close the holes between points
 };
 

@@ -40,8 +40,17 @@ struct State {
     HistoryBuffer clusters, extents;
 };
 
-BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const State& state,
-                         const io::ClusterSettings& push) {
+BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
+                         const State& state, const io::ClusterSettings& push) {
+    const BufferHandle errors =
+        graph.buffer("val_clustering.errors", {.sizeBytes = push.clusterCount * sizeof(io::ClusterError)});
+    graph.compute("val_clustering.evaluate", "val_clustering/evaluate.comp")
+        .readPrevious("previous", state.clusters)
+        .read("viewPoints", importance.viewDependent ? importance.viewPoints : rsm.texels)
+        .spec(0, importance.viewDependent)
+        .write("errors", errors)
+        .push(push)
+        .dispatchGroups(push.clusterCount);
     const BufferHandle plans =
         graph.buffer("val_clustering.plans", {.sizeBytes = push.clusterCount * sizeof(uint32_t)});
     graph.compute("val_clustering.adapt", "val_clustering/adapt.comp")
@@ -49,6 +58,7 @@ BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const State& stat
         .readPrevious("extents", state.extents)
         .read("maps", rsm.maps)
         .read("texels", rsm.texels)
+        .read("errors", errors)
         .write("plans", plans)
         .push(push)
         .dispatchGroups(push.mapCount);
@@ -130,6 +140,7 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
         .clusterCount = settings.count,
         .atlasSize = rsm.atlas.size,
         .mapCount = rsm.atlas.mapCount,
+        .viewWeight = importance.viewWeight,
         .step = advance(history, inputs, settings.settleFrames)};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
@@ -151,7 +162,8 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
         graph.buffer("val_clustering.slot_of_cluster",
                      {.sizeBytes = uint64_t(rsm.tileCount) * settings.count * 4, .texelFormat = kUint});
 
-    const BufferHandle plans = settings.adaptive ? addAdaption(graph, rsm, state, push) : BufferHandle{};
+    const BufferHandle plans =
+        settings.adaptive ? addAdaption(graph, rsm, importance, state, push) : BufferHandle{};
     addSeeding(graph, rsm, importance, state.clusters, plans, c.seeds, push);
     addAssignment(graph, rsm, c, slotOfCluster, push);
     addUpdate(graph, rsm, c, slotOfCluster, push);

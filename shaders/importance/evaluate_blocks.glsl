@@ -57,7 +57,7 @@ float facingTerm(vec4 a, vec3 n, vec3 position, vec3 normal) {
 float viewTerm(vec3 position, vec3 normal) {
     float sum = 0.0;
     if (kLaneParallel) {
-        for (uint base = 0; base < kViewPointCount; base += kSubgroupSize) {
+        for (uint base = 0; base < kSeedingViewPoints; base += kSubgroupSize) {
             int mine = int(base + gl_SubgroupInvocationID) * 2;
             vec4 a = texelFetch(viewPoints, mine);
             vec3 n = texelFetch(viewPoints, mine + 1).xyz;
@@ -65,11 +65,11 @@ float viewTerm(vec3 position, vec3 normal) {
                 sum += facingTerm(subgroupShuffle(a, lane), subgroupShuffle(n, lane), position, normal);
         }
     } else {
-        for (uint i = 0; i < kViewPointCount; ++i)
+        for (uint i = 0; i < kSeedingViewPoints; ++i)
             sum += facingTerm(texelFetch(viewPoints, int(i) * 2), texelFetch(viewPoints, int(i) * 2 + 1).xyz,
                               position, normal);
     }
-    return sum / float(kViewPointCount);
+    return sum / float(kSeedingViewPoints);
 }
 #endif
 

@@ -8,8 +8,9 @@
 namespace ag::io {
 #endif
 
-const uint kImportanceBlock = 4;   // texels along a block's side
-const uint kViewPointCount = 256;  // G-buffer samples the view term averages over (RSMC: 256)
+const uint kImportanceBlock = 4;      // texels along a block's side
+const uint kViewPointCount = 1024;    // G-buffer samples that stand for the view
+const uint kSeedingViewPoints = 256;  // of them for the view term of seeding (RSMC: 256)
 
 struct ViewPoint {  // 2 vec4
     vec3 position;

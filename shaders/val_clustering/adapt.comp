@@ -4,9 +4,9 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 // Evaluation of a map's clusters (ACRSM section 4.8): a random third of them is looked at each step; those with far more
-// than the mean error are split, those with far less give up their place for it. Difference: what is compared is a
-// cluster's flux times its texels' mean distance from it in the clustering's own metric, the error that many small
-// clusters would not make. One subgroup a map, in index order: equal inputs give equal plans.
+// than the mean error are split, those with far less give up their place for it. Difference: what is compared is not
+// area times importance but an estimate of the error itself (evaluate.comp), a mixture of that of flux and that in the
+// view, each over its mean. One subgroup a map, in index order: equal inputs give equal plans.
 #include "common/clustering_metric.h"
 #include "common/lane_loop.glsl"
 #include "common/sampling.h"
@@ -20,20 +20,15 @@ layout(set = 0, binding = 0, scalar) readonly buffer Previous { Cluster items[];
 layout(set = 0, binding = 1, scalar) readonly buffer PreviousExtents { ClusterExtent items[]; } extents;
 layout(set = 0, binding = 2, scalar) readonly buffer Maps { RsmMap items[]; } maps;
 layout(set = 0, binding = 3) uniform samplerBuffer texels;
+layout(set = 0, binding = 5, scalar) readonly buffer Errors { ClusterError items[]; } errors;
 layout(set = 0, binding = 4, scalar) writeonly buffer Plans { uint items[]; } plans;
 
 const float kMergeShare = 0.1, kSplitShare = 4.0;  // of the mean error
-const float kLeastTexels = 8.0;
+const float kLeastTexels = 24.0;
 
 shared uint emptySlots[kMaxClusters], idleSlots[kMaxClusters], splitters[kMaxClusters];
 
 bool isLive(Cluster c, uint lightIdLow) { return c.texelCount > 0.0 && c.lightIdLow == lightIdLow; }
-
-float errorOf(Cluster c) {
-    vec3 d = c.covarianceDiagonal;
-    float distance2 = push.settings.metricWeights.x * (d.x + d.y + d.z);
-    return (c.flux.x + c.flux.y + c.flux.z) * (distance2 + push.settings.metricWeights.y * (1.0 - c.cosineSpread));
-}
 
 // The worst fitting of the cluster's farthest texels: where its second half starts.
 uint seedTexel(uint cluster) {
@@ -59,16 +54,18 @@ uint seedTexel(uint cluster) {
 
 void main() {
     RsmMap map = maps.items[gl_WorkGroupID.x];
-    float sum = 0.0, live = 0.0;
+    vec2 sum = vec2(0.0);
+    float live = 0.0;
     for (uint base = 0; base < map.clusterCount; base += kSubgroupSize) {
-        uint i = base + gl_SubgroupInvocationID;
-        Cluster c = previous.items[map.firstCluster + min(i, map.clusterCount - 1)];
-        if (i < map.clusterCount && isLive(c, map.lightIdLow)) {
-            sum += errorOf(c);
+        uint i = base + gl_SubgroupInvocationID, cluster = map.firstCluster + min(i, map.clusterCount - 1);
+        if (i < map.clusterCount && isLive(previous.items[cluster], map.lightIdLow)) {
+            sum += vec2(errors.items[cluster].ofFlux, errors.items[cluster].ofView);
             live += 1.0;
         }
     }
-    float mean = subgroupAdd(sum) / max(subgroupAdd(live), 1.0);
+    sum = subgroupAdd(sum);
+    float w = sum.y > 0.0 ? push.settings.viewWeight : 0.0;
+    vec2 overMean = vec2(1.0 - w, w) * subgroupAdd(live) / max(sum, vec2(1e-30));
 
     uint emptyCount = 0, idleCount = 0, splitCount = 0;
     for (uint base = 0; base < map.clusterCount; base += kSubgroupSize) {
@@ -76,11 +73,11 @@ void main() {
         Cluster c = previous.items[cluster];
         bool mine = i < map.clusterCount, lit = mine && isLive(c, map.lightIdLow);
         bool looked = lit && hashUint(cluster * 31 + push.settings.step * 7919) % 3 == 0;
-        float error = errorOf(c);
+        float error = dot(overMean, vec2(errors.items[cluster].ofFlux, errors.items[cluster].ofView));
         if (mine) plans.items[cluster] = lit ? kPlanKeep : kPlanAnew;
         AG_APPEND(emptySlots, (mine && !lit), emptyCount, cluster)
-        AG_APPEND(idleSlots, (looked && error < kMergeShare * mean), idleCount, cluster)
-        AG_APPEND(splitters, (looked && error > kSplitShare * mean && c.texelCount >= kLeastTexels), splitCount, cluster)
+        AG_APPEND(idleSlots, (looked && error < kMergeShare), idleCount, cluster)
+        AG_APPEND(splitters, (looked && error > kSplitShare && c.texelCount >= kLeastTexels), splitCount, cluster)
     }
     memoryBarrierShared();
     subgroupBarrier();

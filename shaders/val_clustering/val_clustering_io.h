@@ -48,12 +48,18 @@ struct ClusterExtent {       // 3 vec4: how far a cluster's texels reach from it
     vec3 areaCentre;         // m, from the centre: the mean of its texels' places by area
 };
 
+struct ClusterError {  // what one light instead of its texels gets wrong
+    float ofFlux;      // W times the metric of clustering, as far as it faces the view
+    float ofView;      // W/m², mean over points of the view
+};
+
 struct ClusterSettings {  // push constants
     vec3 metricWeights;   // distance [1/m²], normal, chroma
     uint clusterCount;
     uvec2 atlasSize;  // texels
     uint mapCount;
-    uint step;  // counts clustering steps: varies the reseeding sequence
+    float viewWeight;  // of errors in the view against errors of flux, 0 to 1
+    uint step;         // counts clustering steps: varies the reseeding sequence
 };
 
 #ifdef __cplusplus

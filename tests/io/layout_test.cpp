@@ -91,7 +91,7 @@ const std::map<std::string, Layout>& layouts() {
          {sizeof(io::ClusterSettings),
           {AG_MEMBER(ClusterSettings, metricWeights), AG_MEMBER(ClusterSettings, clusterCount),
            AG_MEMBER(ClusterSettings, atlasSize), AG_MEMBER(ClusterSettings, mapCount),
-           AG_MEMBER(ClusterSettings, step)}}},
+           AG_MEMBER(ClusterSettings, viewWeight), AG_MEMBER(ClusterSettings, step)}}},
         {"Val",
          {sizeof(io::Val),
           {AG_MEMBER(Val, position), AG_MEMBER(Val, area), AG_MEMBER(Val, normal), AG_MEMBER(Val, radius),
