@@ -13,6 +13,14 @@ AG_FUNCTION vec2 hemisphereEncode(vec3 d) {
     return vec2(d.x + d.y, d.x - d.y) * inverse + vec2(0.5f);
 }
 
+// How the two coordinates grow with d (not unit; the map depends on its direction alone), per its length.
+AG_FUNCTION void hemisphereGradients(vec3 d, AG_OUT(vec3) u, AG_OUT(vec3) v) {
+    float sum = max(abs(d.x) + abs(d.y) + d.z, 1e-20f), half_ = 0.5f / sum;
+    vec3 sumGradient = vec3(d.x < 0.0f ? -1.0f : 1.0f, d.y < 0.0f ? -1.0f : 1.0f, 1.0f) / sum;
+    u = vec3(half_, half_, 0.0f) - sumGradient * ((d.x + d.y) * half_);
+    v = vec3(half_, -half_, 0.0f) - sumGradient * ((d.x - d.y) * half_);
+}
+
 // The direction, not unit.
 AG_FUNCTION vec3 hemisphereDirection(vec2 uv) {
     vec2 e = uv * 2.0f - vec2(1.0f);

@@ -19,7 +19,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer Counts { uint items[]; } co
 layout(set = 0, binding = 2, scalar) buffer Keys { uint items[]; } keys;
 
 const float kLeastSine = 0.01;  // lower above the light's plane is its own surface
-const int kSmallReach = 2;      // texels to each side: splatted by one lane, larger ones by the whole subgroup
+const int kSmallTexels = 25;    // splatted by one lane, larger ones by the whole subgroup
 const int kMostReach = 16;
 
 uint keyOf(float distance_, uint entry) {
@@ -33,8 +33,17 @@ struct Splat {
     vec4 edges[2];      // inward, distance
     uint entry;    // among the map's points
     float radius;  // m
-    int reach;  // texels to each side; -1: nothing
+    ivec2 reach;   // texels to each side; -1: nothing
 };
+
+// How far the disk extends along the map's axes, texels: its radius across the coordinates' gradients, within its plane.
+vec2 reachOf(Splat s, vec3 normal) {
+    vec3 u, v;
+    hemisphereGradients(s.place, u, v);
+    vec2 within = vec2(dot(u, u), dot(v, v)) - vec2(dot(u, normal), dot(v, normal)) * vec2(dot(u, normal), dot(v, normal));
+    float size = float(push.p.tileSize), nearness = s.radius / length(s.place);
+    return s.radius * size * (1.0 + nearness) * sqrt(max(within, vec2(0.0)));
+}
 
 Splat splatOf(uint map, uint entry, IsmLight light) {
     uint packed = texelFetch(chosen, int(map * push.p.pointsPerMap + entry)).x;
@@ -43,16 +52,15 @@ Splat splatOf(uint map, uint entry, IsmLight light) {
     s.entry = entry;
     s.radius = radiusOf(packed);
     s.place = toLight(light, texelFetch(points, int(point) * 4).xyz - light.place);
-    s.plane = planeThrough(s.place, toLight(light, texelFetch(points, int(point) * 4 + 1).xyz));
+    vec3 normal = toLight(light, texelFetch(points, int(point) * 4 + 1).xyz);
+    s.plane = planeThrough(s.place, normal);
     for (int k = 0; k < 2; ++k) {
         vec4 edge = texelFetch(points, int(point) * 4 + 2 + k);
         s.edges[k] = vec4(toLight(light, edge.xyz), edge.w);
     }
     float distance_ = length(s.place);
-    // Half the tile's side spans about a right angle.
-    float reach = s.radius / max(distance_, 1e-6) * float(push.p.tileSize) * (2.0 * kInvPi);
     bool seen = light.lit && s.place.z > kLeastSine * distance_ && s.plane != vec3(0.0);
-    s.reach = seen ? min(int(ceil(reach)), kMostReach) : -1;
+    s.reach = seen ? min(ivec2(reachOf(s, normal) + 1.0), ivec2(kMostReach)) : ivec2(-1);
     return s;
 }
 
@@ -103,9 +111,11 @@ void main() {
     uint map = gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
     uint entry = min(gl_GlobalInvocationID.x, push.p.pointsPerMap - 1);
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
-    if (gl_GlobalInvocationID.x >= counts.items[map]) mine.reach = -1;
-    if (mine.reach <= kSmallReach) splatAlone(mine, tile);
-    uvec4 large = subgroupBallot(mine.reach > kSmallReach);
+    if (gl_GlobalInvocationID.x >= counts.items[map]) mine.reach = ivec2(-1);
+    ivec2 extent = 2 * mine.reach + 1;
+    bool small = extent.x * extent.y <= kSmallTexels;
+    if (small) splatAlone(mine, tile);
+    uvec4 large = subgroupBallot(!small);
     while (large != uvec4(0)) {
         uint lane = subgroupBallotFindLSB(large);
         large[lane / 32] &= large[lane / 32] - 1;

@@ -1,10 +1,13 @@
-// Points on surfaces: spread by area, in an order whose runs are spread too, and aware of where surfaces end.
+// Points on surfaces: spread by area along a curve whose every n-th point is spread too, aware of where
+// surfaces end and how they bend.
 #include "gi/surface_sampling.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "engine/scene/static_scene.h"
 #include "tools/scenegen/builder.h"
@@ -20,6 +23,14 @@ std::map<uint32_t, int> countByInstance(std::span<const io::SurfaceSample> sampl
     return counts;
 }
 
+std::vector<io::SurfaceSample> everyNth(const std::vector<io::SurfaceSample>& samples, size_t n,
+                                        size_t first) {
+    std::vector<io::SurfaceSample> out;
+    for (size_t i = first; i < samples.size(); i += n)
+        out.push_back(samples[i]);
+    return out;
+}
+
 SceneAsset floorAndBox() {
     scenegen::SceneBuilder b("floor and box");
     const uint32_t gray = b.material("gray", glm::vec3(0.5f));
@@ -29,22 +40,44 @@ SceneAsset floorAndBox() {
     return b.finish();
 }
 
-TEST(SurfaceSampling, EqualAreasGetEqualCountsInEveryRun) {
+// A ball of quads along circles of latitude.
+GeometryArrays sphereOf(float radius) {
+    constexpr uint32_t kRings = 24, kSides = 48;
+    GeometryArrays g;
+    for (uint32_t ring = 0; ring <= kRings; ++ring)
+        for (uint32_t side = 0; side <= kSides; ++side) {
+            const float a = std::numbers::pi_v<float> * float(ring) / kRings;
+            const float b = 2 * std::numbers::pi_v<float> * float(side) / kSides;
+            const glm::vec3 n(std::sin(a) * std::cos(b), std::cos(a), std::sin(a) * std::sin(b));
+            g.positions.push_back(radius * n);
+            g.attributes.push_back({.normal = n});
+        }
+    for (uint32_t ring = 0; ring < kRings; ++ring)
+        for (uint32_t side = 0; side < kSides; ++side) {
+            const uint32_t i = ring * (kSides + 1) + side, below = i + kSides + 1;
+            for (const uint32_t corner : {i, i + 1, below, below, i + 1, below + 1})
+                g.indices.push_back(corner);
+        }
+    g.primitives.push_back({.indexCount = uint32_t(g.indices.size())});
+    g.materials.resize(1);
+    return g;
+}
+
+TEST(SurfaceSampling, EqualAreasGetEqualCounts) {
     const SceneAsset asset = floorAndBox();
     const RenderScene scene = staticScene(asset);
     const SurfaceSamples all = sampleSurfaces(scene, 8192);
     EXPECT_NEAR(all.area, 22, 1e-4);
     ASSERT_NEAR(double(all.samples.size()), 8192, 1);
-    for (size_t first = 0; first + 1024 <= all.samples.size(); first += 1024) {
-        const auto counts = countByInstance(std::span(all.samples).subspan(first, 1024));
+    for (size_t first = 0; first < 8; ++first) {
+        const auto counts = countByInstance(everyNth(all.samples, 8, first));
         ASSERT_EQ(counts.size(), 2u);
-        EXPECT_NEAR(counts.begin()->second + counts.rbegin()->second, 1024, 0);
-        const int most = std::max(counts.begin()->second, counts.rbegin()->second);
-        EXPECT_NEAR(most / 1024.0, 16.0 / 22, 0.01) << "run from " << first;
+        const int a = counts.begin()->second, b = counts.rbegin()->second;
+        EXPECT_NEAR(std::max(a, b) / double(a + b), 16.0 / 22, 0.01) << "from " << first;
     }
 }
 
-TEST(SurfaceSampling, RunsLeaveNoLargeHoles) {
+TEST(SurfaceSampling, EveryNthLeavesNoLargeHoles) {
     scenegen::SceneBuilder b("floor");
     b.quad("floor", {0, 0, 0}, {0, 0, 1}, {1, 0, 0}, b.material("gray", glm::vec3(0.5f)));
     b.camera("camera", {0, 3, 4}, {0, 0, 0}, 50);
@@ -52,14 +85,50 @@ TEST(SurfaceSampling, RunsLeaveNoLargeHoles) {
     const RenderScene scene = staticScene(asset);
     const SurfaceSamples all = sampleSurfaces(scene, 16384);
     // 1,024 points over 16 x 16 cells: 4 each; independent ones would leave 2 % of the cells empty.
-    for (size_t first = 0; first + 1024 <= all.samples.size(); first += 1024) {
+    for (size_t first = 0; first < 16; ++first) {
         std::map<int, int> cells;
-        for (size_t i = first; i < first + 1024; ++i) {
-            const glm::vec3 p = all.samples[i].positionLocal;
-            ++cells[int(p.x * 16) * 16 + int(p.z * 16)];
-        }
-        EXPECT_GE(cells.size(), 252u) << "run from " << first;
+        for (const io::SurfaceSample& s : everyNth(all.samples, 16, first))
+            ++cells[int(s.positionLocal.x * 16) * 16 + int(s.positionLocal.z * 16)];
+        EXPECT_GE(cells.size(), 252u) << "from " << first;
     }
+}
+
+TEST(SurfaceSampling, SegmentsOfTheCurveAreCompact) {
+    const SceneAsset asset = *scenegen::buildScene("cornell", 0);
+    const RenderScene scene = staticScene(asset);
+    const SurfaceSamples all = sampleSurfaces(scene, 1 << 14);
+    const float side = std::sqrt(all.area / float(all.samples.size()));
+    double sum = 0;
+    const size_t segments = all.samples.size() / io::kSegmentPoints;
+    for (size_t s = 0; s < segments; ++s) {
+        Bounds box{glm::vec3(1e30f), glm::vec3(-1e30f)};
+        for (size_t i = s * io::kSegmentPoints; i < (s + 1) * io::kSegmentPoints; ++i) {
+            const glm::vec3 p = scene.instances[all.samples[i].instance].worldFromLocal *
+                                glm::vec4(all.samples[i].positionLocal, 1);
+            box = {glm::min(box.min, p), glm::max(box.max, p)};
+        }
+        sum += double(glm::distance(box.min, box.max)) / 2;
+    }
+    // A square of 64 points has half a diagonal of 5.7 of their distances; the curve jumps here and there.
+    EXPECT_LT(sum / double(segments), 12 * double(side));
+}
+
+TEST(SurfaceSampling, BendIsTheCurvatureOfASphereAndNoneOfABox) {
+    const auto bends = [](const RenderScene& scene) {
+        std::vector<float> all;
+        for (const io::SurfaceSample& s : sampleSurfaces(scene, 1000).samples)
+            all.push_back(s.bendLocal);
+        std::ranges::sort(all);
+        return all;
+    };
+    const SceneAsset flat = floorAndBox();
+    EXPECT_EQ(bends(staticScene(flat)).back(), 0);
+    const GeometryArrays sphere = sphereOf(0.5f);
+    RenderScene scene{.geometry = &sphere};
+    scene.instances.resize(1);
+    scene.bounds = {glm::vec3(-0.5f), glm::vec3(0.5f)};
+    const auto ball = bends(scene);
+    EXPECT_NEAR(ball[ball.size() / 2], 2, 0.1) << "1/m on a sphere of 0.5 m";
 }
 
 TEST(SurfaceSampling, EdgesBoundTheSurfaceAndFlatSeamsDoNot) {
