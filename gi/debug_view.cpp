@@ -80,6 +80,7 @@ ImageHandle addIsmView(FrameGraph& graph, const IsmAtlas& isms) {
     const ImageHandle out = layerImage(graph, glm::uvec2(columns, rows) * isms.tileSize);
     graph.fullscreen("debug_view.ism", "debug_view/ism.frag")
         .read("planes", isms.planes)
+        .spec(3, isms.mapping == IsmMapping::kParaboloid)
         .push(glm::uvec3(isms.mapCount, isms.tileSize, columns))
         .colorClear(out, glm::vec4(0));
     return out;

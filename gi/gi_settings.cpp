@@ -156,6 +156,10 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add(
         {"ism_atlas", "splat_scale", 0.1, 10, "", "of the points' disks; at 1 they have the surfaces' area"},
         &gi.ismAtlas.splatScale);
+    s.add({"ism_atlas", "mapping", 0, 0, "", "of the hemisphere to a square", {"octahedral", "paraboloid"}},
+          &gi.ismAtlas.mapping);
+    s.add({"ism_atlas", "planes", 0, 0, "", "texels keep planes; off: distances with a bias of a disk"},
+          &gi.ismAtlas.planes);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
     s.add({"val_shading", "taps", 1, 64, "taps", "of soft shadows; 1: hard ones"}, &gi.valShading.taps);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},

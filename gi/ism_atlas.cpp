@@ -45,7 +45,9 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                      const IsmAtlasSettings& settings) {
     if (!settings.enabled || points.count == 0 || vals.count == 0) return {};
     IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms),
-                   .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u)};
+                   .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u),
+                   .mapping = settings.mapping};
+    const bool paraboloid = settings.mapping == IsmMapping::kParaboloid;
     const uint32_t perMap = std::min(settings.pointsPerMap, points.count);
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
     const BufferHandle keys =
@@ -76,6 +78,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
         .read("chosen", chosen)
         .read("counts", counts)
         .readWrite("keys", keys)
+        .spec(3, paraboloid)
         .push(push)
         .dispatchGroups((perMap + 63) / 64, atlas.mapCount);
     graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
@@ -84,6 +87,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
         .read("keys", keys)
         .read("chosen", chosen)
         .write("planes", atlas.planes)
+        .spec(0, settings.planes)
         .push(push)
         .dispatchGroups(atlas.tileSize * atlas.tileSize / 256, atlas.mapCount);
     if (settings.pullPush) addPullPush(graph, atlas.planes, atlas.mapCount, atlas.tileSize);

@@ -1,5 +1,5 @@
 // Imperfect shadow maps (Ritschel et al. 2008; ACRSM section 5.3.2): small depth maps of what each virtual
-// light sees, splatted from points on the surfaces and closed by pull-push. Octahedral hemispheres in one
+// light sees, splatted from points on the surfaces and closed by pull-push. Hemispheres in one
 // buffer, a square tile a light; each tile takes points of its own,
 // more of them from surfaces near by. Difference: a texel keeps the nearest
 // surface's plane instead of its depth, so that no bias is needed and a surface never shadows itself.
@@ -11,19 +11,24 @@
 
 namespace ag::gi {
 
+enum class IsmMapping : uint32_t { kOctahedral, kParaboloid };
+
 struct IsmAtlasSettings {
     bool enabled = true;           // off: bounced light passes through everything
     uint32_t tileSize = 64;        // texels along a map's side, a power of two from 16 to 128
     uint32_t pointsPerMap = 2048;  // splatted into each map
     bool nearMore = true;          // points by the solid angle of surfaces instead of their area
-    float splatScale = 1.5f;      // of the points' disks, which at 1 have the surfaces' area
-    bool pullPush = true;          // close the holes between points
+    float splatScale = 1.5f;       // of the points' disks, which at 1 have the surfaces' area
+    IsmMapping mapping = IsmMapping::kOctahedral;
+    bool planes = true;    // what texels keep; off: distances with a bias of a disk, as in the sources
+    bool pullPush = true;  // close the holes between points
 };
 
 struct IsmAtlas {
     BufferHandle planes;  // vec4: level 0 of all maps first; also a texel buffer; invalid: no visibility
     uint32_t mapCount = 0;
     uint32_t tileSize = 0;
+    IsmMapping mapping = IsmMapping::kOctahedral;
 };
 
 IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,

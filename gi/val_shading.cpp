@@ -49,6 +49,7 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
         .spec(0, uint32_t(shape))
         .spec(1, g.taps)
         .spec(2, g.interleave)
+        .spec(3, g.isms.mapping == IsmMapping::kParaboloid)
         .push(g.push)
         .dispatchThreads(g.push.tiles.x * g.push.tiles.y * g.push.tileSize * g.push.tileSize / 4);
     return pass;

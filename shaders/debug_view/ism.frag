@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // The imperfect shadow maps side by side: distance along each texel's direction, m; 0 where nothing was met.
-#include "common/hemisphere_map.h"
+#include "ism_atlas/ism_map.glsl"
 
 layout(push_constant, scalar) uniform Push { uint mapCount, tileSize, columns; } push;
 layout(set = 0, binding = 0) uniform samplerBuffer planes;
@@ -15,7 +15,7 @@ void main() {
     float distance_ = 0.0;
     if (map < push.mapCount) {
         vec4 plane = texelFetch(planes, int((map * push.tileSize + texel.y) * push.tileSize + texel.x));
-        vec3 w = hemisphereDecode((vec2(texel) + 0.5) / float(push.tileSize));
+        vec3 w = normalize(ismDirection((vec2(texel) + 0.5) / float(push.tileSize)));
         distance_ = plane.w > 0.0 ? min(1.0 / max(dot(plane.xyz, w), 1e-6), 1e3) : 0.0;
     }
     color = vec4(vec3(distance_), 1.0);

@@ -3,7 +3,7 @@
 #define AG_ISM_LOOKUP_GLSL
 
 #extension GL_EXT_control_flow_attributes : require
-#include "common/hemisphere_map.h"
+#include "ism_atlas/ism_map.glsl"
 
 // Beyond a plane by less than this share of the distance counts as on it.
 const float kIsmPlaneSlack = 0.01;
@@ -17,14 +17,14 @@ float ismShadow(vec4 plane, vec3 d) { return dot(plane.xyz, d) > 1.0 + kIsmPlane
 
 // What was met in a direction, which need not be unit.
 vec4 ismPlane(samplerBuffer atlas, IsmTile tile, vec3 direction) {
-    vec2 uv = hemisphereEncode(vec3(direction.xy, max(direction.z, 0.0)));
+    vec2 uv = ismEncode(vec3(direction.xy, max(direction.z, 0.0)));
     ivec2 at = clamp(ivec2(uv * float(tile.size)), ivec2(0), ivec2(tile.size - 1));
     return texelFetch(atlas, tile.first + at.y * tile.size + at.x);
 }
 
 // From the light's centre, the four nearest texels weighted.
 float ismHardVisibility(samplerBuffer atlas, IsmTile tile, vec3 d) {
-    vec2 at = hemisphereEncode(vec3(d.xy, max(d.z, 0.0))) * float(tile.size) - 0.5;
+    vec2 at = ismEncode(vec3(d.xy, max(d.z, 0.0))) * float(tile.size) - 0.5;
     vec2 low = clamp(floor(at), vec2(0.0), vec2(float(tile.size) - 2.0)), f = clamp(at - low, vec2(0.0), vec2(1.0));
     int texel = tile.first + int(low.y) * tile.size + int(low.x);
     vec4 shadow = vec4(ismShadow(texelFetch(atlas, texel), d), ismShadow(texelFetch(atlas, texel + 1), d),

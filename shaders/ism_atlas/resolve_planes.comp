@@ -9,17 +9,20 @@
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
+layout(constant_id = 0) const bool kPlanes = true;  // else distances
+const float kTexelShare = 1.2533141;  // half the side of a texel of 2 pi / tileSize²
+
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 2) uniform usamplerBuffer keys;
 layout(set = 0, binding = 4) uniform usamplerBuffer chosen;
 layout(set = 0, binding = 3, scalar) writeonly buffer Planes { vec4 items[]; } planes;
 
-// How far the surface may lie off the plane within a disk or a texel, whichever is larger: a bend of k gives k r² / 2.
-float depthOfBend(float bend, float radius, float distance_) {
-    const float kTexelShare = 1.2533141;  // half the side of a texel of 2 pi / tileSize²
+// How far the surface may lie behind what the texel holds, within a disk or the texel, whichever is larger: a bend of k
+// gives k r² / 2; what is known by its distance alone may slope as it likes.
+float depthWithin(float bend, float radius, float distance_) {
     float r = max(radius, kTexelShare * distance_ / float(push.p.tileSize));
-    return min(0.5 * bend * r * r, r);
+    return kPlanes ? min(0.5 * bend * r * r, r) : r;
 }
 
 void main() {
@@ -34,7 +37,8 @@ void main() {
     vec3 p = toLight(light, place.xyz - light.place);
     float distance_ = length(p);
     // Farther along the way from the light: there the surface is for certain behind.
-    p *= 1.0 + depthOfBend(place.w, radiusOf(packed), distance_) / max(distance_, 1e-6);
-    vec3 m = planeThrough(p, toLight(light, texelFetch(points, point + 1).xyz));
+    p *= 1.0 + depthWithin(place.w, radiusOf(packed), distance_) / max(distance_, 1e-6);
+    vec3 normal = kPlanes ? toLight(light, texelFetch(points, point + 1).xyz) : p / max(length(p), 1e-20);
+    vec3 m = planeThrough(p, normal);
     planes.items[texel] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, distance_);
 }

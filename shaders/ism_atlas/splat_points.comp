@@ -5,9 +5,9 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 // Each map's own points (Ritschel et al. 2008) as disks in the surfaces' planes: a texel is met where the disk is, at
 // the distance of its plane there, and keeps the nearest by an atomic minimum of its key.
-#include "common/hemisphere_map.h"
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
+#include "ism_atlas/ism_map.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
@@ -39,7 +39,7 @@ struct Splat {
 // How far the disk extends along the map's axes, texels: its radius across the coordinates' gradients, within its plane.
 vec2 reachOf(Splat s, vec3 normal) {
     vec3 u, v;
-    hemisphereGradients(s.place, u, v);
+    ismGradients(s.place, u, v);
     vec2 within = vec2(dot(u, u), dot(v, v)) - vec2(dot(u, normal), dot(v, normal)) * vec2(dot(u, normal), dot(v, normal));
     float size = float(push.p.tileSize), nearness = s.radius / length(s.place);
     return s.radius * size * (1.0 + nearness) * sqrt(max(within, vec2(0.0)));
@@ -65,7 +65,7 @@ Splat splatOf(uint map, uint entry, IsmLight light) {
 }
 
 void touch(Splat s, uint tile, ivec2 texel, ivec2 centre) {
-    vec3 w = hemisphereDirection((vec2(texel) + 0.5) / float(push.p.tileSize));
+    vec3 w = ismDirection((vec2(texel) + 0.5) / float(push.p.tileSize));
     vec3 hit = w / max(dot(s.plane, w), 1e-12);
     vec3 off = hit - s.place;
     bool isCentre = texel == centre;
@@ -78,7 +78,7 @@ void touch(Splat s, uint tile, ivec2 texel, ivec2 centre) {
 
 ivec2 centreOf(Splat s) {
     int size = int(push.p.tileSize);
-    return clamp(ivec2(hemisphereEncode(vec3(s.place.xy, max(s.place.z, 0.0))) * float(size)), ivec2(0), ivec2(size - 1));
+    return clamp(ivec2(ismEncode(vec3(s.place.xy, max(s.place.z, 0.0))) * float(size)), ivec2(0), ivec2(size - 1));
 }
 
 void splatAlone(Splat s, uint tile) {
