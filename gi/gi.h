@@ -7,6 +7,7 @@
 #include "gi/gi_settings.h"
 #include "gi/texel_shading.h"
 #include "gi/val_fit.h"
+#include "gi/vpl_sampling.h"
 
 namespace ag::gi {
 

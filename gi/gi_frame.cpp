@@ -9,19 +9,21 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     // What the camera sees
     f.gbuffer = addGBuffer(graph, scene);
 
-    // First bounce: where light lands, as few area lights
+    // First bounce: where light lands, as few lights
     f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count);
     f.importance = addImportance(graph, scene, f.rsm, f.gbuffer, s.importance);
     f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
                                   h.valClustering);
-    f.vals = addValFit(graph, f.rsm, f.clusters);
+    f.vals = s.firstBounce == FirstBounce::kPointLights
+                 ? addVplSampling(graph, f.rsm, f.importance, s.valClustering.count)
+                 : addValFit(graph, f.rsm, f.clusters);
 
-    // What each area light sees
+    // What each of them sees
     if (f.vals.count > 0 && s.ismAtlas.enabled) f.surfacePoints = addSurfacePoints(graph, scene);
     f.isms = addIsmAtlas(graph, f.surfacePoints, f.vals, s.ismAtlas);
 
     // Gather on screen
-    if (s.firstBounce == FirstBounce::kAreaLights)
+    if (s.firstBounce == FirstBounce::kAreaLights || s.firstBounce == FirstBounce::kPointLights)
         f.bounce1 = addValShading(graph, scene, f.gbuffer, f.vals, f.isms, s.valShading);
     else if (s.firstBounce == FirstBounce::kTexels)
         f.bounce1 = addTexelShading(graph, scene, f.gbuffer, f.rsm);

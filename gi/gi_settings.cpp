@@ -22,6 +22,15 @@ void setRsm400(GiSettings& gi) {
     gi.stochasticRsm = {.samples = 400, .radius = 0.3f};
 }
 
+// Point lights with hard shadows out of uniform points; distances in paraboloids of the atlas's full size.
+void setIsm(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kPointLights;
+    gi.importance.viewWeight = 0;
+    gi.valClustering.count = 1024;
+    gi.ismAtlas = {.nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
+    gi.valShading = {.shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .taps = 1};
+}
+
 void setRsmc(GiSettings& gi) {
     gi.ismAtlas.enabled = false;
     gi.valShading.interleave = 1;
@@ -31,6 +40,17 @@ void setRsmc(GiSettings& gi) {
     gi.importance.viewWeight = 1;  // the geometry term toward the view alone
     gi.valClustering.distanceWeight = gi.valClustering.normalWeight = 1;
     gi.valClustering.chromaWeight = 10;
+}
+
+void setAcrsm(GiSettings& gi) {
+    setRsmc(gi);
+    gi.importance.viewWeight = 0.5f;
+    gi.valClustering.adaptive = true;
+    gi.valClustering.count = 512;
+    gi.ismAtlas = {.tileSize = 128, .nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
+    gi.valShading.shape = ValShape::kDisk;
+    gi.valShading.interleave = 3;
+    gi.valShading.taps = 16;
 }
 
 // Ours by budget: lights, points a shadow map is made of, and how far the gather is shared out.
@@ -64,15 +84,17 @@ struct Preset {
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 9> kPresets = {{{"none", setNone},
-                                             {"rsm-brute", setRsmBrute},
-                                             {"rsm-400", setRsm400},
-                                             {"rsmc", setRsmc},
-                                             {"afterglow", setAfterglow},
-                                             {"medium", setAfterglow},
-                                             {"low", setLow},
-                                             {"high", setHigh},
-                                             {"ultra", setUltra}}};
+constexpr std::array<Preset, 11> kPresets = {{{"none", setNone},
+                                              {"rsm-brute", setRsmBrute},
+                                              {"rsm-400", setRsm400},
+                                              {"ism", setIsm},
+                                              {"rsmc", setRsmc},
+                                              {"acrsm", setAcrsm},
+                                              {"afterglow", setAfterglow},
+                                              {"medium", setAfterglow},
+                                              {"low", setLow},
+                                              {"high", setHigh},
+                                              {"ultra", setUltra}}};
 constexpr auto kPresetNames = [] {
     std::array<std::string_view, kPresets.size()> names;
     for (size_t i = 0; i < names.size(); ++i)
@@ -100,7 +122,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
            0,
            "",
            "where indirect light comes from",
-           {"none", "area_lights", "texels", "stochastic_rsm"}},
+           {"none", "area_lights", "point_lights", "texels", "stochastic_rsm"}},
           &gi.firstBounce);
     s.add({"rsm", "resolution", 0, 1024, "texels",
            "side of a light map, rounded down to a power of two; 0: as each light says"},

@@ -24,6 +24,7 @@ namespace ag::gi {
 enum class FirstBounce : uint32_t {
     kNone,           // no indirect light, and nothing that only it needs
     kAreaLights,     // clusters of light-map texels
+    kPointLights,    // sampled light-map texels
     kTexels,         // every light-map texel as a point emitter
     kStochasticRsm,  // samples of the light maps
 };
@@ -41,8 +42,9 @@ struct GiSettings {
 };
 
 // Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
-// "rsm-400" (Dachsbacher & Stamminger 2005), "rsmc" (RSM clustering as published), "afterglow" (the default),
-// and that by budget: "low", "medium" (the same), "high", "ultra".
+// "rsm-400" (Dachsbacher & Stamminger 2005), "ism" (Ritschel et al. 2008), "rsmc" (RSM clustering) and
+// "acrsm" (with adaption and shadows) as published, "afterglow" (the default), and that by budget: "low",
+// "medium" (the same), "high", "ultra".
 // False if there is no such preset.
 bool applyPreset(std::string_view name, GiSettings& gi);
 std::span<const std::string_view> presetNames();

@@ -48,7 +48,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                    .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u),
                    .mapping = settings.mapping};
     const bool paraboloid = settings.mapping == IsmMapping::kParaboloid;
-    const uint32_t perMap = std::min(settings.pointsPerMap, points.count);
+    const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
     const BufferHandle keys =
         graph.buffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = VK_FORMAT_R32_UINT});
@@ -60,14 +60,14 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                                 .pointsPerMap = perMap,
                                 .pointRadius = settings.splatScale * points.radius,
                                 .inverseExtent = 1 / points.extent};
-    const BufferHandle chosen = graph.buffer(
+    atlas.chosen = graph.buffer(
         "ism_atlas.chosen", {.sizeBytes = atlas.mapCount * perMap * 4ull, .texelFormat = VK_FORMAT_R32_UINT});
-    const BufferHandle counts = graph.buffer("ism_atlas.counts", {.sizeBytes = atlas.mapCount * 4ull});
+    atlas.counts = graph.buffer("ism_atlas.counts", {.sizeBytes = atlas.mapCount * 4ull});
     graph.compute("ism_atlas.choose", "ism_atlas/choose_points.comp")
         .read("segments", points.segments)
         .read("vals", vals.vals)
-        .write("chosen", chosen)
-        .write("counts", counts)
+        .write("chosen", atlas.chosen)
+        .write("counts", atlas.counts)
         .spec(0, settings.nearMore)
         .push(push)
         .dispatchGroups(atlas.mapCount);
@@ -75,8 +75,8 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
     graph.compute("ism_atlas.splat", "ism_atlas/splat_points.comp")
         .read("points", points.points)
         .read("vals", vals.vals)
-        .read("chosen", chosen)
-        .read("counts", counts)
+        .read("chosen", atlas.chosen)
+        .read("counts", atlas.counts)
         .readWrite("keys", keys)
         .spec(3, paraboloid)
         .push(push)
@@ -85,7 +85,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
         .read("points", points.points)
         .read("vals", vals.vals)
         .read("keys", keys)
-        .read("chosen", chosen)
+        .read("chosen", atlas.chosen)
         .write("planes", atlas.planes)
         .spec(0, settings.planes)
         .push(push)

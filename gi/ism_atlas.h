@@ -26,6 +26,9 @@ struct IsmAtlasSettings {
 
 struct IsmAtlas {
     BufferHandle planes;  // vec4: level 0 of all maps first; also a texel buffer; invalid: no visibility
+    BufferHandle chosen;  // per map its points, see ism_light.glsl; how many in counts
+    BufferHandle counts;
+    uint32_t pointsPerMap = 0;
     uint32_t mapCount = 0;
     uint32_t tileSize = 0;
     IsmMapping mapping = IsmMapping::kOctahedral;

@@ -2,14 +2,19 @@
 
 namespace ag::gi {
 
+Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view shapes, uint32_t count) {
+    constexpr uint32_t kLargestSubgroup = 64;
+    Vals v{.count = (count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
+    v.vals = graph.buffer(
+        vals, {.sizeBytes = v.count * sizeof(io::Val), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    v.shapes = graph.buffer(shapes, {.sizeBytes = v.count * sizeof(io::ValShapeVectors),
+                                     .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    return v;
+}
+
 Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters) {
     if (clusters.count == 0) return {};
-    constexpr uint32_t kLargestSubgroup = 64;
-    Vals v{.count = (clusters.count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
-    v.vals = graph.buffer("val_fit.vals", {.sizeBytes = v.count * sizeof(io::Val),
-                                           .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    v.shapes = graph.buffer("val_fit.shapes", {.sizeBytes = v.count * sizeof(io::ValShapeVectors),
-                                               .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    const Vals v = allocateVals(graph, "val_fit.vals", "val_fit.shapes", clusters.count);
     graph.compute("val_fit.fit", "val_fit/fit_vals.comp")
         .read("clusters", clusters.clusters)
         .read("extents", clusters.extents)

@@ -14,6 +14,9 @@ struct Vals {
     uint32_t count = 0;  // padded with black lights to whole subgroups
 };
 
+// Room for `count` lights and the padding.
+Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view shapes, uint32_t count);
+
 Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters);
 
 }  // namespace ag::gi

@@ -4,7 +4,6 @@
 // Where each cluster starts this step: its place of the last step (carried over in world space), or, if it was empty,
 // changed its light or left the map, a Halton point warped by importance (RSMC section 4; ACRSM algorithm 5.3).
 #include "common/sampling.h"
-#include "importance/pyramid.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
@@ -23,16 +22,7 @@ layout(set = 0, binding = 3, scalar) readonly buffer Pyramid { float items[]; } 
 layout(set = 0, binding = 4, scalar) readonly buffer Previous { Cluster items[]; } previous;
 layout(set = 0, binding = 6, scalar) readonly buffer Plans { uint items[]; } plans;
 layout(set = 0, binding = 5, scalar) writeonly buffer Seeds { ClusterSeed items[]; } seeds;
-
-uint tileOfTexel(uvec2 coord) {
-    uvec2 tile = coord / kRsmTileSize;
-    return tile.y * (push.settings.atlasSize.x / kRsmTileSize) + tile.x;
-}
-
-uint indexOfTexel(uvec2 coord) {
-    uvec2 inTile = coord % kRsmTileSize;
-    return rsmTexelIndex(tileOfTexel(coord), inTile.y * kRsmTileSize + inTile.x);
-}
+#include "importance/warp.glsl"
 
 // The tile a world position falls into, kNoCluster outside all faces of the map.
 uint projectToTile(vec3 position, RsmMap map) {
@@ -42,72 +32,9 @@ uint projectToTile(vec3 position, RsmMap map) {
         vec4 clip = face.clipFromWorld * vec4(position, 1.0);
         vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
         bool inside = clip.w > 0.0 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
-        if (inside) tile = tileOfTexel(face.origin + min(uvec2(uv * float(face.size)), uvec2(face.size - 1)));
+        if (inside) tile = tileOfTexel(push.settings.atlasSize.x, face.origin + min(uvec2(uv * float(face.size)), uvec2(face.size - 1)));
     }
     return tile;
-}
-
-// Splits u in proportion a : b; returns 0 or 1 and stretches u over the chosen part.
-uint splitUnit(inout float u, float a, float b) {
-    float total = a + b;
-    float share = total > 0.0 ? a / total : 0.5;
-    uint second = u < share ? 0u : 1u;
-    u = second == 0u ? u / max(share, 1e-12) : (u - share) / max(1.0 - share, 1e-12);
-    u = clamp(u, 0.0, 0.99999994);
-    return second;
-}
-
-uint chooseFace(RsmMap map, inout float u) {
-    float total = 0.0;
-    for (uint i = 0; i < map.faceCount; ++i) {
-        uint f = map.firstFace + i;
-        uint top = pyramidTopLevel(faces.items[f].size);
-        total += pyramid.items[f * push.pyramidStride + pyramidLevelOffset(top, top)];
-    }
-    float rest = u * total;
-    uint chosen = map.firstFace;
-    for (uint i = 0; i < map.faceCount; ++i) {
-        uint f = map.firstFace + i;
-        uint top = pyramidTopLevel(faces.items[f].size);
-        float share = pyramid.items[f * push.pyramidStride + pyramidLevelOffset(top, top)];
-        if (rest >= 0.0 && share > 0.0) {
-            chosen = f;
-            u = clamp(rest / share, 0.0, 0.99999994);
-        }
-        rest -= share;
-    }
-    return chosen;
-}
-
-// Down the 2x2 hierarchy, first rows then columns.
-uvec2 warpToBlock(uint face, inout vec2 u) {
-    uint top = pyramidTopLevel(faces.items[face].size);
-    uint base = face * push.pyramidStride;
-    uint node = 0;
-    for (uint level = top; level > 0; --level) {
-        uint child = base + pyramidLevelOffset(top, level - 1) + 4 * node;
-        float c0 = pyramid.items[child], c1 = pyramid.items[child + 1];
-        float c2 = pyramid.items[child + 2], c3 = pyramid.items[child + 3];
-        uint row = splitUnit(u.y, c0 + c1, c2 + c3);
-        uint column = row == 0 ? splitUnit(u.x, c0, c1) : splitUnit(u.x, c2, c3);
-        node = 4 * node + 2 * row + column;
-    }
-    return cellFromMorton(node);
-}
-
-// The texel of the block under u, or the next lit one after it.
-uint litTexelOfBlock(uvec2 origin, vec2 u) {
-    uint count = kImportanceBlock * kImportanceBlock;
-    uvec2 cell = uvec2(u * float(kImportanceBlock));
-    uint start = cell.y * kImportanceBlock + cell.x;
-    uint found = kNoCluster;
-    for (uint i = 0; i < count; ++i) {
-        uint place = (start + i) % count;
-        uvec2 coord = origin + uvec2(place % kImportanceBlock, place / kImportanceBlock);
-        uint index = indexOfTexel(coord);
-        if (found == kNoCluster && texelFetch(texels, int(index) * 3 + 1).w > 0.0) found = index;
-    }
-    return found;
 }
 
 ClusterSeed deadSeed(uint map) {
@@ -117,13 +44,13 @@ ClusterSeed deadSeed(uint map) {
 ClusterSeed seedFromImportance(uint cluster, uint mapIndex) {
     RsmMap map = maps.items[mapIndex];
     vec2 u = halton23(1 + (cluster + push.settings.step * kMaxClusters) % 4194304u);
-    uint face = chooseFace(map, u.x);
-    uvec2 block = warpToBlock(face, u);
+    uint face = chooseFace(map, push.pyramidStride, u.x);
+    uvec2 block = warpToBlock(face, push.pyramidStride, u);
     uvec2 origin = faces.items[face].origin + block * kImportanceBlock;
-    uint texel = litTexelOfBlock(origin, u);
+    uint texel = litTexelOfBlock(push.settings.atlasSize.x, origin, u);
     if (texel == kNoCluster) return deadSeed(mapIndex);
     RsmSurface s = AG_RSM_FETCH(texels, texel);
-    return ClusterSeed(s.position, tileOfTexel(origin), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
+    return ClusterSeed(s.position, tileOfTexel(push.settings.atlasSize.x, origin), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
 }
 
 ClusterSeed seedFromTexel(uint texel, uint mapIndex) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -41,6 +42,7 @@ struct Bench {
                                        declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
                     graph.output(b);
                 graph.output(declared.bounce1.image);
+                if (output) output(graph, declared);
             });
     }
     template <class T>
@@ -65,6 +67,7 @@ struct Bench {
     FrameGraphOptions options;
     GiRenderer renderer;
     GiFrame last;
+    std::function<void(FrameGraph&, const GiFrame&)> output;  // what a test reads besides
 };
 
 SceneAsset plane(float albedo) {
@@ -296,6 +299,95 @@ TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
     for (int i = 0; i < 5; ++i)
         few.frame();
     checkClusters(few);
+}
+
+// Sampled point lights carry the light maps' flux: each as much as its chance leaves it.
+TEST(VplSampling, LightsCarryTheMapsFlux) {
+    for (const char* name : {"cornell", "gallery"}) {
+        Bench b(*scenegen::buildScene(name, 0));
+        applyPreset("ism", b.settings);
+        b.settings.ismAtlas.enabled = false;
+        b.output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.vals.vals); };
+        b.frame();
+        double lights = 0;
+        for (const io::Val& val : b.read<io::Val>(b.last.vals.vals))
+            lights += double(val.flux.x + val.flux.y + val.flux.z);
+        double map = 0;
+        for (const io::RsmTexel& t : b.read<io::RsmTexel>(b.last.rsm.texels))
+            map += double(t.flux.x + t.flux.y + t.flux.z);
+        EXPECT_NEAR(lights / map, 1, 0.01) << name;
+    }
+}
+
+struct PointDensity {  // of a map's points over those of its surroundings, nearer and farther than 1.5 m
+    double nearBy = 0, farOff = 0;
+};
+
+// Over all lights of cornell: how many of the surface points before each light its map is made of. No point
+// twice.
+PointDensity densityOfMaps(bool nearMore) {
+    Bench b(*scenegen::buildScene("cornell", 0));
+    b.settings.ismAtlas.nearMore = nearMore;
+    b.output = [](FrameGraph& graph, const GiFrame& f) {
+        graph.output(f.vals.vals);
+        graph.output(f.surfacePoints.points);
+        graph.output(f.isms.chosen);
+        graph.output(f.isms.counts);
+    };
+    for (int i = 0; i < 8; ++i)
+        b.frame();
+    const auto vals = b.read<io::Val>(b.last.vals.vals);
+    const auto points = b.read<io::SurfacePoint>(b.last.surfacePoints.points);
+    const auto chosen = b.read<uint32_t>(b.last.isms.chosen);
+    const auto counts = b.read<uint32_t>(b.last.isms.counts);
+    double taken[2] = {}, all[2] = {};
+    for (size_t map = 0; map < b.last.isms.mapCount; map += 8) {
+        if (vals[map].flux == glm::vec3(0)) continue;
+        const auto isFar = [&](uint32_t point) {
+            return size_t(glm::distance(points[point].position, vals[map].position) > 1.5f);
+        };
+        const uint32_t budget = b.last.isms.pointsPerMap;
+        EXPECT_LE(counts[map], budget);
+        EXPECT_GT(counts[map], budget * 95 / 100);
+        std::set<uint32_t> once;
+        for (size_t i = map * budget; i < map * budget + counts[map]; ++i) {
+            const uint32_t point = chosen[i] & ((1u << io::kIsmPointBits) - 1);
+            EXPECT_TRUE(once.insert(point).second) << "point " << point << " twice in map " << map;
+            ++taken[isFar(point)];
+        }
+        for (uint32_t i = 0; i < points.size(); ++i)
+            ++all[isFar(i)];
+    }
+    return {taken[0] / all[0], taken[1] / all[1]};
+}
+
+TEST(IsmAtlas, PointsFollowTheDistanceOrTheArea) {
+    const PointDensity more = densityOfMaps(true), even = densityOfMaps(false);
+    EXPECT_GT(more.nearBy, 3 * more.farOff);
+    EXPECT_NEAR(even.nearBy / even.farOff, 1, 0.05);
+}
+
+// Irradiance over the walls a camera in the middle of the 2 m room sees ahead, W.
+double powerOnWall(Bench& b, glm::vec3 forward) {
+    setCamera(b.scene, {.position = {0, 0, 0}, .forward = forward, .verticalFov = float(kPi / 2)}, b.size);
+    for (int i = 0; i < 40; ++i)
+        b.frame();
+    const Image bounce = readImage(b.renderer, b.last.bounce1.image);
+    double sum = 0;
+    for (const glm::vec3& e : bounce.pixels)
+        sum += double(e.x);
+    return sum * 4 / double(bounce.pixels.size());  // the image is the wall
+}
+
+// What the lamp's light leaves of itself on all walls arrives on them again.
+TEST(FirstBounce, ClosedRoomPowerAudit) {
+    Bench b(*scenegen::buildScene("furnace", 50), {128, 128});
+    const double wall = (powerOnWall(b, {1, 0, 0}) + powerOnWall(b, {0, 0, 1})) / 2;
+    double flux = 0;
+    for (const io::RsmTexel& t : b.read<io::RsmTexel>(b.last.rsm.texels))
+        flux += double(t.flux.x);
+    std::printf("arrives over sent: %.4f\n", 6 * wall / flux);
+    EXPECT_NEAR(6 * wall / flux, 1, 0.01);
 }
 
 // The largest cluster's error over the mean, error as clustering has it: flux times mean distance in its

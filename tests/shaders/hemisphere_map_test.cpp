@@ -25,6 +25,46 @@ TEST(HemisphereMap, OctahedralRoundTrip) {
     }
 }
 
+TEST(HemisphereMap, ParaboloidRoundTrip) {
+    std::mt19937 random(6);
+    std::normal_distribution<float> g;
+    for (int i = 0; i < 10000; ++i) {
+        const vec3 d(g(random), g(random), std::abs(g(random)));
+        const vec2 uv = io::paraboloidEncode(d * 3.0f);
+        ASSERT_LE(glm::length(uv - 0.5f), 0.5001f);
+        EXPECT_LT(glm::length(glm::normalize(io::paraboloidDirection(uv)) - glm::normalize(d)), 1e-5f);
+    }
+}
+
+using Encode = vec2 (*)(vec3);
+using Gradients = void (*)(vec3, vec3&, vec3&);
+
+// Largest difference of the gradients from those by central differences.
+float gradientError(Encode encode, Gradients gradients) {
+    std::mt19937 random(7);
+    std::normal_distribution<float> g;
+    float most = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const vec3 d = glm::normalize(vec3(g(random), g(random), std::abs(g(random)) + 0.1f)) * 2.0f;
+        if (std::min(std::abs(d.x), std::abs(d.y)) < 0.05f) continue;  // the octahedron's edges
+        vec3 u, v;
+        gradients(d, u, v);
+        for (int axis = 0; axis < 3; ++axis) {
+            constexpr float kStep = 0.01f;
+            vec3 step(0);
+            step[axis] = kStep;
+            const vec2 slope = (encode(d + step) - encode(d - step)) / (2 * kStep);
+            most = std::max({most, std::abs(slope.x - u[axis]), std::abs(slope.y - v[axis])});
+        }
+    }
+    return most;
+}
+
+TEST(HemisphereMap, GradientsAreThoseOfTheMaps) {
+    EXPECT_LT(gradientError(io::hemisphereEncode, io::hemisphereGradients), 1e-3f);
+    EXPECT_LT(gradientError(io::paraboloidEncode, io::paraboloidGradients), 1e-3f);
+}
+
 TEST(HemisphereMap, OctahedralTexelsSeeSimilarSolidAngles) {
     constexpr int kSize = 64;
     double least = 1e9, most = 0, sum = 0;

@@ -7,10 +7,11 @@
 namespace ag::bench {
 namespace {
 
-// Half, one, two and four times the usual budget of 128 clusters.
-std::vector<Variant> clusterBudgets() {
+constexpr std::initializer_list<int> kCounts = {64, 128, 256, 512};
+
+std::vector<Variant> clusterBudgets(std::initializer_list<int> counts) {
     std::vector<Variant> variants;
-    for (const int count : {64, 128, 256, 512})
+    for (const int count : counts)
         variants.push_back({fmt::format("{}", count), {fmt::format("val_clustering.count={}", count)}});
     return variants;
 }
@@ -35,10 +36,16 @@ std::vector<Technique> makeTechniques() {
         {.name = "rsm-400",
          .description = "400 fixed samples of the light map (Dachsbacher & Stamminger 2005)",
          .variants = {{"all pixels", {}}, {"interpolated", {"stochastic_rsm.interpolate=on"}}}},
+        {.name = "ism",
+         .description = "virtual point lights with imperfect shadow maps (Ritschel et al. 2008)",
+         .variants = clusterBudgets({512, 1024})},
+        {.name = "acrsm",
+         .description = "adaptively clustered RSM with soft imperfect shadows, as published",
+         .variants = clusterBudgets({128, 512})},
         {.name = "rsmc",
          .description = "RSM clustering with published disks (Prutkin et al. 2012)",
-         .variants = clusterBudgets()},
-        {.name = "afterglow", .description = "ours", .variants = clusterBudgets()},
+         .variants = clusterBudgets(kCounts)},
+        {.name = "afterglow", .description = "ours", .variants = clusterBudgets(kCounts)},
         {.name = "low", .description = "ours, least work", .variants = {{"", {}}}},
         {.name = "high", .description = "ours, for more accuracy", .variants = {{"", {}}}},
         {.name = "ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},

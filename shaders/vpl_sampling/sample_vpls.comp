@@ -1,0 +1,66 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Virtual point lights (Keller 1997; Ritschel et al. 2008): light-map texels under Halton points warped by importance,
+// each with its block's flux over the block's chance, so that the mean of the lights' total is that of the map.
+#include "common/sampling.h"
+#include "rsm/rsm.glsl"
+#include "val_clustering/val_clustering_io.h"
+#include "val_fit/val_fit_io.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+    uint vplCount;
+    uint valCount;  // with padding
+    uint atlasWidth, mapCount, pyramidStride;
+} push;
+
+layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 1, scalar) readonly buffer Faces { RsmFace items[]; } faces;
+layout(set = 0, binding = 2, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 3, scalar) readonly buffer Pyramid { float items[]; } pyramid;
+layout(set = 0, binding = 4, scalar) writeonly buffer Vals { Val items[]; } vals;
+layout(set = 0, binding = 5, scalar) writeonly buffer Shapes { ValShapeVectors items[]; } shapes;
+#include "importance/warp.glsl"
+
+vec3 fluxOfBlock(uvec2 origin) {
+    vec3 sum = vec3(0.0);
+    for (uint i = 0; i < kImportanceBlock * kImportanceBlock; ++i) {
+        uvec2 coord = origin + uvec2(i % kImportanceBlock, i / kImportanceBlock);
+        sum += texelFetch(texels, int(indexOfTexel(push.atlasWidth, coord)) * 3 + 2).rgb;
+    }
+    return sum;
+}
+
+Val sampleMap(RsmMap map, uint i, Val black) {
+    vec2 u = halton23(1 + i);
+    uint face = chooseFace(map, push.pyramidStride, u.x);
+    uvec2 block = warpToBlock(face, push.pyramidStride, u);
+    uvec2 origin = faces.items[face].origin + block * kImportanceBlock;
+    uint texel = litTexelOfBlock(push.atlasWidth, origin, u);
+    float importance = pyramid.items[face * push.pyramidStride + mortonFromCell(block)];
+    if (texel == kNoCluster || importance <= 0.0) return black;
+    RsmSurface s = AG_RSM_FETCH(texels, texel);
+    float perLight = mapImportance(map, push.pyramidStride) / (importance * float(map.clusterCount));
+    return Val(s.position, 0.0, s.normal, 0.0, fluxOfBlock(origin) * perLight, 0.0);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.valCount) return;
+    uint mapIndex = 0;
+    for (uint m = 0; m < push.mapCount; ++m)
+        if (i >= maps.items[m].firstCluster) mapIndex = m;
+    RsmMap map = maps.items[mapIndex];
+    Val val = Val(vec3(0.0), 1.0, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0), 0.0);
+    if (i < push.vplCount) val = sampleMap(map, i - map.firstCluster, val);
+    val.area = 1e-8;
+    val.radius = val.flux == vec3(0.0) ? 0.0 : 5e-5;
+    ValShapeVectors point;
+    point.halfU = point.halfV = vec3(0.0);
+    point.inverseRectangle = point.inversePolygon = 0.0;
+    point.gradient = vec4(0.0, 0.0, 1.0, 0.0);
+    for (int k = 0; k < int(kValCorners); ++k) point.corners[k] = vec2(0.0);
+    vals.items[i] = val;
+    shapes.items[i] = point;
+}
