@@ -43,7 +43,9 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     graph_.beginFrame(options);
     scene_.beginFrame(scene);
     const SceneView view = scene_.import(graph_, scene, size);
-    const GiFrame frame = addGlobalIllumination(graph_, view, settings, history_);
+    GiSettings asked = settings;
+    asked.ismAtlas.keepMaps = settings.ismAtlas.keepMaps && options.skip;
+    const GiFrame frame = addGlobalIllumination(graph_, view, asked, history_);
     finish(graph_, view, frame);
 
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,

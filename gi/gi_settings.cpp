@@ -182,6 +182,8 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.ismAtlas.mapping);
     s.add({"ism_atlas", "planes", 0, 0, "", "texels keep planes; off: distances with a bias of a disk"},
           &gi.ismAtlas.planes);
+    s.add({"ism_atlas", "keep_maps", 0, 0, "", "do not splat again for lights that stand still"},
+          &gi.ismAtlas.keepMaps);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
     s.add({"val_shading", "taps", 1, 64, "taps", "of soft shadows; 1: hard ones"}, &gi.valShading.taps);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},

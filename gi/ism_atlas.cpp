@@ -5,11 +5,14 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/core/hash.h"
+
 namespace ag::gi {
 namespace {
 
 constexpr uint32_t kCoarsestSize = 4;  // texels along the last level's tile
 constexpr uint32_t kMostLevels = 6;
+constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 
 // The graph keeps views of pass names, so they are literals.
 constexpr std::array<std::string_view, kMostLevels> kPullNames = {"ism_atlas.pull1", "ism_atlas.pull2",
@@ -39,6 +42,41 @@ void addPullPush(FrameGraph& graph, BufferHandle planes, uint32_t mapCount, uint
             .dispatchGroups(levels[i].coarseSize * levels[i].coarseSize * 4 / 64, mapCount);
 }
 
+// What maps are made of and like, as a number; 0: none are kept.
+uint32_t contentsOf(const IsmAtlasSettings& s, const SurfacePoints& points) {
+    if (!s.keepMaps) return 0;
+    const uint64_t like =
+        combineHash(hashValue(glm::vec2(s.splatScale, float(s.mapping))), uint64_t(s.nearMore));
+    return uint32_t(combineHash(like, points.version)) | 1;
+}
+
+// What makes a map, kept for those whose light and points have not moved.
+struct MapHistories {
+    HistoryBuffer places, chosen, keys;
+};
+
+void addChoice(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,
+               const IsmAtlasSettings& settings, const IsmAtlas& atlas, const MapHistories& kept,
+               const io::IsmSplatPush& push) {
+    graph.compute("ism_atlas.choose", "ism_atlas/choose_points.comp")
+        .read("segments", points.segments)
+        .read("vals", vals.vals)
+        .readPrevious("previousPlaces", kept.places)
+        .readPrevious("previousChosen", kept.chosen)
+        .write("places", kept.places.current)
+        .write("chosen", kept.chosen.current)
+        .write("states", atlas.states)
+        .spec(0, settings.nearMore)
+        .push(push)
+        .dispatchGroups(atlas.mapCount);
+    graph.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
+        .readPrevious("previousKeys", kept.keys)
+        .read("states", atlas.states)
+        .write("keys", kept.keys.current)
+        .push(push)
+        .dispatchGroups(atlas.tileSize * atlas.tileSize / 256, atlas.mapCount);
+}
+
 }  // namespace
 
 IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,
@@ -50,8 +88,6 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
     const bool paraboloid = settings.mapping == IsmMapping::kParaboloid;
     const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
-    const BufferHandle keys =
-        graph.buffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = VK_FORMAT_R32_UINT});
     atlas.planes = graph.buffer("ism_atlas.planes", {.sizeBytes = (texels + texels / 3 + 1) * 16,
                                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     const io::IsmSplatPush push{.pointCount = points.count,
@@ -59,32 +95,30 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                                 .tileSize = atlas.tileSize,
                                 .pointsPerMap = perMap,
                                 .pointRadius = settings.splatScale * points.radius,
-                                .inverseExtent = 1 / points.extent};
-    atlas.chosen = graph.buffer(
-        "ism_atlas.chosen", {.sizeBytes = atlas.mapCount * perMap * 4ull, .texelFormat = VK_FORMAT_R32_UINT});
-    atlas.counts = graph.buffer("ism_atlas.counts", {.sizeBytes = atlas.mapCount * 4ull});
-    graph.compute("ism_atlas.choose", "ism_atlas/choose_points.comp")
-        .read("segments", points.segments)
-        .read("vals", vals.vals)
-        .write("chosen", atlas.chosen)
-        .write("counts", atlas.counts)
-        .spec(0, settings.nearMore)
-        .push(push)
-        .dispatchGroups(atlas.mapCount);
-    graph.fill("ism_atlas.clear", keys, io::kIsmNoPoint);
+                                .inverseExtent = 1 / points.extent,
+                                .contents = contentsOf(settings, points)};
+    const MapHistories kept{
+        .places =
+            graph.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
+        .chosen = graph.historyBuffer("ism_atlas.chosen",
+                                      {.sizeBytes = atlas.mapCount * perMap * 4ull, .texelFormat = kUint}),
+        .keys = graph.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = kUint})};
+    atlas.chosen = kept.chosen.current;
+    atlas.states = graph.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});
+    addChoice(graph, points, vals, settings, atlas, kept, push);
     graph.compute("ism_atlas.splat", "ism_atlas/splat_points.comp")
         .read("points", points.points)
         .read("vals", vals.vals)
         .read("chosen", atlas.chosen)
-        .read("counts", atlas.counts)
-        .readWrite("keys", keys)
+        .read("states", atlas.states)
+        .readWrite("keys", kept.keys.current)
         .spec(3, paraboloid)
         .push(push)
         .dispatchGroups((perMap + 63) / 64, atlas.mapCount);
     graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
         .read("points", points.points)
         .read("vals", vals.vals)
-        .read("keys", keys)
+        .read("keys", kept.keys.current)
         .read("chosen", atlas.chosen)
         .write("planes", atlas.planes)
         .spec(0, settings.planes)

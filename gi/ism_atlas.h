@@ -1,8 +1,9 @@
 // Imperfect shadow maps (Ritschel et al. 2008; ACRSM section 5.3.2): small depth maps of what each virtual
 // light sees, splatted from points on the surfaces and closed by pull-push. Hemispheres in one
 // buffer, a square tile a light; each tile takes points of its own,
-// more of them from surfaces near by. Difference: a texel keeps the nearest
-// surface's plane instead of its depth, so that no bias is needed and a surface never shadows itself.
+// more of them from surfaces near by. A map whose light and points did not move is not splatted again.
+// Difference: a texel keeps the nearest surface's plane instead of its depth, so that no bias is needed and a
+// surface never shadows itself.
 #pragma once
 
 #include "gi/surface_points.h"
@@ -21,13 +22,14 @@ struct IsmAtlasSettings {
     float splatScale = 1.5f;       // of the points' disks, which at 1 have the surfaces' area
     IsmMapping mapping = IsmMapping::kOctahedral;
     bool planes = true;    // what texels keep; off: distances with a bias of a disk, as in the sources
+    bool keepMaps = true;  // of lights that stand still before points that do; not with skipping off
     bool pullPush = true;  // close the holes between points
 };
 
 struct IsmAtlas {
     BufferHandle planes;  // vec4: level 0 of all maps first; also a texel buffer; invalid: no visibility
-    BufferHandle chosen;  // per map its points, see ism_light.glsl; how many in counts
-    BufferHandle counts;
+    BufferHandle chosen;  // per map its points, see ism_light.glsl
+    BufferHandle states;  // io::IsmMapState
     uint32_t pointsPerMap = 0;
     uint32_t mapCount = 0;
     uint32_t tileSize = 0;

@@ -4,11 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/hash.h"
+
 namespace ag::gi {
 
 SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     if (scene.surfaceSampleCount == 0) return {};
     SurfacePoints p{.count = scene.surfaceSampleCount};
+    p.version = combineHash(combineHash(scene.scene->geometry->version, scene.scene->instancesVersion),
+                            scene.scene->originVersion);
     p.segmentCount = (p.count + io::kSegmentPoints - 1) / io::kSegmentPoints;
     p.radius = std::sqrt(scene.surfaceArea / (std::numbers::pi_v<float> * float(p.count)));
     p.extent = std::max(glm::length(scene.scene->bounds.max - scene.scene->bounds.min), 1e-6f);

@@ -14,8 +14,9 @@ struct SurfacePoints {
     BufferHandle points;    // io::SurfacePoint; also a texel buffer of vec4
     BufferHandle segments;  // io::SurfaceSegment; also a texel buffer of vec4
     uint32_t count = 0, segmentCount = 0;
-    float extent = 0;  // m: no two points are farther apart
-    float radius = 0;  // m: disks of this radius have the area of all surfaces together
+    uint64_t version = 0;  // changes when a point may have moved
+    float extent = 0;      // m: no two points are farther apart
+    float radius = 0;      // m: disks of this radius have the area of all surfaces together
 };
 
 SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene);

@@ -23,6 +23,14 @@ uint32_t advance(ValClusteringHistory& history, uint64_t inputsVersion, uint32_t
     return history.step;
 }
 
+// Steps from one look of adaption at a cluster to the next (ACRSM: 3). While only the camera moves, clusters
+// follow it slowly, so that most of them and of their shadow maps stay as they are.
+uint32_t lookPeriod(ValClusteringHistory& history, uint64_t lightVersion, uint32_t settleFrames) {
+    history.sinceLightChange = history.lightVersion == lightVersion ? history.sinceLightChange + 1 : 0;
+    history.lightVersion = lightVersion;
+    return history.sinceLightChange <= settleFrames ? 3 : 24;
+}
+
 // Member by member: the struct has padding.
 uint64_t hashOf(const ValClusteringSettings& s) {
     const glm::vec4 metric(s.distanceWeight, s.normalWeight, s.chromaWeight, s.adaptive ? 1 : 0);
@@ -133,14 +141,15 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
                           const ValClusteringSettings& settings, uint64_t viewVersion,
                           ValClusteringHistory& history) {
     if (rsm.empty()) return {};
-    const uint64_t inputs = combineHash(
-        combineHash(rsm.inputsVersion, importance.viewDependent ? viewVersion : 0), hashOf(settings));
+    const uint64_t light = combineHash(rsm.inputsVersion, hashOf(settings));
+    const uint64_t inputs = combineHash(light, importance.viewDependent ? viewVersion : 0);
     const io::ClusterSettings push{
         .metricWeights = {settings.distanceWeight, settings.normalWeight, settings.chromaWeight},
         .clusterCount = settings.count,
         .atlasSize = rsm.atlas.size,
         .mapCount = rsm.atlas.mapCount,
         .viewWeight = importance.viewWeight,
+        .lookPeriod = lookPeriod(history, light, settings.settleFrames),
         .step = advance(history, inputs, settings.settleFrames)};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;

@@ -20,8 +20,8 @@ struct ValClusteringSettings {
 
 // The part of clustering's state that lives on the CPU: when it may rest.
 struct ValClusteringHistory {
-    uint64_t inputsVersion = 0;
-    uint32_t sinceChange = 0;
+    uint64_t inputsVersion = 0, lightVersion = 0;  // of all inputs, of those that are not the view
+    uint32_t sinceChange = 0, sinceLightChange = 0;
     uint32_t step = 0;
 };
 

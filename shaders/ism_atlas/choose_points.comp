@@ -5,7 +5,7 @@
 // Which points each map is made of: of a segment of the curve through all surfaces so many as its distance from the
 // light asks for (as the solid angle of its area: 1 / d²), none from behind the light's plane. What the light sees is
 // then cut as finely near by as far off. One subgroup a map; systematic sampling along the curve, from another place
-// in each map.
+// in each map. A map whose light and whose points stand where they stood is kept.
 #include "common/lane_loop.glsl"
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
@@ -18,7 +18,10 @@ layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 layout(set = 0, binding = 0) uniform samplerBuffer segments;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 2, scalar) writeonly buffer Chosen { uint items[]; } chosen;
-layout(set = 0, binding = 3, scalar) writeonly buffer Counts { uint items[]; } counts;
+layout(set = 0, binding = 3, scalar) writeonly buffer Places { IsmPlace items[]; } places;
+layout(set = 0, binding = 4, scalar) writeonly buffer States { IsmMapState items[]; } states;
+layout(set = 0, binding = 5, scalar) readonly buffer PreviousPlaces { IsmPlace items[]; } previousPlaces;
+layout(set = 0, binding = 6) uniform usamplerBuffer previousChosen;
 
 const float kMost = float(kSegmentPoints);
 
@@ -47,10 +50,10 @@ float pointsPerWeight(IsmLight light) {
     return factor;
 }
 
-void main() {
-    uint map = gl_WorkGroupID.x, scramble = hashUint(map);
-    IsmLight light = AG_ISM_LIGHT(vals, map);
-    float factor = pointsPerWeight(light), start = hashToUnit(map + 1), before = start;
+// Writes the map's points; returns how many.
+uint choosePoints(uint map, IsmLight light) {
+    uint scramble = hashUint(map);
+    float factor = pointsPerWeight(light), before = hashToUnit(map + 1);
     for (uint base = 0; base < push.p.segmentCount; base += kSubgroupSize) {
         uint segment = base + gl_SubgroupInvocationID;
         float asked = min(weightOf(light, segment) * factor, kMost);
@@ -65,5 +68,26 @@ void main() {
         }
         before += subgroupAdd(asked);
     }
-    if (gl_SubgroupInvocationID == 0) counts.items[map] = min(uint(before), push.p.pointsPerMap);
+    return min(uint(before), push.p.pointsPerMap);
+}
+
+void main() {
+    uint map = gl_WorkGroupID.x;
+    IsmPlace old = previousPlaces.items[map];
+    IsmPlace place = IsmPlace(texelFetch(vals, int(map) * 3).xyz, push.p.contents, texelFetch(vals, int(map) * 3 + 1).xyz,
+                              texelFetch(vals, int(map) * 3 + 2).w);
+    IsmLight light = AG_ISM_LIGHT(vals, map);
+    bool kept = light.lit && push.p.contents != 0 && old == place;
+    IsmMapState state = IsmMapState(0, kept ? 1 : 0);
+    if (kept) {
+        for (uint i = gl_SubgroupInvocationID; i < push.p.pointsPerMap; i += kSubgroupSize)
+            chosen.items[map * push.p.pointsPerMap + i] = texelFetch(previousChosen, int(map * push.p.pointsPerMap + i)).x;
+    } else {
+        state.pointCount = choosePoints(map, light);
+    }
+    if (!light.lit) place.contents = 0;
+    if (gl_SubgroupInvocationID == 0) {
+        places.items[map] = place;
+        states.items[map] = state;
+    }
 }

@@ -23,6 +23,19 @@ struct IsmSplatPush {
     uint pointsPerMap;
     float pointRadius;    // m, where all points are used
     float inverseExtent;  // 1/m: of the greatest distance
+    uint contents;        // changes with the points and with what maps are made like
+};
+
+struct IsmPlace {   // 2 vec4: what a map was last made for
+    vec3 position;  // m
+    uint contents;  // as above; 0: never made
+    vec3 normal;
+    float before;  // m
+};
+
+struct IsmMapState {
+    uint pointCount;  // to splat; 0 for a map that is kept
+    uint kept;        // 1: as it was, its light and the points have not moved
 };
 
 struct IsmLevelPush {

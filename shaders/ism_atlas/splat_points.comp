@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 3) uniform usamplerBuffer chosen;
-layout(set = 0, binding = 4, scalar) readonly buffer Counts { uint items[]; } counts;
+layout(set = 0, binding = 4, scalar) readonly buffer States { IsmMapState items[]; } states;
 layout(set = 0, binding = 2, scalar) buffer Keys { uint items[]; } keys;
 
 const float kLeastSine = 0.01;  // lower above the light's plane is its own surface
@@ -111,7 +111,7 @@ void main() {
     uint map = gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
     uint entry = min(gl_GlobalInvocationID.x, push.p.pointsPerMap - 1);
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
-    if (gl_GlobalInvocationID.x >= counts.items[map]) mine.reach = ivec2(-1);
+    if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.reach = ivec2(-1);
     ivec2 extent = 2 * mine.reach + 1;
     bool small = extent.x * extent.y <= kSmallTexels;
     if (small) splatAlone(mine, tile);

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// Evaluation of a map's clusters (ACRSM section 4.8): a random third of them is looked at each step; those with far more
+// Evaluation of a map's clusters (ACRSM section 4.8): a random part of them is looked at each step; those with far more
 // than the mean error are split, those with far less give up their place for it. Difference: what is compared is not
 // area times importance but an estimate of the error itself (evaluate.comp), a mixture of that of flux and that in the
 // view, each over its mean. One subgroup a map, in index order: equal inputs give equal plans.
@@ -72,7 +72,7 @@ void main() {
         uint i = base + gl_SubgroupInvocationID, cluster = map.firstCluster + min(i, map.clusterCount - 1);
         Cluster c = previous.items[cluster];
         bool mine = i < map.clusterCount, lit = mine && isLive(c, map.lightIdLow);
-        bool looked = lit && hashUint(cluster * 31 + push.settings.step * 7919) % 3 == 0;
+        bool looked = lit && hashUint(cluster * 31 + push.settings.step * 7919) % push.settings.lookPeriod == 0;
         float error = dot(overMean, vec2(errors.items[cluster].ofFlux, errors.items[cluster].ofView));
         if (mine) plans.items[cluster] = lit ? kPlanKeep : kPlanAnew;
         AG_APPEND(emptySlots, (mine && !lit), emptyCount, cluster)

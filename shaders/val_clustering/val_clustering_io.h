@@ -59,6 +59,7 @@ struct ClusterSettings {  // push constants
     uvec2 atlasSize;  // texels
     uint mapCount;
     float viewWeight;  // of errors in the view against errors of flux, 0 to 1
+    uint lookPeriod;   // adaption looks at a cluster every so many steps, by chance
     uint step;         // counts clustering steps: varies the reseeding sequence
 };
 

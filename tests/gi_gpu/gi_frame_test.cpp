@@ -319,6 +319,47 @@ TEST(VplSampling, LightsCarryTheMapsFlux) {
     }
 }
 
+struct KeptMaps {
+    int kept = 0, live = 0;
+};
+
+KeptMaps keptMaps(Bench& b) {
+    KeptMaps sum;
+    const auto vals = b.read<io::Val>(b.last.vals.vals);
+    const auto states = b.read<io::IsmMapState>(b.last.isms.states);
+    for (size_t map = 0; map < states.size(); ++map) {
+        sum.live += vals[map].flux != glm::vec3(0);
+        sum.kept += states[map].kept != 0;
+    }
+    return sum;
+}
+
+// With a walking camera clusters come to rest, as they follow the view slowly; a box's step moves the points
+// of all maps.
+TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
+    Bench b(*scenegen::buildScene("gallery", 0));
+    b.output = [](FrameGraph& graph, const GiFrame& f) {
+        graph.output(f.vals.vals);
+        graph.output(f.isms.states);
+    };
+    CameraPose pose = cameraOf(b.asset, 0);
+    KeptMaps camera;
+    for (int i = 0; i < 140; ++i) {
+        pose.position.x += 0.002;
+        setCamera(b.scene, pose, b.size);
+        b.frame();
+        const KeptMaps now = keptMaps(b);
+        if (i >= 120) camera = {camera.kept + now.kept, camera.live + now.live};
+    }
+    std::printf("camera moves: %.2f of the maps kept\n", double(camera.kept) / camera.live);
+    EXPECT_GT(camera.live, 20 * 100);
+    EXPECT_GT(camera.kept, camera.live / 2);
+    b.scene.instances.back().worldFromLocal[3].y += 0.3f;
+    ++b.scene.instancesVersion;
+    b.frame();
+    EXPECT_EQ(keptMaps(b).kept, 0);
+}
+
 struct PointDensity {  // of a map's points over those of its surroundings, nearer and farther than 1.5 m
     double nearBy = 0, farOff = 0;
 };
@@ -328,18 +369,19 @@ struct PointDensity {  // of a map's points over those of its surroundings, near
 PointDensity densityOfMaps(bool nearMore) {
     Bench b(*scenegen::buildScene("cornell", 0));
     b.settings.ismAtlas.nearMore = nearMore;
+    b.settings.ismAtlas.keepMaps = false;
     b.output = [](FrameGraph& graph, const GiFrame& f) {
         graph.output(f.vals.vals);
         graph.output(f.surfacePoints.points);
         graph.output(f.isms.chosen);
-        graph.output(f.isms.counts);
+        graph.output(f.isms.states);
     };
     for (int i = 0; i < 8; ++i)
         b.frame();
     const auto vals = b.read<io::Val>(b.last.vals.vals);
     const auto points = b.read<io::SurfacePoint>(b.last.surfacePoints.points);
     const auto chosen = b.read<uint32_t>(b.last.isms.chosen);
-    const auto counts = b.read<uint32_t>(b.last.isms.counts);
+    const auto states = b.read<io::IsmMapState>(b.last.isms.states);
     double taken[2] = {}, all[2] = {};
     for (size_t map = 0; map < b.last.isms.mapCount; map += 8) {
         if (vals[map].flux == glm::vec3(0)) continue;
@@ -347,10 +389,11 @@ PointDensity densityOfMaps(bool nearMore) {
             return size_t(glm::distance(points[point].position, vals[map].position) > 1.5f);
         };
         const uint32_t budget = b.last.isms.pointsPerMap;
-        EXPECT_LE(counts[map], budget);
-        EXPECT_GT(counts[map], budget * 95 / 100);
+        const uint32_t count = states[map].pointCount;
+        EXPECT_LE(count, budget);
+        EXPECT_GT(count, budget * 95 / 100);
         std::set<uint32_t> once;
-        for (size_t i = map * budget; i < map * budget + counts[map]; ++i) {
+        for (size_t i = map * budget; i < map * budget + count; ++i) {
             const uint32_t point = chosen[i] & ((1u << io::kIsmPointBits) - 1);
             EXPECT_TRUE(once.insert(point).second) << "point " << point << " twice in map " << map;
             ++taken[isFar(point)];
@@ -543,6 +586,7 @@ TEST(Frame, SkippingChangesNoBit) {
                 ++b.scene.instancesVersion;
             }
             if (i == 11) b.scene.lights[0].intensity *= 0.5f;
+            if (i == 12) setCamera(b.scene, {.position = {0.1, 1.5, 3}}, b.size);
             b.frame();
             const auto pixels = readImage(b.renderer, b.last.outputs.radiance).pixels;
             all.insert(all.end(), pixels.begin(), pixels.end());
