@@ -43,11 +43,11 @@ void addPullPush(FrameGraph& graph, BufferHandle planes, uint32_t mapCount, uint
 }
 
 // What maps are made of and like, as a number; 0: none are kept.
-uint32_t contentsOf(const IsmAtlasSettings& s, const SurfacePoints& points) {
+uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const SurfacePoints& points) {
     if (!s.keepMaps) return 0;
-    const uint64_t like =
-        combineHash(hashValue(glm::vec2(s.splatScale, float(s.mapping))), uint64_t(s.nearMore));
-    return uint32_t(combineHash(like, points.version)) | 1;
+    const uint64_t size = hashValue(glm::uvec3(atlas.mapCount, atlas.tileSize, atlas.pointsPerMap));
+    const uint64_t like = hashValue(glm::vec3(s.splatScale, float(s.mapping), float(s.nearMore)));
+    return uint32_t(combineHash(combineHash(size, like), points.version)) | 1;
 }
 
 // What makes a map, kept for those whose light and points have not moved.
@@ -96,7 +96,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                                 .pointsPerMap = perMap,
                                 .pointRadius = settings.splatScale * points.radius,
                                 .inverseExtent = 1 / points.extent,
-                                .contents = contentsOf(settings, points)};
+                                .contents = contentsOf(settings, atlas, points)};
     const MapHistories kept{
         .places =
             graph.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
