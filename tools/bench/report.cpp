@@ -26,6 +26,14 @@ std::vector<std::string> scenesOf(const Report& report) {
     return scenes;
 }
 
+nlohmann::ordered_json orNull(std::optional<double> value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+std::string orBlank(std::optional<double> value, int digits) {
+    return value ? fmt::format("{:.{}f}", *value, digits) : "";
+}
+
 }  // namespace
 
 void markPareto(Report& report) {
@@ -62,8 +70,8 @@ std::string toJson(const Report& report) {
                         {"p99", r.error.p99},
                         {"flip", r.flip},
                         {"noise_floor", r.noiseFloor},
-                        {"flicker_still", r.flickerStill},
-                        {"flicker_moving", r.flickerMoving},
+                        {"flicker_still", orNull(r.flickerStill)},
+                        {"flicker_moving", orNull(r.flickerMoving)},
                         {"equal_time_path_tracing_rel_rmse", r.pathTracingRelRmse},
                         {"pareto", r.pareto}});
     const nlohmann::ordered_json out = {
@@ -79,11 +87,12 @@ std::string toCsv(const Report& report) {
     for (const Row& r : report.rows)
         out += fmt::format(
             "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{:.5f},{:.5f},{:.6f},{:.5f},{:.5f},"
-            "{:.5f},{:.6f},{:.6f},{:.5f},{},\"{}\"\n",
+            "{:.5f},{},{},{:.5f},{},\"{}\"\n",
             r.scene, r.technique, r.variant, settingsText(r), r.size.x, r.size.y, r.vals, r.frames,
             r.gpuMsMedian, r.gpuMsP99, r.indirectMs(), r.cpuMsMedian, r.gpuBytes, r.term, r.error.meanRatio,
-            r.error.relativeRmse, r.error.relMse, r.error.p99, r.flip, r.noiseFloor, r.flickerStill,
-            r.flickerMoving, r.pathTracingRelRmse, r.pareto ? 1 : 0, report.device);
+            r.error.relativeRmse, r.error.relMse, r.error.p99, r.flip, r.noiseFloor,
+            orBlank(r.flickerStill, 6), orBlank(r.flickerMoving, 6), r.pathTracingRelRmse, r.pareto ? 1 : 0,
+            report.device);
     return out;
 }
 
@@ -106,11 +115,11 @@ std::string toMarkdown(const Report& report) {
             const std::string paths =
                 r.pathTracingRelRmse > 0 ? fmt::format("{:.2f}", r.pathTracingRelRmse) : "";
             out += fmt::format(
-                "| {}{} | {} | {:.2f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {:.4f} | {:.4f} | "
+                "| {}{} | {} | {:.2f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {} | {} | "
                 "{} | {:.1f} |\n",
                 r.technique, r.pareto ? " ★" : "", r.variant, r.indirectMs(), r.error.relativeRmse,
-                r.error.meanRatio, r.flip, r.error.p99, r.flickerStill, r.flickerMoving, paths,
-                double(r.gpuBytes) / 1048576.0);
+                r.error.meanRatio, r.flip, r.error.p99, orBlank(r.flickerStill, 4),
+                orBlank(r.flickerMoving, 4), paths, double(r.gpuBytes) / 1048576.0);
         }
     }
     return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,8 @@ struct Row {
     std::string term;
     ImageDifference error;
     double flip = 0;
-    double noiseFloor = 0;  // relative RMSE of the reference itself
-    double flickerStill = 0, flickerMoving = 0;
+    double noiseFloor = 0;                              // relative RMSE of the reference itself
+    std::optional<double> flickerStill, flickerMoving;  // none: not measured
     double pathTracingRelRmse = 0;  // of path tracing stopped after this row's time; 0: not traced
     bool pareto = false;            // nothing in the scene is both faster and nearer to the truth
     // Path tracing for another row's time: a row of its own in the files, a column and a curve elsewhere.
