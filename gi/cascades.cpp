@@ -23,6 +23,12 @@ Sphere sliceSphere(const RenderCamera& camera, float aspect, float near, float f
     return {camera.position + camera.forward * along, std::max(radius, 1e-3f)};
 }
 
+// Up to the next sixteenth of the power of two below.
+float coarse(float length) {
+    const float step = std::exp2(std::floor(std::log2(std::max(length, 1e-3f)))) / 16.0f;
+    return std::ceil(length / step) * step;
+}
+
 }  // namespace
 
 float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float logShare) {
@@ -35,29 +41,24 @@ float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float lo
 Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirection, const Bounds& casters,
                    float sliceNear, float sliceFar, uint32_t resolution) {
     const Sphere sphere = sliceSphere(camera, aspect, sliceNear, sliceFar);
-    // Radius in coarse steps, so that a field of view that breathes does not change the texel size.
-    const float radius = std::ceil(sphere.radius * 16.0f) / 16.0f;
-    const float texel = 2 * radius / float(resolution);
-    const glm::mat4 rotation = viewFromWorld(glm::vec3(0), sunDirection);
-    glm::vec3 center = glm::vec3(rotation * glm::vec4(sphere.center, 1));
-    center.x = std::floor(center.x / texel) * texel;
-    center.y = std::floor(center.y / texel) * texel;
-
-    float highest = -1e30f, lowest = 1e30f;  // of the casters along the light's axis (z grows toward the sun)
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p(corner & 1 ? casters.max.x : casters.min.x,
-                          corner & 2 ? casters.max.y : casters.min.y,
-                          corner & 4 ? casters.max.z : casters.min.z);
-        const float z = (rotation * glm::vec4(p, 1)).z;
-        highest = std::max(highest, z);
-        lowest = std::min(lowest, z);
+    const SunRectangle scene = sunRectangle(sunDirection, casters);
+    const glm::vec3 center = glm::vec3(scene.rotation * glm::vec4(sphere.center, 1));
+    glm::vec2 size, middle;
+    for (int i = 0; i < 2; ++i) {
+        // Sizes in coarse steps, so that neither a breathing field of view nor a thing that moves at the
+        // scene's edge changes that of a texel.
+        const float whole = coarse((scene.seen.max[i] - scene.seen.min[i]) * 1.02f);
+        size[i] = std::min(coarse(2 * sphere.radius), whole);
+        const float texel = size[i] / float(resolution), slack = 0.5f * (whole - size[i]);
+        const float sceneMiddle = std::floor((scene.seen.min[i] + scene.seen.max[i]) * 8.0f) / 16.0f;
+        const float aside = std::clamp(center[i] - sceneMiddle, -slack, slack);
+        middle[i] = std::floor((sceneMiddle + aside) / texel) * texel;
     }
-    const float depth = std::max(highest - lowest, 1e-2f) * 1.02f;
+    const float depth = std::max(scene.seen.max.z - scene.seen.min.z, 1e-2f) * 1.02f;
     const glm::vec3 eye =
-        glm::vec3(glm::transpose(rotation) * glm::vec4(center.x, center.y, highest + 0.01f * depth, 0));
-    return {.clipFromWorld = lightOrtho(2 * radius, 0.0f, depth) * viewFromWorld(eye, sunDirection),
-            .width = 2 * radius,
-            .depth = depth,
+        glm::vec3(glm::transpose(scene.rotation) * glm::vec4(middle, scene.seen.max.z + 0.01f * depth, 0));
+    return {.clipFromWorld = lightOrtho(size, 0.0f, depth) * viewFromWorld(eye, sunDirection, scene.up),
+            .size = size,
             .farDistance = sliceFar};
 }
 

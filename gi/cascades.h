@@ -1,5 +1,5 @@
-// Cascades of a sun: spheres round slices of the camera's frustum, moved in whole texels so that edges do not
-// crawl.
+// Cascades of a sun: spheres round slices of the camera's frustum cut to the scene, moved in whole texels so
+// that edges do not crawl.
 #pragma once
 
 #include "gi/light_views.h"
@@ -8,8 +8,7 @@ namespace ag::gi {
 
 struct Cascade {
     glm::mat4 clipFromWorld{1};
-    float width = 0;        // m across
-    float depth = 0;        // m from near to far
+    glm::vec2 size{0};      // m across
     float farDistance = 0;  // m along the camera's axis
 };
 

@@ -50,7 +50,7 @@ void setAcrsm(GiSettings& gi) {
     gi.ismAtlas = {.tileSize = 128, .nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
     gi.valShading.shape = ValShape::kDisk;
     gi.valShading.interleave = 3;
-    gi.valShading.taps = 16;
+    gi.valShading.taps = gi.valShading.farTaps = 16;
 }
 
 // Ours by budget: lights, points a shadow map is made of, and how far the gather is shared out.
@@ -58,7 +58,6 @@ void setLow(GiSettings& gi) {
     gi.valClustering.count = 64;
     gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
     gi.valShading.interleave = 4;
-    gi.valShading.taps = 4;
 }
 
 void setAfterglow(GiSettings&) {}
@@ -185,7 +184,10 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"ism_atlas", "keep_maps", 0, 0, "", "do not splat again for lights that stand still"},
           &gi.ismAtlas.keepMaps);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
-    s.add({"val_shading", "taps", 1, 64, "taps", "of soft shadows; 1: hard ones"}, &gi.valShading.taps);
+    s.add({"val_shading", "taps", 1, 64, "taps", "of near lights' soft shadows; 1: hard ones"},
+          &gi.valShading.taps);
+    s.add({"val_shading", "far_taps", 1, 64, "taps", "of far lights' soft shadows; 1: hard ones"},
+          &gi.valShading.farTaps);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},
           &gi.stochasticRsm.samples);
     s.add({"stochastic_rsm", "radius", 0.001, 2, "map widths",

@@ -7,8 +7,26 @@
 
 namespace ag::gi {
 
-glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward) {
-    const glm::vec3 up = std::abs(forward.y) > 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+namespace {
+
+// Off the world's axes, which walls follow: a row of texels along an edge would be on one side of it as a
+// whole.
+constexpr float kAskew = 0.06f;
+
+// What a view along the z axis sees of a box.
+Bounds seenBounds(const glm::mat4& view, const Bounds& bounds) {
+    Bounds seen;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                          corner & 4 ? bounds.max.z : bounds.min.z);
+        seen.add(glm::vec3(view * glm::vec4(p, 1)));
+    }
+    return seen;
+}
+
+}  // namespace
+
+glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward, glm::vec3 up) {
     const glm::vec3 right = glm::normalize(glm::cross(forward, up));
     const glm::vec3 top = glm::cross(right, forward);
     glm::mat4 m(1);
@@ -16,6 +34,27 @@ glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward) {
         m[i] = glm::vec4(right[i], top[i], -forward[i], 0);
     m[3] = glm::vec4(-glm::dot(right, position), -glm::dot(top, position), glm::dot(forward, position), 1);
     return m;
+}
+
+glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward) {
+    const glm::vec3 up = std::abs(forward.y) > 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+    return viewFromWorld(position, forward, up);
+}
+
+SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds) {
+    SunRectangle best;
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::vec3 up(0);
+        up[axis] = 1;
+        if (std::abs(direction[axis]) > 0.99f) continue;
+        up[(axis + 1) % 3] = kAskew, up[(axis + 2) % 3] = -kAskew;
+        const glm::mat4 rotation = viewFromWorld(glm::vec3(0), direction, up);
+        const Bounds seen = seenBounds(rotation, bounds);
+        const glm::vec3 extent = seen.max - seen.min, old = best.seen.max - best.seen.min;
+        if (best.up == glm::vec3(0) || extent.x * extent.y < old.x * old.y * 0.99f)
+            best = {up, rotation, seen};
+    }
+    return best;
 }
 
 LightView spotView(const RenderLight& light, float nearDistance, float farDistance) {
@@ -32,20 +71,16 @@ LightView cubeFaceView(glm::vec3 position, uint32_t face, float nearDistance, fl
 }
 
 LightView sunView(glm::vec3 direction, const Bounds& bounds, float margin) {
-    const glm::mat4 rotation = viewFromWorld(glm::vec3(0), direction);
-    Bounds seen;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                          corner & 4 ? bounds.max.z : bounds.min.z);
-        seen.add(glm::vec3(rotation * glm::vec4(p, 1)));
-    }
-    const glm::vec3 center = (seen.min + seen.max) * 0.5f, extent = seen.max - seen.min;
-    const float half = std::max({extent.x, extent.y, 1e-3f}) * 0.5f * (1 + margin);
-    const float depth = std::max(extent.z, 1e-3f) * (0.5f + margin);
+    const SunRectangle fit = sunRectangle(direction, bounds);
+    const glm::vec3 center = (fit.seen.min + fit.seen.max) * 0.5f;
+    const glm::vec3 extent = glm::max(fit.seen.max - fit.seen.min, glm::vec3(1e-3f));
+    const glm::vec2 side = glm::vec2(extent) * (1 + margin);
+    const float depth = extent.z * (0.5f + margin);
     // Eye at the near side of the box, looking along the light.
     const glm::vec3 eye =
-        glm::vec3(glm::transpose(rotation) * glm::vec4(center.x, center.y, center.z + depth, 0));
-    return {lightOrtho(2 * half, 0.0f, 2 * depth) * viewFromWorld(eye, direction), half};
+        glm::vec3(glm::transpose(fit.rotation) * glm::vec4(center.x, center.y, center.z + depth, 0));
+    return {lightOrtho(side, 0.0f, 2 * depth) * viewFromWorld(eye, direction, fit.up),
+            0.5f * std::sqrt(side.x * side.y)};
 }
 
 float farDistanceOf(const RenderLight& light, const Bounds& bounds) {

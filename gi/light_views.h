@@ -11,16 +11,27 @@ namespace ag::gi {
 
 struct LightView {
     glm::mat4 clipFromWorld{1};
-    float tanHalf = 1;  // of the half angle; orthographic: half the width in m
+    float tanHalf = 1;  // of the half angle; orthographic: root of half the sides' product, m
 };
 
-// Looks along `forward`; up is chosen away from it.
+// Looks along `forward`, which `up` is not.
+glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward, glm::vec3 up);
+// The same with an axis of the world chosen for up.
 glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward);
 // A square round the spot's cone (the outer angle is limited to 80 degrees).
 LightView spotView(const RenderLight& light, float nearDistance, float farDistance);
 // Faces +x -x +y -y +z -z of a cube, each 90 degrees.
 LightView cubeFaceView(glm::vec3 position, uint32_t face, float nearDistance, float farDistance);
-// A square over the bounds as the sun sees them, grown by `margin` of its width.
+
+// What a sun sees of a box, turned about its direction so that the rectangle round it is small: an axis of
+// the world is up in it.
+struct SunRectangle {
+    glm::vec3 up{0};
+    glm::mat4 rotation{1};  // world to the light's axes; z grows toward the sun
+    Bounds seen;            // in those axes
+};
+SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds);
+// That rectangle as a map, grown by `margin` of its sides.
 LightView sunView(glm::vec3 direction, const Bounds& bounds, float margin);
 // How far a light's views must reach: its range, or the scene's far side.
 float farDistanceOf(const RenderLight& light, const Bounds& bounds);

@@ -1,6 +1,7 @@
 #include "gi/shadow_maps.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gi/cascades.h"
 #include "gi/scene_draws.h"
@@ -65,11 +66,11 @@ void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowM
         const float end = cascadeEnd(i, count, std::max(camera.near, 0.5f), reach, settings.cascadeSplit);
         const Cascade c =
             fitCascade(camera, aspect, light.direction, scene.scene->bounds, begin, end, settings.resolution);
-        views.items[views.count++] = {.clipFromWorld = c.clipFromWorld,
-                                      .size = settings.resolution,
-                                      .texelSize = c.width / float(settings.resolution),
-                                      .depthPerMetre = 1 / c.depth,
-                                      .farDistance = c.farDistance};
+        views.items[views.count++] = {
+            .clipFromWorld = c.clipFromWorld,
+            .size = settings.resolution,
+            .texelSize = std::sqrt(c.size.x * c.size.y) / float(settings.resolution),
+            .farDistance = c.farDistance};
         begin = end;
     }
 }

@@ -13,7 +13,7 @@ struct ValClusteringSettings {
     uint32_t count = 128;        // clusters over all bounce lights, 16 to 1024
     float distanceWeight = 1;    // w_d, 1/m²
     float normalWeight = 10;     // w_n
-    float chromaWeight = 0;      // w_flux of RSMC eq. 1
+    float chromaWeight = 5;      // w_flux of RSMC eq. 1
     bool adaptive = true;        // split clusters with much error, drop those with little (ACRSM 4.8)
     uint32_t settleFrames = 32;  // steps taken after the light maps last changed; then clusters rest
 };

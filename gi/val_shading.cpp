@@ -20,7 +20,6 @@ struct Gather {
     const IsmAtlas& isms;
     io::ValShadingPush push;
     BufferHandle lists, counts;
-    uint32_t taps;  // 0: no visibility
     uint32_t interleave;
 };
 
@@ -36,7 +35,8 @@ void addClassification(const Gather& g) {
         .dispatchGroups(g.push.tiles.x * g.push.tiles.y);
 }
 
-PassBuilder addGather(const Gather& g, std::string_view name, std::string_view shader, ValShape shape) {
+PassBuilder addGather(const Gather& g, std::string_view name, std::string_view shader, ValShape shape,
+                      uint32_t taps) {
     PassBuilder pass = g.graph.compute(name, shader);
     pass.sample("normalMap", g.gbuffer.normal)
         .sample("depthMap", g.gbuffer.depth)
@@ -47,7 +47,7 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
         .read("lists", g.lists)
         .read("counts", g.counts)
         .spec(0, uint32_t(shape))
-        .spec(1, g.taps)
+        .spec(1, g.isms.planes ? taps : 0)
         .spec(2, g.interleave)
         .spec(3, g.isms.mapping == IsmMapping::kParaboloid)
         .push(g.push)
@@ -77,14 +77,14 @@ Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffe
                                          {.sizeBytes = tileCount * io::kLightLists * io::kMaxVals * 4,
                                           .texelFormat = VK_FORMAT_R32_UINT}),
                    .counts = graph.buffer("val_shading.counts", {.sizeBytes = tileCount * 8}),
-                   .taps = isms.planes ? settings.taps : 0,
                    .interleave = n};
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle parts = graph.image("val_shading.parts", info);
     const Irradiance result{graph.image("val_shading.irradiance", info)};
     addClassification(g);
-    addGather(g, "val_shading.far", "val_shading/gather_far.comp", settings.farShape).write("parts", parts);
-    addGather(g, "val_shading.near", "val_shading/gather_near.comp", settings.shape)
+    addGather(g, "val_shading.far", "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
+        .write("parts", parts);
+    addGather(g, "val_shading.near", "val_shading/gather_near.comp", settings.shape, settings.taps)
         .sample("parts", parts)
         .write("irradiance", result.image);
     return result;

@@ -19,9 +19,10 @@ enum class ValShape : uint32_t {
 struct ValShadingSettings {
     ValShape shape = ValShape::kPolygon;  // of near lights
     ValShape farShape = ValShape::kVectorDisk;
-    float nearReach = 3;      // lights nearer than this many of their half lengths are near; 0: none
+    float nearReach = 2;      // lights nearer than this many of their half lengths are near; 0: none
     uint32_t interleave = 3;  // n: each pixel meets one of n² parts of the far lights
-    uint32_t taps = 8;        // of soft shadows; 1: hard ones, from the light's centre
+    uint32_t taps = 4;        // of near lights' soft shadows; 1: hard ones, from the light's centre
+    uint32_t farTaps = 1;     // of far lights'
 };
 
 struct Irradiance {

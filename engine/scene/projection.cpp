@@ -25,10 +25,10 @@ glm::mat4 lightPerspective(float fov, float near, float far) {
     return m;
 }
 
-glm::mat4 lightOrtho(float width, float near, float far) {
+glm::mat4 lightOrtho(glm::vec2 size, float near, float far) {
     glm::mat4 m(1);
-    m[0][0] = 2 / width;
-    m[1][1] = -2 / width;
+    m[0][0] = 2 / size.x;
+    m[1][1] = -2 / size.y;
     m[2][2] = 1 / (far - near);
     m[3][2] = far / (far - near);
     return m;

@@ -9,7 +9,7 @@ namespace ag {
 glm::mat4 reversedInfinitePerspective(float fovY, float aspect, float near);
 // Square, finite.
 glm::mat4 lightPerspective(float fov, float near, float far);
-// A square `width` m across.
-glm::mat4 lightOrtho(float width, float near, float far);
+// A rectangle of `size` m.
+glm::mat4 lightOrtho(glm::vec2 size, float near, float far);
 
 }  // namespace ag

@@ -6,8 +6,8 @@
 
 AG_BEGIN
 
-AG_FUNCTION float shadowCompare(float stored, float receiver, float bias) {
-    return receiver + bias >= stored ? 1.0f : 0.0f;
+AG_FUNCTION float shadowCompare(float stored, float receiver) {
+    return receiver >= stored ? 1.0f : 0.0f;
 }
 
 AG_END

@@ -1,5 +1,5 @@
 // Irradiance straight from the lights, one pass a light so that its kind is known when the shader is compiled.
-// Shadow by 25 taps of the light's map, weighted so that the edge moves smoothly.
+// Shadow by nine taps of the light's map, weighted so that the edge moves smoothly.
 #include "common/lights.h"
 #include "common/sampling.h"
 #include "common/shadow_math.h"
@@ -52,33 +52,45 @@ vec2 receiverSlope(ShadowView view, vec3 position, vec3 normal, vec3 toLight, fl
 }
 
 // Share of the light that arrives. Each tap is held against the receiver's plane at that tap, so that a flat
-// surface does not shadow itself however wide the filter; half a texel's push covers rounding.
+// surface does not shadow itself however wide the filter; a push of a quarter texel covers rounding. Planes seen
+// nearly edge-on, which cross much depth within a texel, are given half of that as a tolerance. Where the map shows
+// neither the plane nor anything before it the surface has ended there: such taps count as lit only if others are,
+// else light from beyond a wall would come in along its corners.
 float litShare(Light light, vec3 position, vec3 normal, vec3 toLight, float viewDepth) {
     ShadowView view = shadowViews.items[chooseView(light, position, viewDepth)];
     float texel = view.texelSize;
     if (kKind != kLightDirectional) texel *= length(light.position - position);
-    vec3 pushed = position + (normal + toLight) * (0.5 * texel);
+    vec3 pushed = position + (normal + toLight) * (0.25 * texel);
     vec3 point = shadowPoint(view, pushed);
     vec2 at = point.xy;
     bool outside = point.z < 0.0 || any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(view.size)));
     vec2 slope = receiverSlope(view, pushed, normal, toLight, texel, point);
+    float texelDepth = max(abs(shadowPoint(view, pushed + toLight * texel).z - point.z), 1e-9);
+    float tolerance = 0.5 * max(abs(slope.x) + abs(slope.y) - 2.0 * texelDepth, 0.0);
+    float ends = 2.0 * texelDepth + tolerance;  // this far behind the plane is another surface
 
-    // A box four texels wide about the receiver: five taps a row, the outer two by what it covers of them.
+    // A box two texels wide about the receiver: three taps a row, the outer two by what it covers of them.
     vec2 corner = floor(at);
     vec2 f = at - corner;
     ivec2 low = ivec2(view.origin), high = low + int(view.size) - 1;
-    float lit = 0.0;
-    [[unroll]] for (int y = -2; y <= 2; ++y) {
-        [[unroll]] for (int x = -2; x <= 2; ++x) {
+    float lit = 0.0, seen = 0.0, beyond = 0.0;
+    [[unroll]] for (int y = -1; y <= 1; ++y) {
+        [[unroll]] for (int x = -1; x <= 1; ++x) {
             ivec2 tap = clamp(low + ivec2(corner) + ivec2(x, y), low, high);
-            float wx = x == -2 ? 1.0 - f.x : (x == 2 ? f.x : 1.0);
-            float wy = y == -2 ? 1.0 - f.y : (y == 2 ? f.y : 1.0);
+            float wx = x == -1 ? 1.0 - f.x : (x == 1 ? f.x : 1.0);
+            float wy = y == -1 ? 1.0 - f.y : (y == 1 ? f.y : 1.0);
             vec2 offset = vec2(x, y) + 0.5 - f;  // from the receiver to the tap's centre, texels
             float receiver = point.z + dot(slope, offset);
-            lit += wx * wy * shadowCompare(texelFetch(shadowAtlas, tap, 0).x, receiver, 0.0);
+            float stored = texelFetch(shadowAtlas, tap, 0).x;
+            float there = clamp(2.0 - (receiver - stored) / ends, 0.0, 1.0);
+            seen += wx * wy * there;
+            beyond += wx * wy * (1.0 - there);
+            lit += wx * wy * there * shadowCompare(stored, receiver + tolerance);
         }
     }
-    return outside ? 1.0 : lit / 16.0;
+    bool nothingSeen = seen < 1e-3;
+    lit += beyond * (nothingSeen ? 1.0 : min(4.0 * lit / seen, 1.0));
+    return outside ? 1.0 : lit / 4.0;
 }
 #endif
 

@@ -16,8 +16,7 @@ struct ShadowView {
     mat4 clipFromWorld;   // reversed depth
     uvec2 origin;         // first texel in the atlas
     uint size;            // texels along a side
-    float texelSize;      // m: directional: of a texel; perspective: of a texel at 1 m
-    float depthPerMetre;  // directional: reversed depth a metre takes; perspective: 0
+    float texelSize;      // m: directional: of a square one as large; perspective: at 1 m
     float farDistance;    // m along the camera's axis this cascade reaches; 0: not a cascade
 };
 

@@ -47,38 +47,64 @@ Surface surfaceAt(ivec2 pixel) {
     return s;
 }
 
-bool onSurface(Surface s, ivec2 pixel, ivec2 at) {
-    float depth = texelFetch(depthMap, at, 0).x;
-    float expected = s.depth + dot(s.slope, vec2(at - pixel));
-    return depth > 0.0 && abs(depth - expected) <= kMostPlaneShare * s.depth &&
-           dot(s.normal, texelFetch(normalMap, at, 0).xyz) >= kLeastCosine;
-}
+struct Pixel {  // of the window about a block
+    vec3 normal;
+    float depth;  // 0: sky or outside the tile
+    vec3 part;
+};
 
 struct TileBounds {
     ivec2 first, end;
 };
 
-// One part of the lights: from the nearest pixel that holds it, or, where that is on another surface, from those n
-// further to the other sides.
-vec4 partAt(Surface s, TileBounds bounds, ivec2 pixel, ivec2 toward) {
-    ivec2 back = kInterleave * (1 - 2 * ivec2(greaterThanEqual(toward, ivec2(0))));
-    // A loop, not unrolled: almost always the first is found, and CPU devices skip rounds but not branches.
-    vec4 sum = vec4(0.0);
-    [[dont_unroll]] for (int k = 0; k < 4 && sum.w == 0.0; ++k) {
-        ivec2 at = pixel + toward + back * ivec2(k & 1, k >> 1);
-        bool inside = all(greaterThanEqual(at, bounds.first)) && all(lessThan(at, bounds.end));
-        at = clamp(at, bounds.first, bounds.end - 1);
-        if (inside && onSurface(s, pixel, at)) sum = vec4(texelFetch(parts, at, 0).rgb, 1.0);
-    }
-    return sum;
+Pixel fetchPixel(TileBounds bounds, ivec2 at) {
+    bool inside = all(greaterThanEqual(at, bounds.first)) && all(lessThan(at, bounds.end));
+    at = clamp(at, bounds.first, bounds.end - 1);
+    float depth = texelFetch(depthMap, at, 0).x;
+    return Pixel(texelFetch(normalMap, at, 0).xyz, inside ? depth : 0.0, texelFetch(parts, at, 0).rgb);
 }
 
-vec3 farIrradiance(Surface s, TileBounds bounds, ivec2 pixel) {
-    if (kInterleave == 1) return texelFetch(parts, pixel, 0).rgb;
-    vec4 sum = vec4(0.0);
-    [[unroll]] for (int i = 0; i < kInterleave * kInterleave; ++i)
-        sum += partAt(s, bounds, pixel, ivec2(i % kInterleave, i / kInterleave) - kInterleave / 2);
-    return sum.rgb * (float(kInterleave * kInterleave) / max(sum.w, 1.0));
+// Of a pixel so far aside: its part and 1, or nothing where it is on another surface.
+vec4 partOf(Pixel pixel, Surface s, ivec2 aside) {
+    float expected = s.depth + dot(s.slope, vec2(aside));
+    bool same = pixel.depth > 0.0 && abs(pixel.depth - expected) <= kMostPlaneShare * s.depth &&
+                dot(s.normal, pixel.normal) >= kLeastCosine;
+    return same ? vec4(pixel.part, 1.0) : vec4(0.0);
+}
+
+// The parts of each of a block's pixels: from the nearest that hold them, out of a window the block shares, or, where
+// those are on another surface, from the ones n further to the other sides.
+void addFarIrradiance(TileBounds bounds, ivec2 corner, Surface s[kPixels], inout vec3 e[kPixels]) {
+    const int kWindow = kInterleave + 1;
+    // Moved into the tile where it would stand out: it holds each part all the same.
+    ivec2 first = clamp(corner - kInterleave / 2, bounds.first, max(bounds.end - kWindow, bounds.first));
+    Pixel window[kWindow * kWindow];
+    [[unroll]] for (int i = 0; i < kWindow * kWindow; ++i)
+        window[i] = fetchPixel(bounds, first + ivec2(i % kWindow, i / kWindow));
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 place = ivec2(p & 1, p >> 1);
+        vec4 sum = vec4(0.0);
+        uint missing = 0;
+        [[unroll]] for (int i = 0; i < kInterleave * kInterleave; ++i) {
+            ivec2 at = ivec2(i % kInterleave, i / kInterleave) + place;
+            vec4 part = partOf(window[at.y * kWindow + at.x], s[p], first - corner - place + at);
+            sum += part;
+            missing |= part.w == 0.0 && s[p].depth > 0.0 ? 1u << i : 0u;
+        }
+        // A loop over the few that miss: CPU devices skip rounds but not branches.
+        [[dont_unroll]] for (uint tries = missing; tries != 0u; tries &= tries - 1u) {
+            int i = findLSB(tries);
+            ivec2 toward = first - corner + ivec2(i % kInterleave, i / kInterleave);
+            ivec2 back = kInterleave * (1 - 2 * ivec2(greaterThanEqual(toward, ivec2(0))));
+            vec4 part = vec4(0.0);
+            [[dont_unroll]] for (int k = 1; k < 4 && part.w == 0.0; ++k) {
+                ivec2 aside = toward + back * ivec2(k & 1, k >> 1);
+                part = partOf(fetchPixel(bounds, corner + place + aside), s[p], aside);
+            }
+            sum += part;
+        }
+        e[p] += sum.rgb * (float(kInterleave * kInterleave) / max(sum.w, 1.0));
+    }
 }
 
 void main() {
@@ -90,8 +116,9 @@ void main() {
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = min(pixelOf(block, p), size - 1);
         s[p] = surfaceAt(pixel);
-        e[p] = farIrradiance(s[p], bounds, pixel);
+        e[p] = kInterleave == 1 ? texelFetch(parts, pixel, 0).rgb : vec3(0.0);
     }
+    if (kInterleave > 1) addFarIrradiance(bounds, pixelOf(block, 0), s, e);
     uint start = listStart(block.tile, kNearList), count = counts.items[block.tile].x;
     if (kLaneParallel) {
         for (uint base = 0; base < count; base += kSubgroupSize) {

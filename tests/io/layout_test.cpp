@@ -49,7 +49,7 @@ const std::map<std::string, Layout>& layouts() {
         {"ShadowView",
          {sizeof(io::ShadowView),
           {AG_MEMBER(ShadowView, clipFromWorld), AG_MEMBER(ShadowView, origin), AG_MEMBER(ShadowView, size),
-           AG_MEMBER(ShadowView, texelSize), AG_MEMBER(ShadowView, depthPerMetre),
+           AG_MEMBER(ShadowView, texelSize), 
            AG_MEMBER(ShadowView, farDistance)}}},
         {"RsmFace",
          {sizeof(io::RsmFace),
