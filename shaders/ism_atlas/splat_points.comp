@@ -33,16 +33,17 @@ struct Splat {
     vec4 edges[2];      // inward, distance
     uint entry;    // among the map's points
     float radius;  // m
-    ivec2 reach;   // texels to each side; -1: nothing
+    ivec2 centre, low, high;  // texels; of the point, and those its disk may meet
 };
 
 // How far the disk extends along the map's axes, texels: its radius across the coordinates' gradients, within its plane.
+// A quarter texel is for what bends in between.
 vec2 reachOf(Splat s, vec3 normal) {
     vec3 u, v;
     ismGradients(s.place, u, v);
     vec2 within = vec2(dot(u, u), dot(v, v)) - vec2(dot(u, normal), dot(v, normal)) * vec2(dot(u, normal), dot(v, normal));
     float size = float(push.p.tileSize), nearness = s.radius / length(s.place);
-    return s.radius * size * (1.0 + nearness) * sqrt(max(within, vec2(0.0)));
+    return s.radius * size * (1.0 + nearness) * sqrt(max(within, vec2(0.0))) + 0.25;
 }
 
 Splat splatOf(uint map, uint entry, IsmLight light) {
@@ -60,15 +61,22 @@ Splat splatOf(uint map, uint entry, IsmLight light) {
     }
     float distance_ = length(s.place);
     bool seen = light.lit && s.place.z > kLeastSine * distance_ && s.plane != vec3(0.0);
-    s.reach = seen ? min(ivec2(reachOf(s, normal) + 1.0), ivec2(kMostReach)) : ivec2(-1);
+    int size = int(push.p.tileSize);
+    vec2 at = ismEncode(vec3(s.place.xy, max(s.place.z, 0.0))) * float(size);
+    vec2 reach = min(reachOf(s, normal), vec2(kMostReach));
+    s.centre = clamp(ivec2(at), ivec2(0), ivec2(size - 1));
+    // Texels whose centres the disk may hold; the point's own always.
+    s.low = clamp(ivec2(ceil(at - reach - 0.5)), ivec2(0), s.centre);
+    s.high = clamp(ivec2(floor(at + reach - 0.5)), s.centre, ivec2(size - 1));
+    if (!seen) s.high = s.low - 1;
     return s;
 }
 
-void touch(Splat s, uint tile, ivec2 texel, ivec2 centre) {
+void touch(Splat s, uint tile, ivec2 texel) {
     vec3 w = ismDirection((vec2(texel) + 0.5) / float(push.p.tileSize));
     vec3 hit = w / max(dot(s.plane, w), 1e-12);
     vec3 off = hit - s.place;
-    bool isCentre = texel == centre;
+    bool isCentre = texel == s.centre;
     bool inside = dot(off, off) <= s.radius * s.radius &&
                   dot(off, s.edges[0].xyz) >= -s.edges[0].w && dot(off, s.edges[1].xyz) >= -s.edges[1].w;
     if (!inside && !isCentre) return;
@@ -76,24 +84,15 @@ void touch(Splat s, uint tile, ivec2 texel, ivec2 centre) {
     atomicMin(keys.items[tile + uint(texel.y) * push.p.tileSize + uint(texel.x)], keyOf(d, s.entry));
 }
 
-ivec2 centreOf(Splat s) {
-    int size = int(push.p.tileSize);
-    return clamp(ivec2(ismEncode(vec3(s.place.xy, max(s.place.z, 0.0))) * float(size)), ivec2(0), ivec2(size - 1));
-}
-
 void splatAlone(Splat s, uint tile) {
-    ivec2 centre = centreOf(s);
-    ivec2 low = max(centre - s.reach, ivec2(0)), high = min(centre + s.reach, ivec2(push.p.tileSize) - 1);
-    for (int y = low.y; y <= high.y; ++y)
-        for (int x = low.x; x <= high.x; ++x) touch(s, tile, ivec2(x, y), centre);
+    for (int y = s.low.y; y <= s.high.y; ++y)
+        for (int x = s.low.x; x <= s.high.x; ++x) touch(s, tile, ivec2(x, y));
 }
 
 void splatTogether(Splat s, uint tile) {
-    ivec2 centre = centreOf(s);
-    ivec2 low = max(centre - s.reach, ivec2(0)), high = min(centre + s.reach, ivec2(push.p.tileSize) - 1);
-    ivec2 extent = high - low + 1;
+    ivec2 extent = s.high - s.low + 1;
     for (int i = int(gl_SubgroupInvocationID); i < extent.x * extent.y; i += int(gl_SubgroupSize))
-        touch(s, tile, low + ivec2(i % extent.x, i / extent.x), centre);
+        touch(s, tile, s.low + ivec2(i % extent.x, i / extent.x));
 }
 
 Splat splatOfLane(Splat mine, uint lane) {
@@ -103,7 +102,9 @@ Splat splatOfLane(Splat mine, uint lane) {
     for (int k = 0; k < 2; ++k) s.edges[k] = subgroupShuffle(mine.edges[k], lane);
     s.entry = subgroupShuffle(mine.entry, lane);
     s.radius = subgroupShuffle(mine.radius, lane);
-    s.reach = subgroupShuffle(mine.reach, lane);
+    s.centre = subgroupShuffle(mine.centre, lane);
+    s.low = subgroupShuffle(mine.low, lane);
+    s.high = subgroupShuffle(mine.high, lane);
     return s;
 }
 
@@ -111,10 +112,10 @@ void main() {
     uint map = gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
     uint entry = min(gl_GlobalInvocationID.x, push.p.pointsPerMap - 1);
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
-    if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.reach = ivec2(-1);
-    ivec2 extent = 2 * mine.reach + 1;
+    if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.high = mine.low - 1;
+    ivec2 extent = mine.high - mine.low + 1;
     bool small = extent.x * extent.y <= kSmallTexels;
-    if (small) splatAlone(mine, tile);
+    if (mine.plane.x > 1e20) splatAlone(mine, tile);
     uvec4 large = subgroupBallot(!small);
     while (large != uvec4(0)) {
         uint lane = subgroupBallotFindLSB(large);
