@@ -115,7 +115,7 @@ void main() {
     if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.high = mine.low - 1;
     ivec2 extent = mine.high - mine.low + 1;
     bool small = extent.x * extent.y <= kSmallTexels;
-    if (mine.plane.x > 1e20) splatAlone(mine, tile);
+    if (small) splatAlone(mine, tile);
     uvec4 large = subgroupBallot(!small);
     while (large != uvec4(0)) {
         uint lane = subgroupBallotFindLSB(large);

@@ -433,35 +433,6 @@ TEST(FirstBounce, ClosedRoomPowerAudit) {
     EXPECT_NEAR(6 * wall / flux, 1, 0.01);
 }
 
-// The largest cluster's error over the mean, error as clustering has it: flux times mean distance in its
-// metric.
-double unevenness(bool adaptive) {
-    Bench b(*scenegen::buildScene("corridor", 0));
-    b.settings.valClustering.adaptive = adaptive;
-    b.settings.importance.viewWeight = 0;
-    for (int i = 0; i < 34; ++i)
-        b.frame();
-    const ValClusteringSettings& s = b.settings.valClustering;
-    double sum = 0, squares = 0;
-    int live = 0;
-    for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters)) {
-        if (c.texelCount == 0) continue;
-        const glm::vec3 d = c.covarianceDiagonal;
-        const double error =
-            double(c.flux.x + c.flux.y + c.flux.z) *
-            double(s.distanceWeight * (d.x + d.y + d.z) + s.normalWeight * (1 - c.cosineSpread));
-        sum += error, squares += error * error, ++live;
-    }
-    EXPECT_GT(live, 100) << "few clusters are left idle";
-    return std::sqrt(squares / live - (sum / live) * (sum / live)) / (sum / live);
-}
-
-TEST(ValClustering, AdaptionEvensOutTheClustersErrors) {
-    const double with = unevenness(true), without = unevenness(false);
-    std::printf("deviation of errors over their mean: %.2f adaptive, %.2f not\n", with, without);
-    EXPECT_LT(with, 0.9 * without);
-}
-
 // Irradiance on the wall of `corner` at height y and depth z: a uniform Lambert rectangle [0,2] x [-1,1] of
 // radiosity 2 W/m² in the plane y = 0, by midpoint quadrature.
 double cornerIrradiance(double y, double z) {

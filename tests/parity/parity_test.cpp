@@ -10,6 +10,7 @@
 #include "gi/gi_renderer.h"
 #include "gi/surface_sampling.h"
 #include "tests/support/device_environment.h"
+#include "tools/bench/spot_sweep.h"
 #include "tools/reference/reference.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
@@ -121,6 +122,24 @@ TEST(Parity, ErrorsInTheViewPutClustersWhereTheyAreSeen) {
     const double flux = differ(truth, fresh.render(Layer::kBounce1, byFlux, 34)).relativeRmse;
     std::printf("corridor: relative RMSE %.3f, by flux alone %.3f\n", view, flux);
     EXPECT_LT(view, 0.9 * flux);
+}
+
+// The moving spot of the ACRSM thesis, in fewer frames.
+TEST(Parity, AdaptionKeepsClustersEvenWhileASpotSweeps) {
+    const auto frames = bench::sweepSpot(test::device(), {.frames = 120, .every = 8}, [](double) {});
+    bench::SweepFrame mean;
+    for (const bench::SweepFrame& f : frames)
+        for (size_t v = 0; v < bench::kSweepVariants.size(); ++v) {
+            mean.spread[v] += f.spread[v] / double(frames.size());
+            mean.error[v] += f.error[v] / double(frames.size());
+        }
+    for (size_t v = 0; v < bench::kSweepVariants.size(); ++v)
+        std::printf("%s: spread of areas %.2f, relative RMSE %.4f\n",
+                    std::string(bench::kSweepVariants[v]).c_str(), mean.spread[v], mean.error[v]);
+    for (size_t v = 1; v < bench::kSweepVariants.size(); ++v) {
+        EXPECT_LT(mean.spread[v], 0.7 * mean.spread[0]) << bench::kSweepVariants[v];
+        EXPECT_LT(mean.error[v], 0.8 * mean.error[0]) << bench::kSweepVariants[v];
+    }
 }
 
 struct MapAgreement {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/bench/report.h"
+#include "tools/bench/svg.h"
 
 namespace ag::bench {
 namespace {
@@ -86,28 +87,22 @@ std::vector<double> ticks(const Axis& axis) {
     return values;
 }
 
-std::string text(double x, double y, std::string_view anchor, double size, std::string_view words,
-                 std::string_view color = "#333") {
-    return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' font-size='{}' fill='{}'>{}</text>\n", x,
-                       y, anchor, size, color, words);
-}
-
 std::string frameOf(const Axis& x, const Axis& y, const std::string& title) {
-    std::string out = text(x.begin, y.end - 10, "start", 15, title);
+    std::string out = svgText(x.begin, y.end - 10, "start", 15, title);
     for (const double v : ticks(x)) {
         out += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y1='{1:.1f}' y2='{2:.1f}' stroke='#e4e4e4'/>\n",
                            x.at(v), y.begin, y.end);
-        out += text(x.at(v), y.begin + 16, "middle", 11, fmt::format("{:g}", v));
+        out += svgText(x.at(v), y.begin + 16, "middle", 11, fmt::format("{:g}", v));
     }
     for (const double v : ticks(y)) {
         out += fmt::format("<line x1='{1:.1f}' x2='{2:.1f}' y1='{0:.1f}' y2='{0:.1f}' stroke='#e4e4e4'/>\n",
                            y.at(v), x.begin, x.end);
-        out += text(x.begin - 6, y.at(v) + 4, "end", 11, fmt::format("{:g}", v));
+        out += svgText(x.begin - 6, y.at(v) + 4, "end", 11, fmt::format("{:g}", v));
     }
     out += fmt::format(
         "<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='none' stroke='#999'/>\n", x.begin,
         y.end, x.end - x.begin, y.begin - y.end);
-    out += text((x.begin + x.end) / 2, y.begin + 36, "middle", 12, "ms a frame for indirect light");
+    out += svgText((x.begin + x.end) / 2, y.begin + 36, "middle", 12, "ms a frame for indirect light");
     const double middle = (y.begin + y.end) / 2;
     out += fmt::format(
         "<text x='{0:.1f}' y='{1:.1f}' text-anchor='middle' font-size='12' fill='#333' "
@@ -123,7 +118,8 @@ std::string drawSeries(const Series& series, const Axis& x, const Axis& y, std::
         line += fmt::format("{:.1f},{:.1f} ", x.at(p.ms), y.at(p.error));
         marks += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='{}' stroke='{}'/>\n", x.at(p.ms),
                              y.at(p.error), paths ? 2.5 : 4.5, color, p.pareto ? "#000" : "none");
-        if (!p.label.empty()) marks += text(x.at(p.ms) + 7, y.at(p.error) - 5, "start", 10, p.label, color);
+        if (!p.label.empty())
+            marks += svgText(x.at(p.ms) + 7, y.at(p.error) - 5, "start", 10, p.label, color);
     }
     return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='1.6'{}/>\n", line, color,
                        paths ? " stroke-dasharray='3 3'" : "") +
@@ -163,20 +159,17 @@ std::string toSvg(const Report& report) {
     const double width = std::max(double(columns) * kPanelWidth, 760.0);
     const double legend = kLegendRow * std::ceil(double(names.size()) / 4);
     const double height = kHeader + double(rows) * kPanelHeight + legend + 12;
-    std::string out = fmt::format(
-        "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} "
-        "{1:.0f}' font-family='sans-serif'>\n<rect width='100%' height='100%' fill='#fff'/>\n",
-        width, height);
-    out += text(16, 26, "start", 18, "Indirect light: time against error (left and low is better)");
-    out += text(16, 46, "start", 12,
-                fmt::format("{}, {}; {}x{}", report.device, report.driver,
-                            report.rows.empty() ? 0 : report.rows[0].size.x,
-                            report.rows.empty() ? 0 : report.rows[0].size.y),
-                "#666");
-    out +=
-        text(16, 62, "start", 12,
-             "Ringed points and the gray staircase: nothing measured is both faster and nearer to the truth.",
-             "#666");
+    std::string out = svgBegin(width, height);
+    out += svgText(16, 26, "start", 18, "Indirect light: time against error (left and low is better)");
+    out += svgText(16, 46, "start", 12,
+                   fmt::format("{}, {}; {}x{}", report.device, report.driver,
+                               report.rows.empty() ? 0 : report.rows[0].size.x,
+                               report.rows.empty() ? 0 : report.rows[0].size.y),
+                   "#666");
+    out += svgText(
+        16, 62, "start", 12,
+        "Ringed points and the gray staircase: nothing measured is both faster and nearer to the truth.",
+        "#666");
     for (size_t i = 0; i < scenes.size(); ++i) {
         const double left = double(i % 2) * kPanelWidth, top = kHeader + double(i / 2) * kPanelHeight;
         const std::vector<Series> all = seriesOf(report, scenes[i]);
@@ -191,7 +184,7 @@ std::string toSvg(const Report& report) {
                      y = kHeader + double(rows) * kPanelHeight + 10 + kLegendRow * double(i / 4);
         out +=
             fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='5' fill='{}'/>\n", x, y - 4, colorOf(names[i]));
-        out += text(x + 12, y, "start", 13, names[i]);
+        out += svgText(x + 12, y, "start", 13, names[i]);
     }
     return out + "</svg>\n";
 }

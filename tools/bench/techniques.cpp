@@ -23,6 +23,12 @@ std::vector<Variant> mapSizes(std::initializer_list<int> sizes) {
     return variants;
 }
 
+std::vector<Variant> ours() {
+    std::vector<Variant> variants = clusterBudgets(kCounts);
+    variants.push_back({"128 not adaptive", {"val_clustering.adaptive=off"}});
+    return variants;
+}
+
 std::vector<Technique> makeTechniques() {
     return {
         {.name = "none", .description = "no indirect light", .variants = {{"", {}}}},
@@ -45,7 +51,7 @@ std::vector<Technique> makeTechniques() {
         {.name = "rsmc",
          .description = "RSM clustering with published disks (Prutkin et al. 2012)",
          .variants = clusterBudgets(kCounts)},
-        {.name = "afterglow", .description = "ours", .variants = clusterBudgets(kCounts)},
+        {.name = "afterglow", .description = "ours", .variants = ours()},
         {.name = "low", .description = "ours, least work", .variants = {{"", {}}}},
         {.name = "high", .description = "ours, for more accuracy", .variants = {{"", {}}}},
         {.name = "ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},

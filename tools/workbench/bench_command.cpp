@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include "engine/core/log.h"
@@ -10,6 +8,7 @@
 #include "tools/workbench/commands.h"
 #include "tools/workbench/progress_line.h"
 #include "tools/workbench/scene_options.h"
+#include "tools/workbench/text_file.h"
 
 namespace ag::workbench {
 namespace {
@@ -55,22 +54,12 @@ Result<std::vector<const bench::Technique*>> chosenTechniques(const std::vector<
     return chosen;
 }
 
-Status write(const std::string& path, const std::string& text) {
-    if (path.empty()) return Ok{};
-    std::error_code ignored;
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) return Error{fmt::format("cannot write {}", path)};
-    return Ok{};
-}
-
 // After every row, so that a long run cut short leaves what it measured.
 Status writeAll(const BenchOptions& o, bench::Report report) {
     bench::markPareto(report);
-    for (const Status& written : {write(o.json, toJson(report)), write(o.csv, toCsv(report)),
-                                  write(o.plot, toSvg(report)), write(o.markdown, toMarkdown(report))})
+    for (const Status& written :
+         {writeTextFile(o.json, toJson(report)), writeTextFile(o.csv, toCsv(report)),
+          writeTextFile(o.plot, toSvg(report)), writeTextFile(o.markdown, toMarkdown(report))})
         if (!written) return written;
     return Ok{};
 }
