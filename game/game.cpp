@@ -25,10 +25,12 @@ void addGameplay(World& world, const SceneAsset& asset, const std::vector<Entity
         const NodeExtras& extras = node.extras;
         if (node.name == "hand_lamp") world.add(entities[i], HandLamp{});
         if (extras.collider && node.mesh >= 0) world.add(entities[i], Collider{halfGround(asset, node)});
-        if (extras.movePeriod > 0 || extras.spinSpeed != 0)
+        if (extras.movePeriod > 0 || extras.spinSpeed != 0) {
             world.add(entities[i],
                       Mover{node.local.translation, extras.moveExtent, extras.movePeriod, extras.spinSpeed,
                             2 * std::atan2(node.local.rotation.y, node.local.rotation.w)});
+            if (node.mesh >= 0) world.write<MeshInstance>(entities[i])->movable = 1;
+        }
     }
 }
 

@@ -42,39 +42,108 @@ void addPullPush(FrameGraph& graph, BufferHandle planes, uint32_t mapCount, uint
             .dispatchGroups(levels[i].coarseSize * levels[i].coarseSize * 4 / 64, mapCount);
 }
 
-// What maps are made of and like, as a number; 0: none are kept.
-uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const SurfacePoints& points) {
+// What still layers are made of and like, as a number; 0: none are kept.
+uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const SurfacePoints& points,
+                    uint32_t stillEntries) {
     if (!s.keepMaps) return 0;
-    const uint64_t size = hashValue(glm::uvec3(atlas.mapCount, atlas.tileSize, atlas.pointsPerMap));
-    const uint64_t like = hashValue(glm::vec3(s.splatScale, float(s.mapping), float(s.nearMore)));
-    return uint32_t(combineHash(combineHash(size, like), points.version)) | 1;
+    const uint64_t size =
+        hashValue(glm::uvec4(atlas.mapCount, atlas.tileSize, atlas.pointsPerMap, stillEntries));
+    const uint64_t like =
+        hashValue(glm::vec4(s.splatScale, float(s.mapping), float(s.nearMore), points.extent));
+    return uint32_t(combineHash(combineHash(size, like), points.stillVersion)) | 1;
 }
 
-// What makes a map, kept for those whose light and points have not moved.
+// What makes the still layer of a map, kept for those whose light and points have not moved.
 struct MapHistories {
     HistoryBuffer places, chosen, keys;
 };
 
-void addChoice(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,
-               const IsmAtlasSettings& settings, const IsmAtlas& atlas, const MapHistories& kept,
-               const io::IsmSplatPush& push) {
-    graph.compute("ism_atlas.choose", "ism_atlas/choose_points.comp")
-        .read("segments", points.segments)
-        .read("vals", vals.vals)
+// How many of a map's points movable surfaces get: their share of the area within bounds, as what moves is
+// looked at.
+uint32_t movingEntries(const SurfacePoints& points, uint32_t pointsPerMap) {
+    if (points.moving.count == 0) return 0;
+    if (points.still.count == 0) return pointsPerMap;
+    const float share = float(points.moving.count) / float(points.count);
+    const float wanted = std::clamp(share, 0.125f, 0.5f) * float(pointsPerMap);
+    return std::min({uint32_t(wanted), points.moving.count, pointsPerMap - 1});
+}
+
+io::IsmSplatPush layerPush(io::IsmSplatPush push, const PointLayer& layer, uint32_t firstEntry,
+                           uint32_t entryCount, float splatScale) {
+    push.firstSegment = layer.firstSegment;
+    push.endSegment = layer.firstSegment + layer.segmentCount;
+    push.firstEntry = firstEntry;
+    push.entryCount = entryCount;
+    push.pointRadius = splatScale * layer.radius;
+    return push;
+}
+
+struct Splat {
+    FrameGraph& graph;
+    const SurfacePoints& points;
+    const Vals& vals;
+    const IsmAtlasSettings& settings;
+    const IsmAtlas& atlas;
+    uint32_t texelGroups() const { return atlas.tileSize * atlas.tileSize / 256; }
+};
+
+void addSplat(const Splat& s, std::string_view name, BufferHandle states, BufferHandle keys,
+              const io::IsmSplatPush& push) {
+    s.graph.compute(name, "ism_atlas/splat_points.comp")
+        .read("points", s.points.points)
+        .read("vals", s.vals.vals)
+        .read("chosen", s.atlas.chosen)
+        .read("states", states)
+        .readWrite("keys", keys)
+        .spec(3, s.settings.mapping == IsmMapping::kParaboloid)
+        .push(push)
+        .dispatchGroups((push.entryCount + 63) / 64, s.atlas.mapCount);
+}
+
+// All that stands still: maps are kept where neither it nor the light has moved.
+void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
+    s.graph.compute("ism_atlas.choose", "ism_atlas/choose_still.comp")
+        .read("segments", s.points.segments)
+        .read("vals", s.vals.vals)
         .readPrevious("previousPlaces", kept.places)
         .readPrevious("previousChosen", kept.chosen)
         .write("places", kept.places.current)
         .write("chosen", kept.chosen.current)
-        .write("states", atlas.states)
-        .spec(0, settings.nearMore)
+        .write("states", s.atlas.states)
+        .spec(0, s.settings.nearMore)
         .push(push)
-        .dispatchGroups(atlas.mapCount);
-    graph.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
+        .dispatchGroups(s.atlas.mapCount);
+    s.graph.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
         .readPrevious("previousKeys", kept.keys)
-        .read("states", atlas.states)
+        .read("states", s.atlas.states)
         .write("keys", kept.keys.current)
         .push(push)
-        .dispatchGroups(atlas.tileSize * atlas.tileSize / 256, atlas.mapCount);
+        .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
+    addSplat(s, "ism_atlas.splat", s.atlas.states, kept.keys.current, push);
+}
+
+// What may move, over a copy of that; every map anew.
+BufferHandle addMovingLayer(const Splat& s, BufferHandle stillKeys, const io::IsmSplatPush& push) {
+    const BufferHandle states =
+        s.graph.buffer("ism_atlas.moving_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
+    const uint64_t texels = uint64_t(s.atlas.mapCount) * s.atlas.tileSize * s.atlas.tileSize;
+    const BufferHandle keys =
+        s.graph.buffer("ism_atlas.all_keys", {.sizeBytes = texels * 4, .texelFormat = kUint});
+    s.graph.compute("ism_atlas.choose_moving", "ism_atlas/choose_moving.comp")
+        .read("segments", s.points.segments)
+        .read("vals", s.vals.vals)
+        .readWrite("chosen", s.atlas.chosen)
+        .write("states", states)
+        .spec(0, s.settings.nearMore)
+        .push(push)
+        .dispatchGroups(s.atlas.mapCount);
+    s.graph.compute("ism_atlas.copy", "ism_atlas/copy_keys.comp")
+        .read("still", stillKeys)
+        .write("keys", keys)
+        .push(push)
+        .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
+    addSplat(s, "ism_atlas.splat_moving", states, keys, push);
+    return keys;
 }
 
 }  // namespace
@@ -85,18 +154,16 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
     IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms),
                    .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u),
                    .mapping = settings.mapping};
-    const bool paraboloid = settings.mapping == IsmMapping::kParaboloid;
     const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
+    const uint32_t moving = movingEntries(points, perMap), still = perMap - moving;
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
     atlas.planes = graph.buffer("ism_atlas.planes", {.sizeBytes = (texels + texels / 3 + 1) * 16,
                                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     const io::IsmSplatPush push{.pointCount = points.count,
-                                .segmentCount = points.segmentCount,
                                 .tileSize = atlas.tileSize,
                                 .pointsPerMap = perMap,
-                                .pointRadius = settings.splatScale * points.radius,
                                 .inverseExtent = 1 / points.extent,
-                                .contents = contentsOf(settings, atlas, points)};
+                                .contents = contentsOf(settings, atlas, points, still)};
     const MapHistories kept{
         .places =
             graph.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
@@ -105,25 +172,21 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
         .keys = graph.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = kUint})};
     atlas.chosen = kept.chosen.current;
     atlas.states = graph.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});
-    addChoice(graph, points, vals, settings, atlas, kept, push);
-    graph.compute("ism_atlas.splat", "ism_atlas/splat_points.comp")
-        .read("points", points.points)
-        .read("vals", vals.vals)
-        .read("chosen", atlas.chosen)
-        .read("states", atlas.states)
-        .readWrite("keys", kept.keys.current)
-        .spec(3, paraboloid)
-        .push(push)
-        .dispatchGroups((perMap + 63) / 64, atlas.mapCount);
+    const Splat splat{graph, points, vals, settings, atlas};
+    BufferHandle keys = kept.keys.current;
+    addStillLayer(splat, kept, layerPush(push, points.still, 0, still, settings.splatScale));
+    if (moving > 0)
+        keys =
+            addMovingLayer(splat, keys, layerPush(push, points.moving, still, moving, settings.splatScale));
     graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
         .read("points", points.points)
         .read("vals", vals.vals)
-        .read("keys", kept.keys.current)
+        .read("keys", keys)
         .read("chosen", atlas.chosen)
         .write("planes", atlas.planes)
         .spec(0, settings.planes)
         .push(push)
-        .dispatchGroups(atlas.tileSize * atlas.tileSize / 256, atlas.mapCount);
+        .dispatchGroups(splat.texelGroups(), atlas.mapCount);
     if (settings.pullPush) addPullPush(graph, atlas.planes, atlas.mapCount, atlas.tileSize);
     return atlas;
 }

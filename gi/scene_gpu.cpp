@@ -84,7 +84,7 @@ std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, Vk
 uint64_t instanceSet(const RenderScene& scene) {
     uint64_t hash = scene.geometry->version;
     for (const RenderInstance& instance : scene.instances)
-        hash = combineHash(hash, instance.primitive);
+        hash = combineHash(hash, instance.primitive * 2 + instance.movable);
     return hash;
 }
 
@@ -120,7 +120,7 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     materials_ = loadBuffer(device_, "scene.materials", rows, false, kVec4Texels);
     loadTextures(geometry);
     geometryVersion_ = geometry.version;
-    instancesVersion_ = sampledVersion_ = sampledSet_ = 0;
+    instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
 }
 
 void SceneGpu::loadTextures(const GeometryArrays& geometry) {
@@ -168,7 +168,9 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
     sampledSet_ = set;
     const SurfaceSamples chosen = sampleSurfaces(scene, kSurfaceSamples);
     sampleCount_ = uint32_t(chosen.samples.size());
-    surfaceArea_ = chosen.area;
+    stillSampleCount_ = chosen.stillCount;
+    stillArea_ = chosen.stillArea;
+    movableArea_ = chosen.movableArea;
     if (samples_) {
         std::shared_ptr<gpu::Buffer> retired = std::move(samples_);
         device_.retire([retired]() mutable { retired.reset(); });
@@ -177,11 +179,22 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
         samples_ = loadBuffer(device_, "scene.surface_samples", chosen.samples, false, kVec4Texels);
 }
 
+void SceneGpu::noteMovements(const RenderScene& scene) {
+    if (notedVersion_ == scene.instancesVersion) return;
+    bool moved = scene.allInstancesChanged || notedVersion_ + 1 != scene.instancesVersion;
+    for (const RenderScene::Range& range : scene.changedInstances)
+        for (uint32_t i = range.begin; i < range.end && !moved; ++i)
+            moved = !scene.instances[i].movable;
+    if (moved) ++stillVersion_;
+    notedVersion_ = scene.instancesVersion;
+}
+
 SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
     sampleSurfacesAnew(scene);
+    noteMovements(scene);
     SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = hasEmissive_};
     view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
     // Constant versions: what a view draws of them is in its draws' versions.
@@ -199,7 +212,10 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     if (sampleCount_ > 0) {
         view.surfaceSamples = graph.importBuffer("scene.surface_samples", *samples_, sampledSet_);
         view.surfaceSampleCount = sampleCount_;
-        view.surfaceArea = surfaceArea_;
+        view.stillSampleCount = stillSampleCount_;
+        view.stillArea = stillArea_;
+        view.movableArea = movableArea_;
+        view.stillVersion = combineHash(combineHash(sampledSet_, stillVersion_), scene.originVersion);
     }
     const RenderCamera& camera = scene.camera;
     const io::CameraConstants constants{.clipFromWorld = camera.clipFromWorld,

@@ -29,9 +29,11 @@ struct SceneView {
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
     glm::uvec2 size{0};                                       // pixels of the camera's image
     bool hasEmissive = false;
-    BufferHandle surfaceSamples;      // io::SurfaceSample; also a texel buffer of vec4
-    uint32_t surfaceSampleCount = 0;  // 0: no surface
-    float surfaceArea = 0;            // m²
+    BufferHandle surfaceSamples;           // io::SurfaceSample; also a texel buffer of vec4
+    uint32_t surfaceSampleCount = 0;       // 0: no surface
+    uint32_t stillSampleCount = 0;         // the first ones are on what stands still
+    float stillArea = 0, movableArea = 0;  // m²
+    uint64_t stillVersion = 0;             // changes when an instance that is not movable may have moved
     mutable uint32_t viewsClaimed = 0;
     // The next free slot of DrawLists; claimed in the same order every frame.
     uint32_t claimView() const { return viewsClaimed++; }
@@ -68,6 +70,7 @@ class SceneGpu {
     void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
     void sampleSurfacesAnew(const RenderScene& scene);
+    void noteMovements(const RenderScene& scene);
     std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
                                        VkFormat texel, bool indirect);
 
@@ -79,7 +82,9 @@ class SceneGpu {
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
     std::unique_ptr<gpu::Buffer> samples_;
     uint32_t sampleCount_ = 0;
-    float surfaceArea_ = 0;
+    uint32_t stillSampleCount_ = 0;
+    float stillArea_ = 0, movableArea_ = 0;
+    uint64_t stillVersion_ = 0, notedVersion_ = 0;  // notedVersion_: of the instances it is about
     uint64_t sampledVersion_ = 0, sampledSet_ = 0;  // of the instances the samples are on
     std::vector<io::Instance> rows_;                // scratch for the conversion
     uint64_t instancesVersion_ = 0;                 // last uploaded

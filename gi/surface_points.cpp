@@ -7,15 +7,26 @@
 #include "engine/core/hash.h"
 
 namespace ag::gi {
+namespace {
+
+PointLayer layerOf(uint32_t first, uint32_t count, float area) {
+    if (count == 0) return {};
+    return {.count = count,
+            .firstSegment = first / io::kSegmentPoints,
+            .segmentCount = (count + io::kSegmentPoints - 1) / io::kSegmentPoints,
+            .radius = std::sqrt(area / (std::numbers::pi_v<float> * float(count)))};
+}
+
+}  // namespace
 
 SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     if (scene.surfaceSampleCount == 0) return {};
-    SurfacePoints p{.count = scene.surfaceSampleCount};
-    p.version = combineHash(combineHash(scene.scene->geometry->version, scene.scene->instancesVersion),
-                            scene.scene->originVersion);
-    p.segmentCount = (p.count + io::kSegmentPoints - 1) / io::kSegmentPoints;
-    p.radius = std::sqrt(scene.surfaceArea / (std::numbers::pi_v<float> * float(p.count)));
-    p.extent = std::max(glm::length(scene.scene->bounds.max - scene.scene->bounds.min), 1e-6f);
+    SurfacePoints p{.count = scene.surfaceSampleCount, .stillVersion = scene.stillVersion};
+    p.still = layerOf(0, scene.stillSampleCount, scene.stillArea);
+    p.moving = layerOf(p.still.count, p.count - p.still.count, scene.movableArea);
+    // In powers of two: what moves at the scene's edge shall not change how distances are kept.
+    const float diagonal = glm::length(scene.scene->bounds.max - scene.scene->bounds.min);
+    p.extent = std::exp2(std::ceil(std::log2(std::max(diagonal, 1e-6f))));
     p.points = graph.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
                                                       .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     graph.compute("surface_points.place", "surface_points/place_points.comp")
@@ -25,14 +36,14 @@ SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
         .push(p.count)
         .key(scene.scene->instancesVersion)
         .dispatchThreads(p.count);
-    p.segments =
-        graph.buffer("surface_points.segments", {.sizeBytes = p.segmentCount * sizeof(io::SurfaceSegment),
-                                                 .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    const uint32_t segments = p.still.segmentCount + p.moving.segmentCount;
+    p.segments = graph.buffer("surface_points.segments", {.sizeBytes = segments * sizeof(io::SurfaceSegment),
+                                                          .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     graph.compute("surface_points.bound", "surface_points/bound_segments.comp")
         .read("points", p.points)
         .write("segments", p.segments)
         .push(p.count)
-        .dispatchThreads(p.segmentCount);
+        .dispatchThreads(segments);
     return p;
 }
 

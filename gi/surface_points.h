@@ -10,13 +10,19 @@
 
 namespace ag::gi {
 
+// Points that stand still, or those that may move.
+struct PointLayer {
+    uint32_t count = 0, firstSegment = 0, segmentCount = 0;
+    float radius = 0;  // m: disks of this radius have the area of the layer's surfaces together
+};
+
 struct SurfacePoints {
     BufferHandle points;    // io::SurfacePoint; also a texel buffer of vec4
     BufferHandle segments;  // io::SurfaceSegment; also a texel buffer of vec4
-    uint32_t count = 0, segmentCount = 0;
-    uint64_t version = 0;  // changes when a point may have moved
-    float extent = 0;      // m: no two points are farther apart
-    float radius = 0;      // m: disks of this radius have the area of all surfaces together
+    uint32_t count = 0;
+    PointLayer still, moving;   // in this order; no segment has points of both
+    uint64_t stillVersion = 0;  // changes when a point of `still` may have moved
+    float extent = 0;           // m: no two points are farther apart
 };
 
 SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene);

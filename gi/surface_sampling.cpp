@@ -99,13 +99,14 @@ uint32_t mortonCode(glm::vec3 p, const Bounds& bounds) {
     return spreadThird(cell.x) | spreadThird(cell.y) << 1 | spreadThird(cell.z) << 2;
 }
 
-// All that block light, neighbours in space near each other.
-std::vector<CurveTriangle> curveOf(const RenderScene& scene) {
+// All that block light, movable or not, neighbours in space near each other.
+std::vector<CurveTriangle> curveOf(const RenderScene& scene, bool movable) {
     const GeometryArrays& g = *scene.geometry;
     std::vector<CurveTriangle> curve;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Primitive& p = g.primitives[scene.instances[i].primitive];
         if (g.materials[p.material].alphaMode == AlphaMode::kBlend) continue;
+        if (scene.instances[i].movable != movable) continue;
         for (uint32_t t = 0; t < p.indexCount / 3; ++t) {
             const auto w = worldCorners(scene.instances[i], localCorners(g, p, t));
             const double area = 0.5 * double(glm::length(glm::cross(w[1] - w[0], w[2] - w[0])));
@@ -167,38 +168,60 @@ glm::vec3 pointOn(const Corners& c, double share) {
     return (p + q + r) / 3.0f;
 }
 
-}  // namespace
-
-SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
-    const std::vector<CurveTriangle> curve = curveOf(scene);
-    double total = 0;
+double areaOf(const std::vector<CurveTriangle>& curve) {
+    double area = 0;
     for (const CurveTriangle& t : curve)
-        total += t.area;
-    SurfaceSamples out{.area = float(total)};
-    if (!(total > 0) || count == 0) return out;
-    out.samples.reserve(count + 1);
+        area += t.area;
+    return area;
+}
+
+// `count` points at equal steps of all triangles' area laid end to end.
+void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& curve, double area,
+                 uint32_t count, std::vector<io::SurfaceSample>& samples) {
     std::unordered_map<uint32_t, std::vector<uint8_t>> sharp;  // by primitive
-    // Equal steps along all triangles' area laid end to end.
-    const double step = total / count;
-    double before = 0, next = 0.5 * step;
+    const double step = area / count;
+    double before = 0;
+    uint32_t taken = 0;
     for (const CurveTriangle& t : curve) {
         before += t.area;
-        if (next >= before) continue;
+        if ((taken + 0.5) * step >= before && &t != &curve.back()) continue;
         const uint32_t primitive = scene.instances[t.instance].primitive;
         const Primitive& p = scene.geometry->primitives[primitive];
         auto& edges = sharp[primitive];
         if (edges.empty()) edges = sharpEdges(*scene.geometry, p);
         Corners c{localCorners(*scene.geometry, p, t.triangle), edges[t.triangle]};
         c.bend = bendOf(*scene.geometry, p, t.triangle, c.local);
-        for (; next < before; next += step) {
-            io::SurfaceSample sample{.positionLocal = pointOn(c, 1 - (before - next) / t.area),
+        for (; taken < count && ((taken + 0.5) * step < before || &t == &curve.back()); ++taken) {
+            const double share = std::clamp(1 - (before - (taken + 0.5) * step) / t.area, 0.0, 1.0);
+            io::SurfaceSample sample{.positionLocal = pointOn(c, share),
                                      .instance = t.instance,
                                      .normalLocal = faceNormal(c.local),
                                      .bendLocal = c.bend};
             noteEdges(c, sample);
-            out.samples.push_back(sample);
+            samples.push_back(sample);
         }
     }
+}
+
+}  // namespace
+
+SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
+    const std::vector<CurveTriangle> still = curveOf(scene, false), movable = curveOf(scene, true);
+    const double stillArea = areaOf(still), movableArea = areaOf(movable), total = stillArea + movableArea;
+    SurfaceSamples out{.stillArea = float(stillArea), .movableArea = float(movableArea)};
+    if (!(total > 0) || count == 0) return out;
+    out.stillCount = count;
+    if (movableArea > 0) {
+        const double segments = stillArea / total * count / io::kSegmentPoints;
+        out.stillCount =
+            std::min(uint32_t(std::lround(segments)), (count - 1) / io::kSegmentPoints) * io::kSegmentPoints;
+        if (stillArea > 0) out.stillCount = std::max(out.stillCount, io::kSegmentPoints);
+    }
+    out.samples.reserve(count);
+    if (out.stillCount > 0) sampleCurve(scene, still, stillArea, out.stillCount, out.samples);
+    if (movableArea > 0)
+        sampleCurve(scene, movable, movableArea,
+                    std::max(count, out.stillCount + io::kSegmentPoints) - out.stillCount, out.samples);
     return out;
 }
 

@@ -9,11 +9,14 @@
 namespace ag::gi {
 
 struct SurfaceSamples {
-    std::vector<io::SurfaceSample> samples;  // along a curve: neighbours in the list are neighbours in space
-    float area = 0;                          // m² of all sampled surfaces, one side
+    // Along two curves: neighbours in the list are neighbours in space. First those of all that stands still,
+    // whole segments of kSegmentPoints, then those of movable instances.
+    std::vector<io::SurfaceSample> samples;
+    uint32_t stillCount = 0;
+    float stillArea = 0, movableArea = 0;  // m² of the sampled surfaces, one side
 };
 
-// About `count` points at equal steps of area along a curve through all surfaces but alpha-blended ones, so
+// About `count` points at equal steps of area along curves through all surfaces but alpha-blended ones, so
 // that every n-th of any stretch is spread evenly over it. The same scene gives the same points.
 SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
 

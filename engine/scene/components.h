@@ -33,6 +33,7 @@ struct HierarchyDepth {
 
 struct MeshInstance {
     uint32_t firstPrimitive = 0, primitiveCount = 0;
+    uint32_t movable = 0;  // 1: its transform changes while the level runs; then what stands still is kept
 };
 
 struct PunctualLight {         // shines along -Z

@@ -61,7 +61,7 @@ void extractInstances(InstanceView& instances, ExtractState& state, RenderScene&
             RenderInstance& instance = scene.instances[row];
             const uint32_t primitive = mesh.firstPrimitive + p;
             if (same && instance.worldFromLocal == matrix && instance.primitive == primitive) continue;
-            instance = {matrix, primitive};
+            instance = {matrix, primitive, mesh.movable != 0};
             if (same) addRange(scene.changedInstances, row);
         }
     });

@@ -83,6 +83,7 @@ struct GeometryArrays {  // fixed once loaded
 struct RenderInstance {
     glm::mat4x3 worldFromLocal{1};  // relative to the origin
     uint32_t primitive = 0;
+    bool movable = false;  // others may move too, but then what was kept of all that stands still is lost
 };
 
 enum class LightKind : uint32_t { kDirectional, kPoint, kSpot };

@@ -17,13 +17,16 @@ const uint kMaxIsms = 1024;
 const uint kIsmPointBits = 17;
 const uint kIsmNoPoint = 0xffffffffu;
 
+// Of one layer: the points that stand still or those that may move.
 struct IsmSplatPush {
-    uint pointCount, segmentCount;
-    uint tileSize;  // texels along a map's side
-    uint pointsPerMap;
-    float pointRadius;    // m, where all points are used
-    float inverseExtent;  // 1/m: of the greatest distance
-    uint contents;        // changes with the points and with what maps are made like
+    uint pointCount;                // of both layers
+    uint firstSegment, endSegment;  // the layer's
+    uint tileSize;                  // texels along a map's side
+    uint pointsPerMap;              // of both layers
+    uint firstEntry, entryCount;    // the layer's among them
+    float pointRadius;              // m, where all points are used
+    float inverseExtent;            // 1/m: of the greatest distance
+    uint contents;                  // changes with the still points and with what maps are made like
 };
 
 struct IsmPlace {   // 2 vec4: what a map was last made for
@@ -33,8 +36,8 @@ struct IsmPlace {   // 2 vec4: what a map was last made for
     float before;  // m
 };
 
-struct IsmMapState {
-    uint pointCount;  // to splat; 0 for a map that is kept
+struct IsmMapState {  // of a layer of a map
+    uint pointCount;  // to splat; 0 for one that is kept
     uint kept;        // 1: as it was, its light and the points have not moved
 };
 

@@ -110,7 +110,7 @@ Splat splatOfLane(Splat mine, uint lane) {
 
 void main() {
     uint map = gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
-    uint entry = min(gl_GlobalInvocationID.x, push.p.pointsPerMap - 1);
+    uint entry = push.p.firstEntry + min(gl_GlobalInvocationID.x, push.p.entryCount - 1);
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
     if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.high = mine.low - 1;
     ivec2 extent = mine.high - mine.low + 1;

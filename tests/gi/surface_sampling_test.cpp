@@ -67,7 +67,7 @@ TEST(SurfaceSampling, EqualAreasGetEqualCounts) {
     const SceneAsset asset = floorAndBox();
     const RenderScene scene = staticScene(asset);
     const SurfaceSamples all = sampleSurfaces(scene, 8192);
-    EXPECT_NEAR(all.area, 22, 1e-4);
+    EXPECT_NEAR(all.stillArea, 22, 1e-4);
     ASSERT_NEAR(double(all.samples.size()), 8192, 1);
     for (size_t first = 0; first < 8; ++first) {
         const auto counts = countByInstance(everyNth(all.samples, 8, first));
@@ -93,11 +93,31 @@ TEST(SurfaceSampling, EveryNthLeavesNoLargeHoles) {
     }
 }
 
+// What moves has segments of its own, behind those of what stands still, and points by its share of the area.
+TEST(SurfaceSampling, MovableInstancesHaveTheirOwnSegments) {
+    const SceneAsset asset = floorAndBox();
+    for (const uint32_t moving : {0u, 1u}) {
+        RenderScene scene = staticScene(asset);
+        scene.instances[moving].movable = true;
+        const SurfaceSamples all = sampleSurfaces(scene, 8192);
+        ASSERT_EQ(all.samples.size(), 8192u);
+        EXPECT_EQ(all.stillCount % io::kSegmentPoints, 0u);
+        EXPECT_NEAR(all.stillArea + all.movableArea, 22, 1e-4);
+        for (size_t i = 0; i < all.samples.size(); ++i)
+            ASSERT_EQ(all.samples[i].instance == moving, i >= all.stillCount) << i;
+        EXPECT_NEAR(all.movableArea / 22, double(8192 - all.stillCount) / 8192, 0.01);
+    }
+    RenderScene scene = staticScene(asset);
+    for (RenderInstance& instance : scene.instances)
+        instance.movable = true;
+    EXPECT_EQ(sampleSurfaces(scene, 8192).stillCount, 0u);
+}
+
 TEST(SurfaceSampling, SegmentsOfTheCurveAreCompact) {
     const SceneAsset asset = *scenegen::buildScene("cornell", 0);
     const RenderScene scene = staticScene(asset);
     const SurfaceSamples all = sampleSurfaces(scene, 1 << 14);
-    const float side = std::sqrt(all.area / float(all.samples.size()));
+    const float side = std::sqrt(all.stillArea / float(all.samples.size()));
     double sum = 0;
     const size_t segments = all.samples.size() / io::kSegmentPoints;
     for (size_t s = 0; s < segments; ++s) {

@@ -334,7 +334,7 @@ KeptMaps keptMaps(Bench& b) {
     return sum;
 }
 
-// With a walking camera clusters come to rest, as they follow the view slowly; a box's step moves the points
+// With a walking camera clusters come to rest, as they follow the view slowly; a wall's step moves the points
 // of all maps.
 TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
     Bench b(*scenegen::buildScene("gallery", 0));
@@ -358,6 +358,50 @@ TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
     ++b.scene.instancesVersion;
     b.frame();
     EXPECT_EQ(keptMaps(b).kept, 0);
+}
+
+// A box that moves is splatted over what stands still, whose maps are kept; the result is what splatting all
+// of it gives.
+TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
+    // Above the lamp, so that the light map and its clusters stay as they are.
+    const auto bench = [](bool keep) {
+        scenegen::SceneBuilder room("room");
+        const uint32_t white = room.material("white", glm::vec3(0.7f));
+        room.room("walls", {-1, 0, -1}, {1, 2, 1}, {white, white, white, white, white, white});
+        room.box("box", {0.4f, 1.4f, 0.3f}, {0.4f, 0.2f, 0.4f}, white);
+        room.spot("lamp", {0, 1, 0}, {0, -1, 0}, glm::vec3(10), 40, 60);
+        room.camera("camera", {-0.9f, 1.5f, 0.9f}, {0, 0.8f, 0}, 70);
+        auto b = std::make_unique<Bench>(room.finish());
+        b->settings.ismAtlas.keepMaps = keep;
+        b->settings.importance.viewWeight = 0;
+        b->scene.instances.back().movable = true;
+        b->output = [](FrameGraph& graph, const GiFrame& f) {
+            graph.output(f.vals.vals);
+            graph.output(f.isms.states);
+            graph.output(f.isms.planes);
+        };
+        return b;
+    };
+    const auto kept = bench(true), anew = bench(false);
+    for (Bench* b : {kept.get(), anew.get()})
+        for (int i = 0; i < 40; ++i)
+            b->frame();
+    for (int step = 0; step < 3; ++step)
+        for (Bench* b : {kept.get(), anew.get()}) {
+            b->scene.instances.back().worldFromLocal[3] += glm::vec3(0, 0.02f, 0);
+            b->scene.allInstancesChanged = false;
+            const uint32_t last = uint32_t(b->scene.instances.size()) - 1;
+            b->scene.changedInstances = {{last, last + 1}};
+            ++b->scene.instancesVersion;
+            b->frame();
+        }
+    const KeptMaps now = keptMaps(*kept);
+    std::printf("still layers kept while a box moves: %d of %d\n", now.kept, now.live);
+    EXPECT_EQ(keptMaps(*anew).kept, 0);
+    const auto a = kept->read<glm::vec4>(kept->last.isms.planes),
+               b = anew->read<glm::vec4>(anew->last.isms.planes);
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0);
+    EXPECT_GT(now.kept, now.live / 4);
 }
 
 struct PointDensity {  // of a map's points over those of its surroundings, nearer and farther than 1.5 m

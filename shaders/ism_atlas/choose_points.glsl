@@ -1,0 +1,62 @@
+// Which points of a layer each map is made of: of a segment of the curve through all surfaces so many as its distance
+// from the light asks for (as the solid angle of its area: 1 / d²), none from behind the light's plane. What the light
+// sees is then cut as finely near by as far off. One subgroup a map; systematic sampling along the curve, from another
+// place in each map. Needs buffers `segments`, `chosen` and the push constants.
+#ifndef AG_CHOOSE_POINTS_GLSL
+#define AG_CHOOSE_POINTS_GLSL
+
+#include "common/lane_loop.glsl"
+#include "ism_atlas/ism_light.glsl"
+#include "surface_points/surface_points_io.h"
+
+layout(constant_id = 0) const bool kByDistance = true;
+const float kMost = float(kSegmentPoints);
+
+uint firstEntryOf(uint map) { return map * push.p.pointsPerMap + push.p.firstEntry; }
+
+// Of a segment, relative to other segments.
+float weightOf(IsmLight light, uint segment) {
+    vec4 ball = texelFetch(segments, int(min(segment, push.p.endSegment - 1)));
+    vec3 d = ball.xyz - light.place;
+    bool asked = segment < push.p.endSegment && light.lit && (!kByDistance || dot(d, light.normal) > -ball.w);
+    return asked ? kByDistance ? 1.0 / max(dot(d, d), ball.w * ball.w) : 1.0 : 0.0;
+}
+
+// The factor from weight to points that makes them entryCount, no segment having more than all of its own.
+float pointsPerWeight(IsmLight light) {
+    const int kRounds = 4;
+    float factor = 0.0;
+    for (int round_ = 0; round_ < kRounds; ++round_) {
+        float full = 0.0, rest = 0.0;
+        for (uint base = push.p.firstSegment; base < push.p.endSegment; base += kSubgroupSize) {
+            float w = weightOf(light, base + gl_SubgroupInvocationID);
+            full += w * factor >= kMost ? kMost : 0.0;
+            rest += w * factor >= kMost ? 0.0 : w;
+        }
+        float left = max(float(push.p.entryCount) - subgroupAdd(full), 0.0);
+        factor = max(factor, left / max(subgroupAdd(rest), 1e-20));
+    }
+    return factor;
+}
+
+// Writes the map's points; returns how many.
+uint choosePoints(uint map, IsmLight light) {
+    uint scramble = hashUint(map);
+    float factor = pointsPerWeight(light), before = hashToUnit(map + 1);
+    for (uint base = push.p.firstSegment; base < push.p.endSegment; base += kSubgroupSize) {
+        uint segment = base + gl_SubgroupInvocationID;
+        float asked = min(weightOf(light, segment) * factor, kMost);
+        float end = before + subgroupInclusiveAdd(asked);
+        uint first = min(uint(end - asked), push.p.entryCount), last = min(uint(end), push.p.entryCount);
+        // Fewer points stand for the same surface: their disks are larger.
+        float radius = push.p.pointRadius * sqrt(kMost / max(asked, 1e-6));
+        for (uint i = first; i < last; ++i) {
+            uint rank = bitfieldReverse(i - first) >> 26 ^ scramble & (kSegmentPoints - 1);
+            chosen.items[firstEntryOf(map) + i] =
+                packIsmPoint(min(segment * kSegmentPoints + rank, push.p.pointCount - 1), radius);
+        }
+        before += subgroupAdd(asked);
+    }
+    return min(uint(before), push.p.entryCount);
+}
+#endif

@@ -1,0 +1,41 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+// The still points each map is made of. A map whose light and whose still points stand where they stood is kept.
+#include "common/lane_loop.glsl"
+#include "ism_atlas/ism_atlas_io.h"
+
+layout(local_size_x_id = 100) in;
+layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
+
+layout(set = 0, binding = 0) uniform samplerBuffer segments;
+layout(set = 0, binding = 1) uniform samplerBuffer vals;
+layout(set = 0, binding = 2, scalar) writeonly buffer Chosen { uint items[]; } chosen;
+layout(set = 0, binding = 3, scalar) writeonly buffer Places { IsmPlace items[]; } places;
+layout(set = 0, binding = 4, scalar) writeonly buffer States { IsmMapState items[]; } states;
+layout(set = 0, binding = 5, scalar) readonly buffer PreviousPlaces { IsmPlace items[]; } previousPlaces;
+layout(set = 0, binding = 6) uniform usamplerBuffer previousChosen;
+#include "ism_atlas/choose_points.glsl"
+
+void main() {
+    uint map = gl_WorkGroupID.x;
+    IsmPlace old = previousPlaces.items[map];
+    IsmPlace place = IsmPlace(texelFetch(vals, int(map) * 3).xyz, push.p.contents, texelFetch(vals, int(map) * 3 + 1).xyz,
+                              texelFetch(vals, int(map) * 3 + 2).w);
+    IsmLight light = AG_ISM_LIGHT(vals, map);
+    bool kept = light.lit && push.p.contents != 0 && old == place;
+    IsmMapState state = IsmMapState(0, kept ? 1 : 0);
+    if (kept) {
+        uint first = firstEntryOf(map);
+        for (uint i = gl_SubgroupInvocationID; i < push.p.entryCount; i += kSubgroupSize)
+            chosen.items[first + i] = texelFetch(previousChosen, int(first + i)).x;
+    } else {
+        state.pointCount = choosePoints(map, light);
+    }
+    if (!light.lit) place.contents = 0;
+    if (gl_SubgroupInvocationID == 0) {
+        places.items[map] = place;
+        states.items[map] = state;
+    }
+}
