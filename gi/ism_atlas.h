@@ -19,7 +19,7 @@ struct IsmAtlasSettings {
     uint32_t tileSize = 64;        // texels along a map's side, a power of two from 16 to 128
     uint32_t pointsPerMap = 2048;  // splatted into each map
     bool nearMore = true;          // points by the solid angle of surfaces instead of their area
-    float splatScale = 1.25f;      // of the points' disks, which at 1 have the surfaces' area
+    float splatScale = 1.1f;       // of the points' disks, which at 1 have the surfaces' area
     IsmMapping mapping = IsmMapping::kOctahedral;
     bool planes = true;    // what texels keep; off: distances with a bias of a disk, as in the sources
     bool keepMaps = true;  // of lights that stand still before points that do; not with skipping off

@@ -33,7 +33,7 @@ struct Splat {
     vec4 edges[2];      // inward, distance
     uint entry;    // among the map's points
     float radius;  // m
-    ivec2 centre, low, high;  // texels; of the point, and those its disk may meet
+    ivec2 low, high;  // texels whose centres the disk may hold
 };
 
 // How far the disk extends along the map's axes, texels: its radius across the coordinates' gradients, within its plane.
@@ -64,10 +64,8 @@ Splat splatOf(uint map, uint entry, IsmLight light) {
     int size = int(push.p.tileSize);
     vec2 at = ismEncode(vec3(s.place.xy, max(s.place.z, 0.0))) * float(size);
     vec2 reach = min(reachOf(s, normal), vec2(kMostReach));
-    s.centre = clamp(ivec2(at), ivec2(0), ivec2(size - 1));
-    // Texels whose centres the disk may hold; the point's own always.
-    s.low = clamp(ivec2(ceil(at - reach - 0.5)), ivec2(0), s.centre);
-    s.high = clamp(ivec2(floor(at + reach - 0.5)), s.centre, ivec2(size - 1));
+    s.low = max(ivec2(ceil(at - reach - 0.5)), ivec2(0));
+    s.high = min(ivec2(floor(at + reach - 0.5)), ivec2(size - 1));
     if (!seen) s.high = s.low - 1;
     return s;
 }
@@ -76,12 +74,10 @@ void touch(Splat s, uint tile, ivec2 texel) {
     vec3 w = ismDirection((vec2(texel) + 0.5) / float(push.p.tileSize));
     vec3 hit = w / max(dot(s.plane, w), 1e-12);
     vec3 off = hit - s.place;
-    bool isCentre = texel == s.centre;
     bool inside = dot(off, off) <= s.radius * s.radius &&
                   dot(off, s.edges[0].xyz) >= -s.edges[0].w && dot(off, s.edges[1].xyz) >= -s.edges[1].w;
-    if (!inside && !isCentre) return;
-    float d = isCentre ? length(s.place) : length(hit);
-    atomicMin(keys.items[tile + uint(texel.y) * push.p.tileSize + uint(texel.x)], keyOf(d, s.entry));
+    if (!inside) return;
+    atomicMin(keys.items[tile + uint(texel.y) * push.p.tileSize + uint(texel.x)], keyOf(length(hit), s.entry));
 }
 
 void splatAlone(Splat s, uint tile) {
@@ -102,7 +98,6 @@ Splat splatOfLane(Splat mine, uint lane) {
     for (int k = 0; k < 2; ++k) s.edges[k] = subgroupShuffle(mine.edges[k], lane);
     s.entry = subgroupShuffle(mine.entry, lane);
     s.radius = subgroupShuffle(mine.radius, lane);
-    s.centre = subgroupShuffle(mine.centre, lane);
     s.low = subgroupShuffle(mine.low, lane);
     s.high = subgroupShuffle(mine.high, lane);
     return s;
@@ -114,7 +109,7 @@ void main() {
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
     if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.high = mine.low - 1;
     ivec2 extent = mine.high - mine.low + 1;
-    bool small = extent.x * extent.y <= kSmallTexels;
+    bool small = any(lessThan(extent, ivec2(1))) || extent.x * extent.y <= kSmallTexels;
     if (small) splatAlone(mine, tile);
     uvec4 large = subgroupBallot(!small);
     while (large != uvec4(0)) {
