@@ -150,6 +150,35 @@ void noteEdges(const Corners& c, io::SurfaceSample& sample) {
     }
 }
 
+// Weights of a triangle's corners that give a point on it.
+glm::vec3 barycentrics(const std::array<glm::vec3, 3>& c, glm::vec3 p) {
+    const glm::vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+    const float square = std::max(glm::dot(normal, normal), 1e-30f);
+    const float u = glm::dot(glm::cross(c[2] - c[1], p - c[1]), normal) / square;
+    const float v = glm::dot(glm::cross(c[0] - c[2], p - c[2]), normal) / square;
+    return {u, v, 1 - u - v};
+}
+
+// Whether an alpha-masked surface is cut out at a point of a triangle.
+bool cutOut(const GeometryArrays& g, const Primitive& p, uint32_t triangle, glm::vec3 weights) {
+    const Material& m = g.materials[p.material];
+    if (m.alphaMode != AlphaMode::kMask) return false;
+    float alpha = m.baseColor.w;
+    if (m.baseColorLayer >= 0) {
+        glm::vec2 uv(0);
+        for (uint32_t i = 0; i < 3; ++i)
+            uv +=
+                weights[int(i)] *
+                g.attributes[size_t(int64_t(p.vertexOffset) + g.indices[p.firstIndex + 3 * triangle + i])].uv;
+        uv = m.uvTransform * glm::vec3(uv, 1);
+        const uint32_t side = textureClassSize(m.textureClass);
+        const glm::uvec2 texel(glm::fract(uv) * (float(side) - 0.5f));
+        const auto& layer = g.textures[size_t(m.textureClass)].srgb[size_t(m.baseColorLayer)];
+        alpha *= float(layer[(size_t(texel.y) * side + texel.x) * 4 + 3]) / 255;
+    }
+    return alpha < m.alphaCutoff;
+}
+
 // The place at a share of a triangle's area along a curve through all of it: each digit to base 4 picks one
 // of the four triangles between corners and middles of sides (Basu & Owen 2015), so that equal steps along
 // the curve are spread evenly over the triangle.
@@ -198,6 +227,9 @@ void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& cur
                                      .normalLocal = faceNormal(c.local),
                                      .bendLocal = c.bend};
             noteEdges(c, sample);
+            // Its place on the curve is kept, so that the others stay evenly spread.
+            if (cutOut(*scene.geometry, p, t.triangle, barycentrics(c.local, sample.positionLocal)))
+                sample.edgesLocal[0] = {glm::vec3(0), -1};
             samples.push_back(sample);
         }
     }

@@ -60,7 +60,7 @@ Splat splatOf(uint map, uint entry, IsmLight light) {
         s.edges[k] = vec4(toLight(light, edge.xyz), edge.w);
     }
     float distance_ = length(s.place);
-    bool seen = light.lit && s.place.z > kLeastSine * distance_ && s.plane != vec3(0.0);
+    bool seen = light.lit && s.place.z > kLeastSine * distance_ && s.plane != vec3(0.0) && s.edges[0].w >= 0.0;
     int size = int(push.p.tileSize);
     vec2 at = ismEncode(vec3(s.place.xy, max(s.place.z, 0.0))) * float(size);
     vec2 reach = min(reachOf(s, normal), vec2(kMostReach));

@@ -15,7 +15,7 @@ layout(set = 0, binding = 2, scalar) writeonly buffer Points { SurfacePoint item
 SurfaceEdge placeEdge(InstanceTransform t, vec4 edge) {
     vec3 d = transformDirection(t, edge.xyz);
     float scale = length(d);
-    return SurfaceEdge(d / max(scale, 1e-20), edge.w * scale);
+    return SurfaceEdge(d / max(scale, 1e-20), edge.w < 0.0 ? edge.w : edge.w * scale);
 }
 
 void main() {

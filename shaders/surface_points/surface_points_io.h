@@ -10,7 +10,7 @@ namespace ag::io {
 
 struct SurfaceEdge {  // where a flat piece of surface ends, seen from a point on it
     vec3 inward;      // unit, in the surface, away from the edge; zero: no end
-    float distance;   // m
+    float distance;   // m; negative: the surface is cut out at the point, it stands for nothing
 };
 
 struct SurfaceSample {  // 4 vec4: where on which instance, moving with it

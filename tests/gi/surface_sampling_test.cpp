@@ -113,6 +113,31 @@ TEST(SurfaceSampling, MovableInstancesHaveTheirOwnSegments) {
     EXPECT_EQ(sampleSurfaces(scene, 8192).stillCount, 0u);
 }
 
+TEST(SurfaceSampling, CutOutPointsStandForNothing) {
+    SceneAsset asset = floorAndBox();
+    GeometryArrays& g = asset.geometry;
+    // The left half of the texture is cut out; over the floor u runs with x.
+    Material& m = g.materials[0];
+    m.alphaMode = AlphaMode::kMask;
+    m.textureClass = TextureClass::k256;
+    m.baseColorLayer = 0;
+    auto& texels = g.textures[size_t(TextureClass::k256)].srgb.emplace_back(256 * 256 * 4, uint8_t(255));
+    for (size_t i = 0; i < 256 * 256; ++i)
+        texels[i * 4 + 3] = i % 256 < 128 ? 0 : 255;
+    for (size_t i = 0; i < g.positions.size(); ++i)
+        g.attributes[i].uv = {g.positions[i].x / 4, 0.5f};
+    const RenderScene scene = staticScene(asset);
+    int out = 0, in = 0;
+    for (const io::SurfaceSample& s : sampleSurfaces(scene, 4096).samples) {
+        if (std::abs(s.positionLocal.y) > 1e-6f || std::abs(s.normalLocal.y) < 0.9f) continue;  // the floor's
+        const bool cut = s.edgesLocal[0].distance < 0;
+        EXPECT_EQ(cut, s.positionLocal.x < 2) << s.positionLocal.x;
+        ++(cut ? out : in);
+    }
+    EXPECT_NEAR(out, in, 0.02 * (out + in));
+    EXPECT_GT(in, 1000);
+}
+
 TEST(SurfaceSampling, SegmentsOfTheCurveAreCompact) {
     const SceneAsset asset = *scenegen::buildScene("cornell", 0);
     const RenderScene scene = staticScene(asset);
