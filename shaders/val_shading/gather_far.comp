@@ -26,9 +26,12 @@ void main() {
     TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
     uvec2 size = camera.camera.size;
     vec3 x[kPixels], n[kPixels], e[kPixels];
+    float distance_[kPixels];  // m along the camera's axis; 0: sky
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = min(pixelOf(block, p), ivec2(size) - 1);
-        x[p] = worldFromPixel(camera.camera.worldFromClip, size, pixel, texelFetch(depthMap, pixel, 0).x);
+        float depth = texelFetch(depthMap, pixel, 0).x;
+        distance_[p] = depth > 0.0 ? camera.camera.near / depth : 0.0;
+        x[p] = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
         n[p] = texelFetch(normalMap, pixel, 0).xyz;
         e[p] = vec3(0.0);
     }
@@ -52,6 +55,6 @@ void main() {
     }
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
-        if (all(lessThan(pixel, ivec2(size)))) imageStore(parts, pixel, vec4(e[p], 1.0));
+        if (all(lessThan(pixel, ivec2(size)))) imageStore(parts, pixel, vec4(e[p], distance_[p]));
     }
 }

@@ -23,8 +23,7 @@ layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } c
 layout(set = 0, binding = 8) uniform sampler2D parts;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D irradiance;
 
-const float kLeastCosine = 0.9;
-const float kMostPlaneShare = 0.01;  // of the depth, from the plane
+const float kMostPlaneShare = 0.0025;  // of the depth, from the plane: surfaces at an angle part within a pixel or two
 
 struct Surface {
     vec3 position, normal;
@@ -48,7 +47,6 @@ Surface surfaceAt(ivec2 pixel) {
 }
 
 struct Pixel {  // of the window about a block
-    vec3 normal;
     float depth;  // 0: sky or outside the tile
     vec3 part;
 };
@@ -60,15 +58,14 @@ struct TileBounds {
 Pixel fetchPixel(TileBounds bounds, ivec2 at) {
     bool inside = all(greaterThanEqual(at, bounds.first)) && all(lessThan(at, bounds.end));
     at = clamp(at, bounds.first, bounds.end - 1);
-    float depth = texelFetch(depthMap, at, 0).x;
-    return Pixel(texelFetch(normalMap, at, 0).xyz, inside ? depth : 0.0, texelFetch(parts, at, 0).rgb);
+    vec4 part = texelFetch(parts, at, 0);  // and the distance
+    return Pixel(inside && part.w > 0.0 ? camera.camera.near / part.w : 0.0, part.rgb);
 }
 
 // Of a pixel so far aside: its part and 1, or nothing where it is on another surface.
 vec4 partOf(Pixel pixel, Surface s, ivec2 aside) {
     float expected = s.depth + dot(s.slope, vec2(aside));
-    bool same = pixel.depth > 0.0 && abs(pixel.depth - expected) <= kMostPlaneShare * s.depth &&
-                dot(s.normal, pixel.normal) >= kLeastCosine;
+    bool same = pixel.depth > 0.0 && abs(pixel.depth - expected) <= kMostPlaneShare * s.depth;
     return same ? vec4(pixel.part, 1.0) : vec4(0.0);
 }
 
