@@ -41,7 +41,7 @@ float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float lo
 Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirection, const Bounds& casters,
                    float sliceNear, float sliceFar, uint32_t resolution) {
     const Sphere sphere = sliceSphere(camera, aspect, sliceNear, sliceFar);
-    const SunRectangle scene = sunRectangle(sunDirection, casters);
+    const SunRectangle scene = sunRectangle(sunDirection, casters, 0);
     const glm::vec3 center = glm::vec3(scene.rotation * glm::vec4(sphere.center, 1));
     glm::vec2 size, middle;
     for (int i = 0; i < 2; ++i) {

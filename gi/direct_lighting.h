@@ -1,5 +1,4 @@
-// Irradiance straight from the scene's lights with 25-tap shadows, one pass a light. Many lights at once are
-// the business of light clustering, not of this list.
+// Irradiance straight from the scene's suns, one pass each.
 #pragma once
 
 #include "gi/gbuffer.h"
@@ -8,7 +7,7 @@
 
 namespace ag::gi {
 
-Irradiance addDirectLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                             const ShadowMaps& shadows);
+Irradiance addSunLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+                          const ShadowMaps& shadows);
 
 }  // namespace ag::gi

@@ -5,6 +5,7 @@
 #include "gi/composite.h"
 #include "gi/direct_lighting.h"
 #include "gi/gi_settings.h"
+#include "gi/lamp_lighting.h"
 #include "gi/texel_shading.h"
 #include "gi/val_fit.h"
 #include "gi/vpl_sampling.h"
@@ -14,6 +15,9 @@ namespace ag::gi {
 // State that outlives a frame; one per view of the scene.
 struct GiHistory {
     ValClusteringHistory valClustering;
+    LightClusterHistory lightClusters;
+    LampShadowHistory lampShadows;
+    LampLightingHistory lampLighting;
 };
 
 // Everything the frame made: for composition, debug views, tests and captures.
@@ -26,6 +30,7 @@ struct GiFrame {
     SurfacePoints surfacePoints;
     IsmAtlas isms;
     ShadowMaps shadows;
+    LampShadows lampShadows;
     Irradiance direct, bounce1;
     GiOutputs outputs;
 };

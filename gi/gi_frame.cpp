@@ -31,8 +31,12 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
         f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, s.stochasticRsm);
 
     // Direct light
-    f.shadows = addShadowMaps(graph, scene, s.shadowMaps);
-    f.direct = addDirectLighting(graph, scene, f.gbuffer, f.shadows);
+    f.shadows = addSunShadows(graph, scene, s.shadowMaps);
+    f.direct = addSunLighting(graph, scene, f.gbuffer, f.shadows);
+    const LightClusters& lamps = clusterLamps(*scene.scene, s.lightClusters, h.lightClusters);
+    f.lampShadows = addLampShadows(graph, scene, lamps, s.lightClusters.most, s.lampShadows, h.lampShadows);
+    f.direct = addLampLighting(graph, scene, f.gbuffer, lamps, f.lampShadows, f.direct, s.lampLighting,
+                               h.lampLighting);
 
     // To the eye
     f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);

@@ -78,12 +78,30 @@ void setUltra(GiSettings& gi) {
     gi.valShading.taps = 16;
 }
 
+// Direct light of many lamps: a shadow map each; as published; ours.
+void setLightsReference(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kNone;
+    gi.lightClusters = {.minDistance = 0, .growth = 0, .most = 256, .strongFirst = false, .hysteresis = 1};
+    gi.lampLighting.tiles = false;
+}
+
+void setLightCluster(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kNone;
+    gi.lightClusters.strongFirst = false;
+    gi.lightClusters.hysteresis = 1;
+    gi.lampLighting.tiles = false;
+}
+
+void setAfterglowLights(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kNone;
+}
+
 struct Preset {
     std::string_view name;
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 11> kPresets = {{{"none", setNone},
+constexpr std::array<Preset, 14> kPresets = {{{"none", setNone},
                                               {"rsm-brute", setRsmBrute},
                                               {"rsm-400", setRsm400},
                                               {"ism", setIsm},
@@ -93,7 +111,10 @@ constexpr std::array<Preset, 11> kPresets = {{{"none", setNone},
                                               {"medium", setAfterglow},
                                               {"low", setLow},
                                               {"high", setHigh},
-                                              {"ultra", setUltra}}};
+                                              {"ultra", setUltra},
+                                              {"lights-reference", setLightsReference},
+                                              {"lightcluster", setLightCluster},
+                                              {"afterglow-lights", setAfterglowLights}}};
 constexpr auto kPresetNames = [] {
     std::array<std::string_view, kPresets.size()> names;
     for (size_t i = 0; i < names.size(); ++i)
@@ -196,16 +217,32 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"stochastic_rsm", "interpolate", 0, 0, "",
            "gather a 16th of the pixels, blend where surfaces are alike"},
           &gi.stochasticRsm.interpolate);
-    s.add({"shadow_maps", "resolution", 64, 4096, "texels",
-           "side of a spot's map or a cascade; cube faces half"},
+    s.add({"shadow_maps", "resolution", 64, 4096, "texels", "side of a sun's cascade"},
           &gi.shadowMaps.resolution);
     s.add({"shadow_maps", "cascades", 1, 4, "", "cascades of a sun"}, &gi.shadowMaps.cascades);
     s.add({"shadow_maps", "cascade_distance", 1, 10000, "m", "reach of the last cascade, cut to the scene"},
           &gi.shadowMaps.cascadeDistance);
     s.add({"shadow_maps", "cascade_split", 0, 1, "", "0 uniform, 1 logarithmic"},
           &gi.shadowMaps.cascadeSplit);
-    s.add({"shadow_maps", "near", 0.001, 1, "m", "near plane of spot and point views"},
-          &gi.shadowMaps.nearDistance);
+    s.add({"light_clusters", "most", 0, 256, "clusters", "of lamps, each with a shadow map"},
+          &gi.lightClusters.most);
+    s.add({"light_clusters", "min_distance", 0, 1000, "m", "between clusters' centres at the camera"},
+          &gi.lightClusters.minDistance);
+    s.add({"light_clusters", "growth", 0, 10, "", "of that distance, for each m from the camera"},
+          &gi.lightClusters.growth);
+    s.add({"light_clusters", "strong_first", 0, 0, "", "strong lamps keep a shadow map of their own longer"},
+          &gi.lightClusters.strongFirst);
+    s.add({"light_clusters", "hysteresis", 0, 1, "", "part of the distance that a centre of before needs"},
+          &gi.lightClusters.hysteresis);
+    s.add({"lamp_shadows", "face_resolution", 16, 2048, "texels",
+           "side of a cube's face, at most; a spot's map has twice"},
+          &gi.lampShadows.faceResolution);
+    s.add({"lamp_shadows", "atlas_size", 256, 16384, "texels", "side of the atlas"},
+          &gi.lampShadows.atlasSize);
+    s.add({"lamp_shadows", "near", 0.001, 1, "m", "near plane of the views"}, &gi.lampShadows.nearDistance);
+    s.add({"lamp_lighting", "tiles", 0, 0, "", "pixels meet only lamps that reach their tile"},
+          &gi.lampLighting.tiles);
+    s.add({"lamp_lighting", "soft_taps", 1, 64, "taps", "of a cluster's shadow"}, &gi.lampLighting.softTaps);
     s.add({"composite", "exposure", -20, 20, "stops", "of the display image"}, &gi.composite.exposure);
     s.add({"composite", "tonemap", 0, 0, "", "curve of the display image", {"none", "reinhard", "aces"}},
           &gi.composite.tonemap);

@@ -8,6 +8,7 @@
 #include "gi/composite.h"
 #include "gi/importance.h"
 #include "gi/ism_atlas.h"
+#include "gi/lamp_lighting.h"
 #include "gi/rsm.h"
 #include "gi/shadow_maps.h"
 #include "gi/stochastic_rsm.h"
@@ -38,13 +39,17 @@ struct GiSettings {
     ValShadingSettings valShading;
     StochasticRsmSettings stochasticRsm;
     ShadowMapSettings shadowMaps;
+    LightClusterSettings lightClusters;
+    LampShadowSettings lampShadows;
+    LampLightingSettings lampLighting;
     CompositeSettings composite;
 };
 
 // Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
 // "rsm-400" (Dachsbacher & Stamminger 2005), "ism" (Ritschel et al. 2008), "rsmc" (RSM clustering) and
 // "acrsm" (with adaption and shadows) as published, "afterglow" (the default), and that by budget: "low",
-// "medium" (the same), "high", "ultra".
+// "medium" (the same), "high", "ultra". For the direct light of lamps, without bounces: "lights-reference" (a
+// shadow map each), "lightcluster" as published, "afterglow-lights" (the default's).
 // False if there is no such preset.
 bool applyPreset(std::string_view name, GiSettings& gi);
 std::span<const std::string_view> presetNames();

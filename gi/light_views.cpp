@@ -41,13 +41,13 @@ glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward) {
     return viewFromWorld(position, forward, up);
 }
 
-SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds) {
+SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds, float askew) {
     SunRectangle best;
     for (int axis = 0; axis < 3; ++axis) {
         glm::vec3 up(0);
         up[axis] = 1;
         if (std::abs(direction[axis]) > 0.99f) continue;
-        up[(axis + 1) % 3] = kAskew, up[(axis + 2) % 3] = -kAskew;
+        up[(axis + 1) % 3] = askew, up[(axis + 2) % 3] = -askew;
         const glm::mat4 rotation = viewFromWorld(glm::vec3(0), direction, up);
         const Bounds seen = seenBounds(rotation, bounds);
         const glm::vec3 extent = seen.max - seen.min, old = best.seen.max - best.seen.min;
@@ -71,7 +71,7 @@ LightView cubeFaceView(glm::vec3 position, uint32_t face, float nearDistance, fl
 }
 
 LightView sunView(glm::vec3 direction, const Bounds& bounds, float margin) {
-    const SunRectangle fit = sunRectangle(direction, bounds);
+    const SunRectangle fit = sunRectangle(direction, bounds, kAskew);
     const glm::vec3 center = (fit.seen.min + fit.seen.max) * 0.5f;
     const glm::vec3 extent = glm::max(fit.seen.max - fit.seen.min, glm::vec3(1e-3f));
     const glm::vec2 side = glm::vec2(extent) * (1 + margin);

@@ -30,7 +30,8 @@ struct SunRectangle {
     glm::mat4 rotation{1};  // world to the light's axes; z grows toward the sun
     Bounds seen;            // in those axes
 };
-SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds);
+// `askew`: off that axis, as a tangent, for maps whose texels shall not run along walls.
+SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds, float askew);
 // That rectangle as a map, grown by `margin` of its sides.
 LightView sunView(glm::vec3 direction, const Bounds& bounds, float margin);
 // How far a light's views must reach: its range, or the scene's far side.

@@ -1,5 +1,6 @@
 #include "gi/scene_draws.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace ag::gi {
@@ -29,6 +30,10 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
         draw.commandsVersion = view.version;
         pass.draw(draw);
     }
+}
+
+bool hasMasked(const SceneView& scene) {
+    return std::ranges::any_of(scene.draws->buckets(), [](const DrawBucket& b) { return b.alphaMask; });
 }
 
 void bindMaterials(PassBuilder& pass, const SceneView& scene) {

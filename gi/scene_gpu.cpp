@@ -38,13 +38,14 @@ io::Material materialRow(const Material& m) {
 
 // The camera, and for each light at most a cube of RSM faces and one of shadow views.
 uint64_t viewsNeeded(const RenderScene& scene) {
-    uint64_t views = 1;
+    uint64_t views = 1, lamps = 0;
     for (const RenderLight& light : scene.lights) {
         const bool point = light.kind == LightKind::kPoint;
         if (light.bounces) views += point ? 6 : 1;
-        if (light.castsShadow) views += point ? 6 : io::kMaxCascades;
+        lamps += light.kind != LightKind::kDirectional && light.castsShadow;
+        if (light.kind == LightKind::kDirectional) views += io::kMaxCascades;
     }
-    return views;
+    return views + 6 * std::min(lamps, kMostLampClusters);
 }
 
 template <class T>

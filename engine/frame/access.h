@@ -21,7 +21,8 @@ enum class UseKind : uint8_t {
     kColorLoad,
     kDepthClear,
     kDepthLoad,
-    kDepthTest,  // read only
+    kDepthPatch,  // rectangles of it are kept or drawn anew
+    kDepthTest,   // read only
     kIndirect,
     kTransferRead,
     kTransferWrite,
@@ -57,6 +58,7 @@ constexpr std::array<Access, size_t(UseKind::kCount)> kAccessTable = {{
     {kRasterStages, kShaderRead, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
     {kColorOutput, kColorRead, kColorWrite, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
     {kColorOutput, kColorRead, kColorWrite, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL},
+    {kDepthTests, kDepthRead, kDepthWrite, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
     {kDepthTests, kDepthRead, kDepthWrite, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
     {kDepthTests, kDepthRead, kDepthWrite, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
     {kDepthTests, kDepthRead, 0, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL},

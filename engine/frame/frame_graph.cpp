@@ -217,7 +217,6 @@ void FrameGraph::fill(std::string_view name, BufferHandle buffer, uint32_t word)
 }
 
 void FrameGraph::upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes) {
-    AG_CHECK_LE(bytes.size(), size_t(65536));
     AG_CHECK_EQ(bytes.size() % 4, size_t(0));
     Pass& pass = impl_->addPass(name, PassKind::kUpload);
     pass.dataOffset = uint32_t(impl_->data.size());

@@ -90,6 +90,7 @@ struct RasterDraw {
     uint64_t commandsOffsetBytes = 0;
     uint32_t commandCount = 0;
     uint64_t commandsVersion = 0;  // version of just this range (0: that of the whole buffer)
+    bool beginsPatch = false;      // draws nothing: see PassBuilder::patch
 };
 
 // Where a raster pass takes its triangles from.
@@ -125,6 +126,10 @@ class PassBuilder {
     PassBuilder& depth(ImageHandle image);
     PassBuilder& depthClear(ImageHandle image, float clear = 0.0f);  // reversed depth: far is 0
     PassBuilder& depthTestOnly(ImageHandle image);
+    // An atlas of which each rectangle lasts by itself: only those whose draws changed are cleared and drawn
+    // again. Every draw belongs to the patch begun last; patches do not overlap.
+    PassBuilder& depthPatches(ImageHandle image, float clear = 0.0f);
+    PassBuilder& patch(glm::uvec4 rect);  // x, y, width, height in pixels
     PassBuilder& blend(gpu::BlendMode mode);
     PassBuilder& depthBiasSlope(float slope);
 
@@ -162,6 +167,7 @@ struct PassReport {
     double gpuMs = 0;       // of the last frame whose timestamps arrived, 0 if it did not run then
     double cpuMs = 0;       // process CPU time, only in TimingMode::kProcessCpu
     uint64_t runCount = 0;  // since the graph was made
+    uint32_t patches = 0, patchesDrawn = 0;  // of a pass that draws patches, when it ran last
 };
 
 enum class TimingMode {
@@ -226,7 +232,7 @@ class FrameGraph {
     PassBuilder raster(std::string_view name, std::string_view vertexShader, std::string_view fragmentShader,
                        gpu::VertexLayout layout);
     void fill(std::string_view name, BufferHandle buffer, uint32_t word);
-    // Host data (at most 64 KiB, copied now) into a buffer; keyed by its bytes.
+    // Host data (some hundred KiB at most, copied now) into a buffer; keyed by its bytes.
     void upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes);
     void copyImage(std::string_view name, ImageHandle from,
                    ImageHandle to);  // blit with nearest filter if sizes differ

@@ -208,6 +208,14 @@ void bindGeometry(VkCommandBuffer commands, const Geometry& g) {
     vkCmdBindIndexBuffer(commands, g.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
 }
 
+void clearPatch(VkCommandBuffer commands, glm::uvec4 rect, std::span<const Use> uses) {
+    const auto atlas = std::ranges::find(uses, UseKind::kDepthPatch, &Use::kind);
+    VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT};
+    clear.clearValue.depthStencil = {atlas->clear.x, 0};
+    const VkClearRect area{{{int32_t(rect.x), int32_t(rect.y)}, {rect.z, rect.w}}, 0, 1};
+    vkCmdClearAttachments(commands, 1, &clear, 1, &area);
+}
+
 }  // namespace
 
 void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) {
@@ -219,7 +227,7 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
     for (const Use& use : usesOf(pass)) {
         const bool isColor = use.kind == UseKind::kColorClear || use.kind == UseKind::kColorLoad;
         const bool isDepth = use.kind == UseKind::kDepthClear || use.kind == UseKind::kDepthLoad ||
-                             use.kind == UseKind::kDepthTest;
+                             use.kind == UseKind::kDepthPatch || use.kind == UseKind::kDepthTest;
         if (!isColor && !isDepth) continue;
         const gpu::Image& image = imageOf(resources[use.resource]);
         size = image.desc().size;
@@ -233,8 +241,13 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
                                .pColorAttachments = colors.data(),
                                .pDepthAttachment = hasDepth ? &depth : nullptr};
     vkCmdBeginRendering(commands, &info);
+    recordDraws(commands, pass, pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE, size);
+    vkCmdEndRendering(commands);
+}
+
+void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
+                                   glm::uvec2 size) {
     const glm::uvec4 whole(0, 0, size);
-    const VkDescriptorSet set = pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE;
     const auto bind = [&](const gpu::Pipeline& pipeline, std::span<const std::byte> push, glm::uvec4 rect) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
         if (set)
@@ -252,13 +265,42 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
         vkCmdDraw(commands, 3, 1, 0, 0);
     }
     bindGeometry(commands, pass.geometry);
-    for (const RasterDraw& draw : drawsOf(pass)) {
+    std::vector<Patch>* held = patchesOf(pass);
+    const std::span<const RasterDraw> all = drawsOf(pass);
+    PassStats& counts = stats[pass.stats];
+    counts.patches = counts.patchesDrawn = 0;
+    patches.clear();
+    for (size_t i = 0; i < all.size(); ++i) {
+        const RasterDraw& draw = all[i];
+        if (draw.beginsPatch) {
+            const auto next = std::find_if(all.begin() + std::ptrdiff_t(i) + 1, all.end(),
+                                           [](const RasterDraw& d) { return d.beginsPatch; });
+            const size_t end = size_t(next - all.begin());
+            const Patch patch{draw.viewport, patchKey(pass, i, end)};
+            patches.push_back(patch);
+            ++counts.patches;
+            const auto known = std::ranges::find(*held, patch.rect, &Patch::rect);
+            if (options.skip && known != held->end() && known->key == patch.key) {
+                i = end - 1;
+                continue;
+            }
+            ++counts.patchesDrawn;
+            clearPatch(commands, patch.rect, usesOf(pass));
+            continue;
+        }
         bind(pipelines->get(requestFor(pass, &draw)), {draw.push.data(), draw.pushSizeBytes}, draw.viewport);
         vkCmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
                                  draw.commandsOffsetBytes, draw.commandCount,
                                  sizeof(VkDrawIndexedIndirectCommand));
     }
-    vkCmdEndRendering(commands);
+    // Those not declared now may have been drawn over.
+    if (held) std::swap(*held, patches);
+}
+
+std::vector<Patch>* FrameGraph::Impl::patchesOf(const Pass& pass) {
+    for (const Use& use : usesOf(pass))
+        if (use.kind == UseKind::kDepthPatch) return &memoryOf(resources[use.resource])->patches;
+    return nullptr;
 }
 
 void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass) {
@@ -266,9 +308,10 @@ void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass
     if (pass.kind == PassKind::kFill) {
         vkCmdFillBuffer(commands, bufferOf(resources[to.resource]).handle(), 0, VK_WHOLE_SIZE, pass.fillWord);
     } else if (pass.kind == PassKind::kUpload) {
-        if (pass.dataSize > 0)
-            vkCmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), 0, pass.dataSize,
-                              data.data() + pass.dataOffset);
+        constexpr uint32_t kMost = 65536;  // of one command
+        for (uint32_t at = 0; at < pass.dataSize; at += kMost)
+            vkCmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), at,
+                              std::min(kMost, pass.dataSize - at), data.data() + pass.dataOffset + at);
     } else {
         const gpu::Image& source = imageOf(resources[usesOf(pass).front().resource]);
         const gpu::Image& target = imageOf(resources[to.resource]);
@@ -369,7 +412,8 @@ void FrameGraph::execute(VkCommandBuffer commands) {
         } else {
             stats.gpuMs = stats.cpuMs = 0;
         }
-        g.report.push_back({pass.name, outcome, stats.gpuMs, stats.cpuMs, stats.runCount});
+        g.report.push_back({pass.name, outcome, stats.gpuMs, stats.cpuMs, stats.runCount, stats.patches,
+                            stats.patchesDrawn});
     }
     g.commitHistories();
     if (alone)

@@ -26,6 +26,12 @@ struct SyncState {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 
+// A rectangle of an atlas and what was drawn there.
+struct Patch {
+    glm::uvec4 rect;
+    uint64_t key = 0;
+};
+
 // One image or buffer with what it holds.
 struct Memory {
     std::unique_ptr<gpu::Image> image;
@@ -33,6 +39,7 @@ struct Memory {
     SyncState sync;
     uint64_t version = 0;    // of the contents; 0: nothing
     bool needsZero = false;  // histories start as zeroes
+    std::vector<Patch> patches;
 };
 
 // Memory that scratch images share.
@@ -128,6 +135,7 @@ struct PassStats {
     double gpuMs = 0, cpuMs = 0;
     uint64_t runCount = 0;
     uint64_t checkedPipeline = 0;  // bindings were checked against it
+    uint32_t patches = 0, patchesDrawn = 0;
 };
 
 struct FrameGraph::Impl {
@@ -145,6 +153,7 @@ struct FrameGraph::Impl {
     std::vector<PassReport> report;
     std::vector<PassRecord> records;
     std::vector<uint64_t> stepKeys;  // scratch, by slot
+    std::vector<Patch> patches;      // scratch
 
     // From frame to frame
     std::vector<Slot> slots;
@@ -201,6 +210,9 @@ struct FrameGraph::Impl {
     void recordPass(VkCommandBuffer commands, const Pass& pass);
     void recordCompute(VkCommandBuffer commands, const Pass& pass);
     void recordRaster(VkCommandBuffer commands, const Pass& pass);
+    void recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set, glm::uvec2 size);
+    std::vector<Patch>* patchesOf(const Pass& pass);
+    uint64_t patchKey(const Pass& pass, size_t first, size_t end) const;
     void recordTransfer(VkCommandBuffer commands, const Pass& pass);
     gpu::PipelineRequest requestFor(const Pass& pass, const RasterDraw* draw) const;
     void finishPass(const Pass& pass);

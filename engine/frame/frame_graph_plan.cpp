@@ -16,6 +16,12 @@ uint64_t hashDraw(uint64_t key, const RasterDraw& draw) {
     return combineHash(key, draw.commandsVersion ? draw.commandsVersion : draw.commandsOffsetBytes);
 }
 
+// The first draw that draws, after the markers of empty patches.
+const RasterDraw* firstDraw(std::span<const RasterDraw> draws) {
+    const auto found = std::ranges::find(draws, false, &RasterDraw::beginsPatch);
+    return found == draws.end() ? nullptr : &*found;
+}
+
 uint64_t pipelineNameKey(const Pass& pass) {
     uint64_t key = hashText(pass.shader, hashText(pass.vertexShader));
     for (uint32_t i = 0; i < pass.specCount; ++i)
@@ -50,9 +56,9 @@ void FrameGraph::Impl::resolvePipelines() {
     for (Pass& pass : passes) {
         pass.pipelineKey = pipelineNameKey(pass);
         const bool shader = pass.kind == PassKind::kCompute || pass.kind == PassKind::kFullscreen ||
-                            (pass.kind == PassKind::kRaster && pass.drawCount > 0);
+                            (pass.kind == PassKind::kRaster && firstDraw(drawsOf(pass)));
         if (!device || !shader) continue;
-        const RasterDraw* draw = pass.kind == PassKind::kRaster ? &draws[pass.firstDraw] : nullptr;
+        const RasterDraw* draw = pass.kind == PassKind::kRaster ? firstDraw(drawsOf(pass)) : nullptr;
         pass.pipeline = &pipelines->get(requestFor(pass, draw));
         pass.pipelineKey = pass.pipeline->id;
         PassStats& known = stats[pass.stats];
@@ -76,6 +82,16 @@ uint64_t FrameGraph::Impl::passKey(const Pass& pass, bool withPrevious) const {
         if (readsOld(use.kind) && use.keyed && (withPrevious || !use.previous))
             key = combineHash(key, resources[use.resource].version);
     }
+    return key;
+}
+
+// Of what a patch will show: all that its draws are made of.
+uint64_t FrameGraph::Impl::patchKey(const Pass& pass, size_t first, size_t end) const {
+    uint64_t key = combineHash(pass.pipelineKey, pass.geometry.version);
+    for (size_t i = first; i < end; ++i)
+        key = hashDraw(key, drawsOf(pass)[i]);
+    for (const Use& use : usesOf(pass))
+        if (readsOld(use.kind) && use.keyed) key = combineHash(key, resources[use.resource].version);
     return key;
 }
 

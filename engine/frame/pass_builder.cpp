@@ -109,6 +109,21 @@ PassBuilder& PassBuilder::depthClear(ImageHandle image, float clear) {
     return *this;
 }
 
+PassBuilder& PassBuilder::depthPatches(ImageHandle image, float clear) {
+    depth(image);
+    Use& use = graph_->impl_->uses.back();
+    use.kind = UseKind::kDepthPatch;
+    use.clear.x = clear;
+    use.keyed = false;  // what it held before is kept or drawn over: no part of what it will hold
+    return *this;
+}
+
+PassBuilder& PassBuilder::patch(glm::uvec4 rect) {
+    graph_->impl_->draws.push_back({.viewport = rect, .beginsPatch = true});
+    ++AG_PASS.drawCount;
+    return *this;
+}
+
 PassBuilder& PassBuilder::depthTestOnly(ImageHandle image) {
     gpu::RasterState& raster = AG_PASS.raster;
     raster.depthFormat = graph_->info(image).format;

@@ -9,7 +9,6 @@
 namespace ag::io {
 #endif
 
-const uint kMaxLights = 64;
 
 struct CameraConstants {
     mat4 clipFromWorld;  // reversed depth, infinite far plane
@@ -42,19 +41,6 @@ struct Material {       // 6 vec4
 const uint kLightDirectional = 0;
 const uint kLightPoint = 1;
 const uint kLightSpot = 2;
-
-struct Light {      // 4 vec4
-    vec3 position;  // m
-    uint kind;
-    vec3 direction;  // the way the light travels, unit
-    float range;     // m, 0: no limit
-    vec3 intensity;  // W/sr; directional: W/m²
-    float cosInner;
-    float cosOuter;
-    uint firstShadowView;  // index into the shadow views
-    uint shadowViewCount;  // 0: casts no shadow
-    uint castsShadow;
-};
 
 #ifdef __cplusplus
 }  // namespace ag::io

@@ -10,8 +10,7 @@
 
 #include "common/clustering_metric.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_renderer.h"
-#include "tests/support/device_environment.h"
+#include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
@@ -19,56 +18,6 @@ namespace ag::gi {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
-// passes and synchronization validation proves them.
-struct Bench {
-    explicit Bench(SceneAsset built, glm::uvec2 pixels = {160, 96})
-        : asset(std::move(built)), scene(staticScene(asset)), size(pixels), renderer(test::device()) {
-        setCamera(scene, cameraOf(asset, 0), size);
-        renderer.load(asset.geometry);
-        options.timing = TimingMode::kOff;
-    }
-    void frame() {
-        renderer.render(
-            scene, size, settings, options,
-            [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
-                last = declared;
-                graph.output(declared.outputs.display);
-                graph.output(declared.outputs.radiance);
-                if (declared.rsm.empty()) return;
-                for (BufferHandle b : {declared.rsm.texels, declared.clusters.clusters,
-                                       declared.clusters.seeds, declared.clusters.candidates,
-                                       declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
-                    graph.output(b);
-                graph.output(declared.bounce1.image);
-                if (output) output(graph, declared);
-            });
-    }
-    template <class T>
-    std::vector<T> read(BufferHandle buffer) {
-        const gpu::Buffer& source = renderer.graph().physical(buffer);
-        std::vector<T> items(source.sizeBytes() / sizeof(T));
-        renderer.waitIdle();
-        gpu::downloadBuffer(renderer.device(), source, std::as_writable_bytes(std::span(items)));
-        return items;
-    }
-    int passesRun() {
-        int count = 0;
-        for (const PassReport& pass : renderer.graph().report())
-            count += pass.outcome == PassOutcome::kRan;
-        return count;
-    }
-
-    SceneAsset asset;
-    RenderScene scene;
-    glm::uvec2 size;
-    GiSettings settings;
-    FrameGraphOptions options;
-    GiRenderer renderer;
-    GiFrame last;
-    std::function<void(FrameGraph&, const GiFrame&)> output;  // what a test reads besides
-};
 
 SceneAsset plane(float albedo) {
     scenegen::SceneBuilder b("plane");
@@ -584,7 +533,7 @@ TEST(Frame, CameraAloneLeavesTheLightMapsAlone) {
         const auto ran = runByTheCamera(viewWeight);
         EXPECT_TRUE(anyStartsWith(ran, "gbuffer.fill"));
         EXPECT_FALSE(anyStartsWith(ran, "rsm."));
-        EXPECT_FALSE(anyStartsWith(ran, "shadow_maps.lamps"));
+        EXPECT_FALSE(anyStartsWith(ran, "lamp_shadows.faces"));
         for (const char* step : {"importance.", "val_clustering.", "ism_atlas."})
             EXPECT_EQ(anyStartsWith(ran, step), viewWeight > 0) << step;
     }

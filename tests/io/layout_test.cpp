@@ -6,6 +6,7 @@
 #include <map>
 
 #include "engine/gpu/shader.h"
+#include "shaders/direct_lighting/direct_lighting_io.h"
 #include "shaders/importance/importance_io.h"
 #include "shaders/ism_atlas/ism_atlas_io.h"
 #include "shaders/rsm/rsm_io.h"
@@ -40,12 +41,11 @@ const std::map<std::string, Layout>& layouts() {
           {AG_MEMBER(CameraConstants, clipFromWorld), AG_MEMBER(CameraConstants, worldFromClip),
            AG_MEMBER(CameraConstants, position), AG_MEMBER(CameraConstants, near),
            AG_MEMBER(CameraConstants, size)}}},
-        {"Light",
-         {sizeof(io::Light),
-          {AG_MEMBER(Light, position), AG_MEMBER(Light, kind), AG_MEMBER(Light, direction),
-           AG_MEMBER(Light, range), AG_MEMBER(Light, intensity), AG_MEMBER(Light, cosInner),
-           AG_MEMBER(Light, cosOuter), AG_MEMBER(Light, firstShadowView), AG_MEMBER(Light, shadowViewCount),
-           AG_MEMBER(Light, castsShadow)}}},
+        {"Sun",
+         {sizeof(io::Sun),
+          {AG_MEMBER(Sun, direction), AG_MEMBER(Sun, firstView), AG_MEMBER(Sun, irradiance),
+           AG_MEMBER(Sun, viewCount)}}},
+        {"LampPush", {sizeof(io::LampPush), {AG_MEMBER(LampPush, lampCount)}}},
         {"ShadowView",
          {sizeof(io::ShadowView),
           {AG_MEMBER(ShadowView, clipFromWorld), AG_MEMBER(ShadowView, origin), AG_MEMBER(ShadowView, size),

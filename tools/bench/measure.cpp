@@ -134,7 +134,8 @@ void SceneBench::timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row
     for (auto& [name, times] : passes)
         row.passes[name] = quantile(times, 0.5);
     row.gbufferMs = row.passes["gbuffer.fill"];
-    if (settings.firstBounce == gi::FirstBounce::kNone) row.gbufferMs = row.gpuMsMedian = 0;
+    const bool nothing = settings.firstBounce == gi::FirstBounce::kNone && layer != gi::Layer::kDirect;
+    if (nothing) row.gbufferMs = row.gpuMsMedian = 0;
 }
 
 Status SceneBench::measureFlicker(const gi::GiSettings& settings, gi::Layer layer, Row& row) {

@@ -33,6 +33,13 @@ std::vector<Variant> ours() {
     return variants;
 }
 
+std::vector<Variant> lampBudgets() {
+    std::vector<Variant> variants;
+    for (const int count : {10, 26})
+        variants.push_back({fmt::format("{} clusters", count), {fmt::format("light_clusters.most={}", count)}});
+    return variants;
+}
+
 std::vector<Technique> makeTechniques() {
     return {
         {.name = "none", .description = "no indirect light", .variants = {{"", {}}}},
@@ -59,6 +66,18 @@ std::vector<Technique> makeTechniques() {
         {.name = "low", .description = "ours, least work", .variants = {{"", {}}}},
         {.name = "high", .description = "ours, for more accuracy", .variants = {{"", {}}}},
         {.name = "ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},
+        {.name = "lights-reference",
+         .description = "direct light of lamps, a shadow map each",
+         .term = "direct",
+         .variants = {{"", {}}}},
+        {.name = "lightcluster",
+         .description = "lamps in clusters that share a shadow map, as published (Wiesenhütter et al.)",
+         .term = "direct",
+         .variants = lampBudgets()},
+        {.name = "afterglow-lights",
+         .description = "lamps in clusters and tiles, ours",
+         .term = "direct",
+         .variants = lampBudgets()},
     };
 }
 

@@ -3,4 +3,4 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define AG_SHADOW
-#include "direct_lighting/light_pixels.glsl"
+#include "direct_lighting/shade_lamps.glsl"

@@ -1,0 +1,135 @@
+#include "gi/lamp_shadows.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "gi/light_views.h"
+#include "gi/scene_draws.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr uint32_t kFaces = 6;
+
+// Three by two faces a place; all fit as soon as the faces are small enough.
+struct Places {
+    uint32_t face = 0;  // texels along a side
+    uint32_t columns = 1, count = 0;
+    glm::uvec2 origin(uint32_t place) const {
+        return glm::uvec2(place % columns * 3, place / columns * 2) * face;
+    }
+    glm::uvec2 size() const { return glm::uvec2(columns * 3, (count + columns - 1) / columns * 2) * face; }
+};
+
+Places placesFor(uint32_t count, const LampShadowSettings& s) {
+    for (uint32_t face = s.faceResolution; face > 16; face /= 2) {
+        const uint32_t columns = s.atlasSize / (3 * face), rows = s.atlasSize / (2 * face);
+        if (columns * rows >= count) return {face, std::min(columns, count), count};
+    }
+    return {16, s.atlasSize / 48, count};
+}
+
+// As many as the scene's casters may ever need, in powers of two, so that neither walking about nor lamps
+// that come and go change the faces' size.
+uint32_t placeCount(const RenderScene& scene, uint32_t mostClusters) {
+    uint32_t casters = 0;
+    for (const RenderLight& light : scene.lights)
+        casters += light.kind != LightKind::kDirectional && light.castsShadow;
+    return std::min(std::bit_ceil(casters), mostClusters);
+}
+
+// Centres of before keep their places, the others take free ones.
+void assignPlaces(const RenderScene& scene, const LightClusters& clusters, uint32_t count,
+                  LampShadowHistory& h) {
+    h.owners.resize(count, 0);
+    for (uint64_t& owner : h.owners)
+        if (std::ranges::none_of(clusters.clusters,
+                                 [&](const LightCluster& c) { return scene.lights[c.center].id == owner; }))
+            owner = 0;
+    h.places.resize(clusters.clusters.size());
+    for (size_t i = 0; i < clusters.clusters.size(); ++i) {
+        const uint64_t id = scene.lights[clusters.clusters[i].center].id;
+        auto place = std::ranges::find(h.owners, id);
+        if (place == h.owners.end()) place = std::ranges::find(h.owners, uint64_t(0));
+        *place = id;
+        h.places[i] = uint32_t(place - h.owners.begin());
+    }
+}
+
+// What shading knows of a cluster's map.
+io::LampCluster rowOf(const RenderScene& scene, const LightCluster& cluster, const Places& places,
+                      uint32_t place, const LampShadowSettings& s) {
+    const RenderLight& light = scene.lights[cluster.center];
+    const bool spot = isSpotCluster(scene, cluster);
+    // All of the cluster's lamps see by this map, so it reaches as far as any of them may.
+    RenderLight farthest = light;
+    if (cluster.lampCount > 1) farthest.range = 0;
+    return {.center = light.position,
+            .radius = cluster.radius,
+            .direction = spot ? light.direction : glm::vec3(0),
+            .tanHalf = spot ? spotView(light, s.nearDistance, 1).tanHalf : 1,
+            .origin = places.origin(place),
+            .size = spot ? 2 * places.face : places.face,
+            .nearDistance = s.nearDistance,
+            .farDistance = farDistanceOf(farthest, scene.bounds)};
+}
+
+PassBuilder beginFaces(FrameGraph& graph, const SceneView& scene, ImageHandle atlas) {
+    // Masked surfaces need their textures, and then all are drawn with them.
+    const bool masked = hasMasked(scene);
+    PassBuilder pass =
+        masked
+            ? graph.raster("lamp_shadows.faces", "shadow_maps/masked.vert", "shadow_maps/masked.frag",
+                           gpu::VertexLayout::kPositionsAndAttributes)
+            : graph.raster("lamp_shadows.faces", "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
+    pass.depthPatches(atlas).geometry(scene.geometry).read("instances", scene.instances);
+    if (masked) bindMaterials(pass, scene);
+    return pass;
+}
+
+}  // namespace
+
+bool isSpotCluster(const RenderScene& scene, const LightCluster& cluster) {
+    return cluster.lampCount == 1 && scene.lights[cluster.center].kind == LightKind::kSpot;
+}
+
+LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const LightClusters& clusters,
+                           uint32_t mostClusters, const LampShadowSettings& settings,
+                           LampShadowHistory& history) {
+    const RenderScene& s = *scene.scene;
+    const Places places = placesFor(placeCount(s, mostClusters), settings);
+    // Each place has its view slots, drawn or not, so that what is culled for them lasts.
+    const uint32_t firstSlot = scene.viewsClaimed;
+    scene.viewsClaimed += places.count * kFaces;
+    if (clusters.clusters.empty() || s.instances.empty()) return {};
+    assignPlaces(s, clusters, places.count, history);
+    LampShadows shadows{
+        .atlas = graph.image("lamp_shadows.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()})};
+    history.rows.clear();
+    PassBuilder pass = beginFaces(graph, scene, shadows.atlas);
+    const DrawFilter filter = hasMasked(scene) ? DrawFilter::kAll : DrawFilter::kOpaqueOnly;
+    for (size_t i = 0; i < clusters.clusters.size(); ++i) {
+        const uint32_t place = history.places[i];
+        const io::LampCluster& row =
+            history.rows.emplace_back(rowOf(s, clusters.clusters[i], places, place, settings));
+        const bool spot = isSpotCluster(s, clusters.clusters[i]);
+        for (uint32_t face = 0; face < (spot ? 1 : kFaces); ++face) {
+            const glm::mat4 clipFromWorld =
+                (spot ? spotView(s.lights[clusters.clusters[i].center], row.nearDistance, row.farDistance)
+                      : cubeFaceView(row.center, face, row.nearDistance, row.farDistance))
+                    .clipFromWorld;
+            const glm::uvec4 rect(row.origin + glm::uvec2(face % 3, face / 3) * row.size, row.size, row.size);
+            pass.patch(rect);
+            drawView(pass, scene, scene.draws->cull(s, firstSlot + place * kFaces + face, clipFromWorld),
+                     clipFromWorld, rect, filter, Viewer::kLight);
+        }
+    }
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(history.rows));
+    shadows.clusters = graph.buffer(
+        "lamp_shadows.clusters",
+        {.sizeBytes = places.count * sizeof(io::LampCluster), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.upload("lamp_shadows.clusters", shadows.clusters, bytes);
+    return shadows;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,36 @@
+// Depth maps of lamp clusters: six faces of a cube about each cluster's centre, or one square round the cone
+// of a spot that shares with none. They live in an atlas where each keeps its place while its centre stays
+// one, and only faces in which something moved are drawn again.
+#pragma once
+
+#include "gi/light_clusters.h"
+#include "gi/scene_gpu.h"
+#include "shaders/direct_lighting/direct_lighting_io.h"
+
+namespace ag::gi {
+
+struct LampShadowSettings {
+    uint32_t faceResolution = 512;  // texels along a cube face's side, at most; smaller for many clusters
+    uint32_t atlasSize = 4096;      // texels along the atlas's side
+    float nearDistance = 0.02f;     // m
+};
+
+struct LampShadowHistory {
+    std::vector<uint64_t> owners;       // id of the light whose place it is, by place; 0: free
+    std::vector<uint32_t> places;       // of this frame's clusters
+    std::vector<io::LampCluster> rows;  // scratch
+};
+
+struct LampShadows {
+    ImageHandle atlas;      // D32; invalid: no lamp casts shadows
+    BufferHandle clusters;  // io::LampCluster; also a texel buffer of vec4
+};
+
+LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const LightClusters& clusters,
+                           uint32_t mostClusters, const LampShadowSettings& settings,
+                           LampShadowHistory& history);
+
+// Whether a cluster's map is a spot's single view.
+bool isSpotCluster(const RenderScene& scene, const LightCluster& cluster);
+
+}  // namespace ag::gi

@@ -1,0 +1,143 @@
+#include "gi/light_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace ag::gi {
+namespace {
+
+constexpr int kBudgetRounds = 24;
+
+float strengthOf(const RenderLight& light) {
+    return (light.intensity.x + light.intensity.y + light.intensity.z) / 3;
+}
+
+void takeSeenLamps(const RenderScene& scene, LightClusters& out) {
+    out.lamps.clear();
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const RenderLight& light = scene.lights[i];
+        if (light.kind == LightKind::kDirectional || strengthOf(light) <= 0) continue;
+        const bool reaches =
+            light.range <= 0 || sphereInView(scene.camera.clipFromWorld, light.position, light.range);
+        if (reaches) out.lamps.push_back(i);
+    }
+}
+
+// The distance that centres keep from each lamp. Shadows from another place than the lamp's are wrong by an
+// angle that shrinks with the distance to the camera, and matter as much as the lamp does.
+void keepDistances(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
+    const LightClusters& c = h.clusters;
+    double mean = 0;
+    for (const uint32_t lamp : c.lamps)
+        mean += double(strengthOf(scene.lights[lamp])) / double(c.lamps.size());
+    h.distances.resize(c.lamps.size());
+    for (size_t i = 0; i < c.lamps.size(); ++i) {
+        const RenderLight& light = scene.lights[c.lamps[i]];
+        float distance = s.minDistance + s.growth * glm::distance(light.position, scene.camera.position);
+        if (s.strongFirst) distance *= std::sqrt(std::clamp(float(mean) / strengthOf(light), 0.25f, 4.0f));
+        if (std::ranges::binary_search(h.centers, light.id)) distance *= s.hysteresis;
+        h.distances[i] = distance;
+    }
+}
+
+// Centres of before come first, so that the others arrange themselves round them; then the strong ones.
+void orderLamps(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
+    h.order.resize(h.clusters.lamps.size());
+    for (uint32_t i = 0; i < h.order.size(); ++i)
+        h.order[i] = i;
+    const auto rank = [&](uint32_t i) {
+        const RenderLight& light = scene.lights[h.clusters.lamps[i]];
+        const bool before = s.hysteresis < 1 && std::ranges::binary_search(h.centers, light.id);
+        return std::tuple(!before, s.strongFirst ? -strengthOf(light) : 0.0f, i);
+    };
+    std::ranges::sort(h.order, {}, rank);
+}
+
+// First pass: in order, every lamp that is far enough from all centres becomes one. Returns false as soon as
+// there are more than the budget.
+bool chooseCenters(const RenderScene& scene, const LightClusterSettings& s, float stretch,
+                   LightClusterHistory& h) {
+    LightClusters& c = h.clusters;
+    c.clusters.clear();
+    for (const uint32_t i : h.order) {
+        const RenderLight& light = scene.lights[c.lamps[i]];
+        if (!light.castsShadow) continue;
+        const float apart = stretch * h.distances[i];
+        const bool alone = std::ranges::none_of(c.clusters, [&](const LightCluster& other) {
+            return glm::distance(scene.lights[other.center].position, light.position) < apart;
+        });
+        if (!alone) continue;
+        if (c.clusters.size() == s.most) return false;
+        c.clusters.push_back({.center = c.lamps[i]});
+    }
+    return true;
+}
+
+// The least stretch that keeps to the budget, from powers of two and a bisection between them.
+void fitBudget(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
+    float low = 1, high = 1;
+    if (chooseCenters(scene, s, 1, h)) {
+        h.clusters.stretch = 1;
+        return;
+    }
+    int rounds = 0;
+    while (!chooseCenters(scene, s, high, h) && ++rounds < kBudgetRounds)
+        low = high, high *= 2;
+    for (; rounds < kBudgetRounds && high > 1.02f * low; ++rounds) {
+        const float middle = 0.5f * (low + high);
+        (chooseCenters(scene, s, middle, h) ? high : low) = middle;
+    }
+    chooseCenters(scene, s, high, h);
+    h.clusters.stretch = high;
+}
+
+// Second pass: to the nearest centre; the lowest index settles ties.
+void assignLamps(const RenderScene& scene, LightClusters& c) {
+    c.clusterOf.assign(c.lamps.size(), LightClusters::kNoCluster);
+    for (size_t i = 0; i < c.lamps.size(); ++i) {
+        const RenderLight& light = scene.lights[c.lamps[i]];
+        if (!light.castsShadow) continue;
+        float best = std::numeric_limits<float>::max();
+        for (uint32_t k = 0; k < c.clusters.size(); ++k) {
+            const float distance = glm::distance(scene.lights[c.clusters[k].center].position, light.position);
+            if (distance >= best) continue;
+            best = distance;
+            c.clusterOf[i] = k;
+        }
+        if (c.clusterOf[i] == LightClusters::kNoCluster) continue;
+        LightCluster& cluster = c.clusters[c.clusterOf[i]];
+        cluster.radius = std::max(cluster.radius, best);
+        ++cluster.lampCount;
+    }
+}
+
+}  // namespace
+
+bool sphereInView(const glm::mat4& clipFromWorld, glm::vec3 center, float radius) {
+    const glm::mat4 t = glm::transpose(clipFromWorld);
+    // left, right, bottom, top: w ± x, w ± y >= 0; in front: w >= 0 (the eye's own plane bounds the near
+    // one).
+    for (const glm::vec4 plane : {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3]}) {
+        const glm::vec3 normal(plane);
+        if (glm::dot(normal, center) + plane.w < -radius * glm::length(normal)) return false;
+    }
+    return true;
+}
+
+const LightClusters& clusterLamps(const RenderScene& scene, const LightClusterSettings& settings,
+                                  LightClusterHistory& history) {
+    takeSeenLamps(scene, history.clusters);
+    keepDistances(scene, settings, history);
+    orderLamps(scene, settings, history);
+    fitBudget(scene, settings, history);
+    assignLamps(scene, history.clusters);
+    history.centers.clear();
+    for (const LightCluster& cluster : history.clusters.clusters)
+        history.centers.push_back(scene.lights[cluster.center].id);
+    std::ranges::sort(history.centers);
+    return history.clusters;
+}
+
+}  // namespace ag::gi

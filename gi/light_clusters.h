@@ -1,0 +1,49 @@
+// Lamps that share a shadow map (LightCluster, Wiesenhütter, Klein, Nischwitz). Pure functions of lights and
+// camera. Two passes: centres among the lamps themselves by a minimum distance that grows with the distance
+// to the camera, then each other lamp to the nearest centre.
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/render_scene.h"
+
+namespace ag::gi {
+
+struct LightClusterSettings {
+    float minDistance = 0.5f;  // m between centres at the camera
+    float growth = 0.1f;       // m more for each m between lamp and camera; the error seen stays the same
+    uint32_t most = 32;        // clusters; the distances are stretched until so many do
+    bool strongFirst = true;   // strong lamps keep a map of their own longer; off: as published, in order
+    float hysteresis = 0.75f;  // a centre of the frame before needs this part of the distance; 1: none
+};
+
+struct LightCluster {
+    uint32_t center = 0;  // index into the scene's lights
+    float radius = 0;     // m: of its farthest lamp from the centre, the size of the light its shadows have
+    uint32_t lampCount = 0;
+};
+
+struct LightClusters {
+    std::vector<uint32_t> lamps;      // indices into the scene's lights: those that may light what is seen
+    std::vector<uint32_t> clusterOf;  // parallel to `lamps`; kNoCluster: casts no shadow
+    std::vector<LightCluster> clusters;
+    float stretch = 1;  // what the distances were multiplied by to keep to the budget
+    static constexpr uint32_t kNoCluster = ~0u;
+};
+
+// What outlives a frame; also scratch, so that a steady frame allocates nothing.
+struct LightClusterHistory {
+    std::vector<uint64_t> centers;  // ids of lights, sorted
+    std::vector<uint32_t> order;
+    std::vector<float> distances;  // m that centres keep from each lamp
+    LightClusters clusters;
+};
+
+// Whether a sphere reaches into a camera's view (its five planes; there is no far one).
+bool sphereInView(const glm::mat4& clipFromWorld, glm::vec3 center, float radius);
+
+// Spots and points with light whose range reaches into the view, clustered. The result lives in the history.
+const LightClusters& clusterLamps(const RenderScene& scene, const LightClusterSettings& settings,
+                                  LightClusterHistory& history);
+
+}  // namespace ag::gi

@@ -1,0 +1,41 @@
+// Irradiance straight from a sun, one pass each. Shadow by nine taps of its cascades.
+#include "gbuffer/gbuffer.glsl"
+#include "shadow_maps/shadow_maps_io.h"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(push_constant, scalar) uniform Push { Sun sun; } push;
+layout(constant_id = 1) const bool kFirst = true;  // starts from zero instead of adding
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 4, rgba16f) uniform image2D irradiance;
+#ifdef AG_SHADOW
+layout(set = 0, binding = 5, scalar) readonly buffer ShadowViews { ShadowView items[]; } shadowViews;
+layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
+#include "direct_lighting/shadow_lookup.glsl"
+
+float sunShare(vec3 position, vec3 normal, float viewDepth) {
+    uint cascade = push.sun.firstView;
+    for (uint i = 0; i + 1 < push.sun.viewCount; ++i)
+        cascade += viewDepth > shadowViews.items[push.sun.firstView + i].farDistance ? 1 : 0;
+    ShadowView view = shadowViews.items[cascade];
+    return litShare(ShadowMap(view.clipFromWorld, view.origin, view.size), view.texelSize, position, normal, -push.sun.direction);
+}
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    uvec2 size = camera.camera.size;
+    if (any(greaterThanEqual(pixel, ivec2(size)))) return;
+    float depth = texelFetch(depthMap, pixel, 0).x;
+    vec3 position = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
+    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
+    vec3 e = push.sun.irradiance * max(dot(normal, -push.sun.direction), 0.0);
+#ifdef AG_SHADOW
+    e *= sunShare(position, normal, camera.camera.near / max(depth, 1e-9));
+#endif
+    if (depth <= 0.0) e = vec3(0.0);
+    if (!kFirst) e += imageLoad(irradiance, pixel).rgb;
+    imageStore(irradiance, pixel, vec4(e, 1.0));
+}

@@ -1,0 +1,150 @@
+// Clusters of lamps against the plain definition of both passes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/sampling.h"
+#include "engine/scene/static_scene.h"
+#include "gi/light_clusters.h"
+
+namespace ag::gi {
+namespace {
+
+RenderScene sceneWithLamps(uint32_t count) {
+    RenderScene scene;
+    for (uint32_t i = 0; i < count; ++i)
+        scene.lights.push_back({.kind = i % 5 == 4 ? LightKind::kSpot : LightKind::kPoint,
+                                .position = {20 * io::hashToUnit(3 * i) - 10, 4 * io::hashToUnit(3 * i + 1),
+                                             20 * io::hashToUnit(3 * i + 2) - 10},
+                                .intensity = glm::vec3(0.5f + 2 * io::hashToUnit(7 * i)),
+                                .range = 3,
+                                .id = i + 1});
+    setCamera(scene, {.position = {0, 2, 12}, .forward = {0, 0, -1}, .verticalFov = 1}, {160, 90});
+    return scene;
+}
+
+LightClusterSettings published() {
+    return {.minDistance = 1, .growth = 0.1f, .most = 256, .strongFirst = false, .hysteresis = 1};
+}
+
+TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
+    const RenderScene scene = sceneWithLamps(300);
+    const LightClusterSettings s = published();
+    LightClusterHistory history;
+    const LightClusters& c = clusterLamps(scene, s, history);
+    ASSERT_GT(c.clusters.size(), 5u);
+    EXPECT_EQ(c.stretch, 1);
+    // First pass: in order, each lamp that keeps its distance from all centres before it.
+    std::vector<uint32_t> centers;
+    for (const uint32_t lamp : c.lamps) {
+        const glm::vec3 p = scene.lights[lamp].position;
+        const float apart = s.minDistance + s.growth * glm::distance(p, scene.camera.position);
+        bool alone = true;
+        for (const uint32_t center : centers)
+            alone = alone && glm::distance(scene.lights[center].position, p) >= apart;
+        if (alone) centers.push_back(lamp);
+    }
+    ASSERT_EQ(centers.size(), c.clusters.size());
+    for (size_t k = 0; k < centers.size(); ++k)
+        EXPECT_EQ(c.clusters[k].center, centers[k]);
+    // Second pass: the nearest centre.
+    uint32_t lamps = 0;
+    for (size_t i = 0; i < c.lamps.size(); ++i) {
+        ASSERT_LT(c.clusterOf[i], c.clusters.size());
+        const glm::vec3 p = scene.lights[c.lamps[i]].position;
+        const float mine = glm::distance(p, scene.lights[c.clusters[c.clusterOf[i]].center].position);
+        for (const uint32_t center : centers)
+            EXPECT_LE(mine, glm::distance(p, scene.lights[center].position));
+        EXPECT_LE(mine, c.clusters[c.clusterOf[i]].radius);
+    }
+    for (const LightCluster& cluster : c.clusters)
+        lamps += cluster.lampCount;
+    EXPECT_EQ(lamps, c.lamps.size());
+}
+
+TEST(LightClusters, LampsThatCannotReachTheViewAreLeftOut) {
+    RenderScene scene = sceneWithLamps(300);
+    LightClusterHistory history;
+    const LightClusters& c = clusterLamps(scene, published(), history);
+    std::set<uint32_t> seen(c.lamps.begin(), c.lamps.end());
+    EXPECT_LT(seen.size(), 300u);
+    // Every lamp with a point of its sphere in the view is there: corners of the view at many distances.
+    for (uint32_t i = 0; i < scene.lights.size(); ++i)
+        for (uint32_t k = 0; k < 2000 && !seen.contains(i); ++k) {
+            const glm::vec2 at = io::hammersley(k, 2000) * 2.0f - 1.0f;
+            const float distance = 0.1f + 25 * io::hashToUnit(k);
+            const float tanY = std::tan(0.5f), tanX = tanY * 16 / 9;
+            const glm::vec3 p = scene.camera.position + distance * glm::vec3(at.x * tanX, at.y * tanY, -1);
+            EXPECT_GT(glm::distance(p, scene.lights[i].position), scene.lights[i].range) << i;
+        }
+    for (RenderLight& light : scene.lights)
+        light.position.z += 100;
+    EXPECT_TRUE(clusterLamps(scene, published(), history).lamps.empty());
+    EXPECT_TRUE(history.clusters.clusters.empty());
+}
+
+TEST(LightClusters, TheBudgetIsKeptByStretchingDistances) {
+    const RenderScene scene = sceneWithLamps(1000);
+    for (const uint32_t most : {1u, 4u, 10u, 26u, 100u}) {
+        LightClusterHistory history;
+        LightClusterSettings s = published();
+        s.most = most;
+        const LightClusters& c = clusterLamps(scene, s, history);
+        EXPECT_LE(c.clusters.size(), most);
+        EXPECT_GE(c.clusters.size(), most - most / 4) << "little of the budget is left";
+        EXPECT_GE(c.stretch, 1);
+    }
+}
+
+TEST(LightClusters, WithoutADistanceEachLampStandsForItself) {
+    const RenderScene scene = sceneWithLamps(100);
+    LightClusterHistory history;
+    const LightClusters& c =
+        clusterLamps(scene, {.minDistance = 0, .growth = 0, .most = 256, .hysteresis = 1}, history);
+    EXPECT_EQ(c.clusters.size(), c.lamps.size());
+    for (const LightCluster& cluster : c.clusters) {
+        EXPECT_EQ(cluster.lampCount, 1u);
+        EXPECT_EQ(cluster.radius, 0);
+    }
+}
+
+// Along a walk, how many centres are new from step to step.
+int newCenters(const LightClusterSettings& settings) {
+    RenderScene scene = sceneWithLamps(300);
+    LightClusterHistory history;
+    std::vector<uint64_t> before;
+    int fresh = 0;
+    for (int step = 0; step < 120; ++step) {
+        const float t = float(step) / 120;
+        setCamera(scene, {.position = {8 * t - 4, 2, 12 - 4 * t}, .forward = {0, 0, -1}, .verticalFov = 1},
+                  {160, 90});
+        clusterLamps(scene, settings, history);
+        for (const uint64_t id : history.centers)
+            fresh += step > 0 && !std::ranges::binary_search(before, id);
+        before = history.centers;
+    }
+    return fresh;
+}
+
+TEST(LightClusters, CentresKeepTheirRoleAlongAWalk) {
+    LightClusterSettings with, without;
+    without.hysteresis = 1;
+    const int kept = newCenters(with), flipping = newCenters(without);
+    std::printf("new centres in 120 steps: %d, without hysteresis %d\n", kept, flipping);
+    EXPECT_LT(kept, flipping / 2);
+}
+
+TEST(LightClusters, LampsWithoutShadowHaveNoCluster) {
+    RenderScene scene = sceneWithLamps(50);
+    for (RenderLight& light : scene.lights)
+        light.castsShadow = light.id % 2 == 0;
+    LightClusterHistory history;
+    const LightClusters& c = clusterLamps(scene, {}, history);
+    for (size_t i = 0; i < c.lamps.size(); ++i)
+        EXPECT_EQ(c.clusterOf[i] == LightClusters::kNoCluster, !scene.lights[c.lamps[i]].castsShadow);
+}
+
+}  // namespace
+}  // namespace ag::gi

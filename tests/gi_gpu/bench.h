@@ -1,0 +1,65 @@
+// A renderer on a scene for the tests of this folder.
+#pragma once
+
+#include <functional>
+
+#include "engine/scene/static_scene.h"
+#include "gi/gi_renderer.h"
+#include "tests/support/device_environment.h"
+
+namespace ag::gi {
+
+// A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
+// passes and synchronization validation proves them.
+struct Bench {
+    explicit Bench(SceneAsset built, glm::uvec2 pixels = {160, 96})
+        : asset(std::move(built)), scene(staticScene(asset)), size(pixels), renderer(test::device()) {
+        setCamera(scene, cameraOf(asset, 0), size);
+        renderer.load(asset.geometry);
+        options.timing = TimingMode::kOff;
+    }
+    void frame() {
+        renderer.render(
+            scene, size, settings, options,
+            [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                last = declared;
+                graph.output(declared.outputs.display);
+                graph.output(declared.outputs.radiance);
+                if (declared.rsm.empty() || settings.firstBounce == FirstBounce::kNone) {
+                    if (output) output(graph, declared);
+                    return;
+                }
+                for (BufferHandle b : {declared.rsm.texels, declared.clusters.clusters,
+                                       declared.clusters.seeds, declared.clusters.candidates,
+                                       declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
+                    graph.output(b);
+                if (declared.bounce1.image) graph.output(declared.bounce1.image);
+                if (output) output(graph, declared);
+            });
+    }
+    template <class T>
+    std::vector<T> read(BufferHandle buffer) {
+        const gpu::Buffer& source = renderer.graph().physical(buffer);
+        std::vector<T> items(source.sizeBytes() / sizeof(T));
+        renderer.waitIdle();
+        gpu::downloadBuffer(renderer.device(), source, std::as_writable_bytes(std::span(items)));
+        return items;
+    }
+    int passesRun() {
+        int count = 0;
+        for (const PassReport& pass : renderer.graph().report())
+            count += pass.outcome == PassOutcome::kRan;
+        return count;
+    }
+
+    SceneAsset asset;
+    RenderScene scene;
+    glm::uvec2 size;
+    GiSettings settings;
+    FrameGraphOptions options;
+    GiRenderer renderer;
+    GiFrame last;
+    std::function<void(FrameGraph&, const GiFrame&)> output;  // what a test reads besides
+};
+
+}  // namespace ag::gi

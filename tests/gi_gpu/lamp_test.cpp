@@ -1,0 +1,161 @@
+// Many lamps: what is drawn again, soft shadows against a disk of light, tiles, and lamps that come and go.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/sampling.h"
+#include "tests/gi_gpu/bench.h"
+#include "tools/scenegen/builder.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+std::unique_ptr<Bench> directBench(SceneAsset asset, glm::uvec2 size = {160, 96}) {
+    auto b = std::make_unique<Bench>(std::move(asset), size);
+    b->settings.firstBounce = FirstBounce::kNone;
+    b->output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.direct.image); };
+    return b;
+}
+
+const PassReport* passNamed(Bench& b, std::string_view name) {
+    for (const PassReport& pass : b.renderer.graph().report())
+        if (pass.name == name) return &pass;
+    return nullptr;
+}
+
+Image directImage(Bench& b) {
+    b.frame();
+    return readImage(b.renderer, b.last.direct.image);
+}
+
+void moveInstance(Bench& b, uint32_t row, glm::vec3 by) {
+    b.scene.instances[row].worldFromLocal[3] += by;
+    b.scene.allInstancesChanged = false;
+    b.scene.changedInstances = {{row, row + 1}};
+    ++b.scene.instancesVersion;
+}
+
+TEST(LampShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
+    const auto kept = directBench(*scenegen::buildScene("lamps", 14)),
+               anew = directBench(*scenegen::buildScene("lamps", 14));
+    anew->options.skip = false;
+    kept->frame();
+    const PassReport* faces = passNamed(*kept, "lamp_shadows.faces");
+    ASSERT_NE(faces, nullptr);
+    EXPECT_GT(faces->patches, 30u);
+    EXPECT_EQ(faces->patchesDrawn, faces->patches) << "all are drawn at first";
+    kept->frame();
+    EXPECT_EQ(passNamed(*kept, "lamp_shadows.faces")->outcome, PassOutcome::kSkipped) << "nothing moves";
+    const uint32_t crate = uint32_t(kept->scene.instances.size()) - 1;
+    anew->frame();
+    for (int step = 0; step < 3; ++step) {
+        moveInstance(*kept, crate, {0, 0, 0.2f});
+        moveInstance(*anew, crate, {0, 0, 0.2f});
+        const Image a = directImage(*kept), b = directImage(*anew);
+        EXPECT_EQ(a.pixels, b.pixels) << "faces that were kept show what drawing them anew does";
+        faces = passNamed(*kept, "lamp_shadows.faces");
+        std::printf("a crate moves: %u of %u faces drawn again\n", faces->patchesDrawn, faces->patches);
+        EXPECT_GT(faces->patchesDrawn, 0u);
+        EXPECT_LT(faces->patchesDrawn, faces->patches / 2);
+        EXPECT_EQ(passNamed(*anew, "lamp_shadows.faces")->patchesDrawn, faces->patches);
+    }
+}
+
+TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
+    const auto b = directBench(*scenegen::buildScene("lamps", 256));
+    b->settings.lightClusters.most = 16;
+    const Image tiles = directImage(*b);
+    b->settings.lampLighting.tiles = false;
+    const Image all = directImage(*b);
+    double most = 0, mean = 0;
+    for (size_t i = 0; i < all.pixels.size(); ++i) {
+        most = std::max(most, double(glm::length(all.pixels[i] - tiles.pixels[i])));
+        mean += double(glm::length(all.pixels[i])) / double(all.pixels.size());
+    }
+    EXPECT_GT(mean, 0.1);
+    EXPECT_LT(most, 0.01 * mean) << "half floats, summed in the same order";
+}
+
+// A cluster's shadow is that of a disk of light about its centre: behind a half-plane's edge the share of the
+// disk above the edge.
+TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
+    scenegen::SceneBuilder s("edge");
+    const uint32_t white = s.material("white", glm::vec3(0.7f));
+    s.quad("floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, white);
+    s.quad("edge", {-4, 1, -4}, {0, 0, 8}, {4, 0, 0}, white);  // x < 0 at half the lamps' height
+    s.point("center", {0, 2, 0}, glm::vec3(10));
+    const float radius = 0.3f;
+    for (const glm::vec2 at : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)})
+        s.point("rim", {radius * at.x, 2, radius * at.y}, glm::vec3(1e-4f));
+    s.camera("camera", {0, 0.9f, 0}, {0.001f, 0, 0}, 80);
+    const auto b = directBench(s.finish(), {128, 128});
+    b->settings.lightClusters.most = 1;
+    b->settings.lampLighting.softTaps = 32;
+    const Image shadowed = directImage(*b);
+    for (RenderLight& light : b->scene.lights)
+        light.castsShadow = false;
+    ++b->scene.lightsVersion;
+    const Image open = directImage(*b);
+    const float half = 0.9f * std::tan(glm::radians(40.0f));
+    double sum = 0;
+    int count = 0;
+    for (int i = 0; i < 128; ++i) {
+        const glm::vec3 clip = glm::vec3(b->scene.camera.clipFromWorld * glm::vec4(0.2f, 0, 0, 1)) /
+                               (b->scene.camera.clipFromWorld * glm::vec4(0.2f, 0, 0, 1)).w;
+        const bool alongX = std::abs(clip.x) > std::abs(clip.y);
+        const float sign = (alongX ? clip.x : clip.y) > 0 ? 1.0f : -1.0f;
+        const float x = sign * ((float(i) + 0.5f) / 64 - 1) * half;
+        const glm::ivec2 pixel = alongX ? glm::ivec2(i, 64) : glm::ivec2(64, i);
+        const float t = glm::clamp(x / radius, -1.0f, 1.0f);
+        const double truth =
+            0.5 + (double(t) * std::sqrt(1 - double(t) * double(t)) + std::asin(double(t))) / kPi;
+        const double lit = double(shadowed.at(pixel.x, pixel.y).x / open.at(pixel.x, pixel.y).x);
+        sum += std::abs(lit - truth);
+        ++count;
+        if (std::abs(x) > 1.3f * radius) EXPECT_NEAR(lit, truth, 0.02) << "at " << x;
+    }
+    std::printf("penumbra: mean difference from the disk's share %.3f\n", sum / count);
+    EXPECT_LT(sum / count, 0.05);
+}
+
+TEST(LampLighting, WithoutLampsNoPassRuns) {
+    const auto b = directBench(*scenegen::buildScene("lamps", 14));
+    for (RenderLight& light : b->scene.lights)
+        light.position.x -= 200;  // behind the camera and out of reach
+    ++b->scene.lightsVersion;
+    b->output = {};
+    b->frame();
+    for (const PassReport& pass : b->renderer.graph().report())
+        EXPECT_FALSE(pass.name.starts_with("lamp_")) << pass.name;
+}
+
+// Lamps come, go, move, flicker and blink for many frames, validation watching.
+TEST(LampLighting, LampsMayChangeEveryFrame) {
+    const auto b = directBench(*scenegen::buildScene("lamps", 80), {64, 40});
+    const std::vector<RenderLight> all = b->scene.lights;
+    for (uint32_t step = 0; step < 1000; ++step) {
+        b->scene.lights.clear();
+        for (uint32_t i = 0; i < all.size(); ++i) {
+            const uint32_t r = io::hashUint(step / 7 * 131 + i);
+            if (r % 3 == 0) continue;
+            RenderLight light = all[i];
+            if (r % 5 == 0) light.intensity = glm::vec3(0);
+            if (r % 7 == 0) light.position.y += 0.01f * float(step % 50);
+            light.intensity *= 0.5f + io::hashToUnit(step * 977 + i);
+            light.castsShadow = r % 11 != 0;
+            b->scene.lights.push_back(light);
+        }
+        ++b->scene.lightsVersion;
+        b->frame();
+        if (step % 100 == 0)
+            for (const glm::vec3& p : readImage(b->renderer, b->last.direct.image).pixels)
+                ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+    }
+}
+
+}  // namespace
+}  // namespace ag::gi
