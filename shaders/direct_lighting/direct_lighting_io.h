@@ -9,7 +9,7 @@
 namespace ag::io {
 #endif
 
-const uint kMaxLampsPerTile = 512;  // further ones, in the order of clusters, are left out
+const uint kMaxLampsPerTile = 1024;  // further ones, in the order of clusters, are left out
 const uint kLampTileSize = 16;      // pixels
 const uint kNoLampCluster = 0xffffffffu;
 

@@ -3,8 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// For each tile of the screen the lamps whose range reaches into the box round its surfaces, in ascending order, by one
-// subgroup a tile.
+// For each tile of the screen the lamps whose range reaches into the boxes round its near and far surfaces, in ascending
+// order, by one subgroup a tile.
 #include "common/lane_loop.glsl"
 #include "direct_lighting/direct_lighting_io.h"
 #include "gbuffer/gbuffer.glsl"
@@ -19,30 +19,53 @@ layout(set = 0, binding = 2) uniform samplerBuffer lamps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 4, scalar) writeonly buffer Counts { uint items[]; } counts;
 
+struct Box {
+    vec3 least, most;
+};
+
+vec3 placeOf(uvec2 origin, uint i, uvec2 size, out float depth) {
+    ivec2 pixel = min(ivec2(origin + uvec2(i % kLampTileSize, i / kLampTileSize)), ivec2(size) - 1);
+    depth = texelFetch(depthMap, pixel, 0).x;
+    return worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
+}
+
+bool reachesBox(vec4 lamp, Box box) {
+    vec3 apart = max(max(box.least - lamp.xyz, lamp.xyz - box.most), vec3(0.0));
+    return box.least.x <= box.most.x && (lamp.w <= 0.0 || dot(apart, apart) < lamp.w * lamp.w);
+}
+
 void main() {
     uint tile = gl_WorkGroupID.x;
     uvec2 size = camera.camera.size, tiles = (size + kLampTileSize - 1) / kLampTileSize;
     uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kLampTileSize;
-    vec3 least = vec3(3.0e38), most = vec3(-3.0e38);
-    for (uint i = gl_SubgroupInvocationID; i < kLampTileSize * kLampTileSize; i += kSubgroupSize) {
-        ivec2 pixel = min(ivec2(origin + uvec2(i % kLampTileSize, i / kLampTileSize)), ivec2(size) - 1);
-        float depth = texelFetch(depthMap, pixel, 0).x;
-        vec3 x = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
-        if (depth > 0.0) {
-            least = min(least, x);
-            most = max(most, x);
-        }
+    const uint kPixels = kLampTileSize * kLampTileSize;
+    float farthest = 1.0, nearest = 0.0;  // reversed depth
+    for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
+        float depth;
+        placeOf(origin, i, size, depth);
+        farthest = depth > 0.0 ? min(farthest, depth) : farthest;
+        nearest = max(nearest, depth);
     }
-    least = subgroupMin(least);
-    most = subgroupMax(most);
-    bool any = least.x <= most.x;
-    vec3 middle = 0.5 * (least + most), half_ = 0.5 * (most - least);
+    // Two boxes, so that an edge before a far wall does not take in all between them.
+    float between = sqrt(subgroupMin(farthest) * subgroupMax(nearest));
+    Box near = Box(vec3(3.0e38), vec3(-3.0e38)), far = near;
+    for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
+        float depth;
+        vec3 x = placeOf(origin, i, size, depth);
+        bool isNear = depth > between, isFar = depth > 0.0 && !isNear;
+        near.least = isNear ? min(near.least, x) : near.least;
+        near.most = isNear ? max(near.most, x) : near.most;
+        far.least = isFar ? min(far.least, x) : far.least;
+        far.most = isFar ? max(far.most, x) : far.most;
+    }
+    near = Box(subgroupMin(near.least), subgroupMax(near.most));
+    far = Box(subgroupMin(far.least), subgroupMax(far.most));
+    bool any = near.least.x <= near.most.x || far.least.x <= far.most.x;
     uint count = 0;
     for (uint base = 0; base < push.p.lampCount && count < kMaxLampsPerTile; base += kSubgroupSize) {
         uint lamp = base + gl_SubgroupInvocationID;
         vec4 place = texelFetch(lamps, int(min(lamp, push.p.lampCount - 1)) * 4);
-        vec3 apart = max(abs(middle - place.xyz) - half_, vec3(0.0));
-        bool reaches = !kByRange || place.w <= 0.0 || dot(apart, apart) < place.w * place.w;
+        bool reaches = !kByRange || reachesBox(place, near) || reachesBox(place, far);
         bool mine = any && lamp < push.p.lampCount && reaches;
         uvec4 ballot = subgroupBallot(mine);
         uint at = count + subgroupBallotExclusiveBitCount(ballot);
