@@ -1,6 +1,7 @@
 #include "gi/scene_gpu.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "engine/core/hash.h"
@@ -45,7 +46,8 @@ uint64_t viewsNeeded(const RenderScene& scene) {
         lamps += light.kind != LightKind::kDirectional && light.castsShadow;
         if (light.kind == LightKind::kDirectional) views += io::kMaxCascades;
     }
-    return views + 6 * std::min(lamps, kMostLampClusters);
+    // Places of lamp shadows are counted in powers of two.
+    return views + 6 * std::min(std::bit_ceil(lamps), kMostLampClusters);
 }
 
 template <class T>

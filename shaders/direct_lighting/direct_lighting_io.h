@@ -1,5 +1,5 @@
-// Lights as direct lighting takes them: suns one by one, lamps (spots and points) by tiles of the screen and in
-// clusters that share a shadow map.
+// Lights as direct lighting takes them: suns one by one, lamps (spots and points) by tiles of the screen and
+// in clusters that share a shadow map.
 #ifndef AG_DIRECT_LIGHTING_IO_H
 #define AG_DIRECT_LIGHTING_IO_H
 
@@ -10,7 +10,7 @@ namespace ag::io {
 #endif
 
 const uint kMaxLampsPerTile = 1024;  // further ones, in the order of clusters, are left out
-const uint kLampTileSize = 16;      // pixels
+const uint kLampTileSize = 16;       // pixels
 const uint kNoLampCluster = 0xffffffffu;
 
 struct Sun {
@@ -20,9 +20,9 @@ struct Sun {
     uint viewCount;   // 0: casts no shadow
 };
 
-struct Lamp {       // 4 vec4; sorted by cluster
-    vec3 position;  // m
-    float range;    // m, 0: no limit
+struct Lamp {        // 4 vec4; sorted by cluster
+    vec3 position;   // m
+    float range;     // m, 0: no limit
     vec3 intensity;  // W/sr
     uint cluster;    // kNoLampCluster: casts no shadow
     vec3 direction;  // of a spot, the way the light travels, unit
@@ -31,13 +31,13 @@ struct Lamp {       // 4 vec4; sorted by cluster
     uint unused[3];
 };
 
-struct LampCluster {  // 4 vec4
-    vec3 center;      // m
-    float radius;     // m, of the light its shadows have
-    vec3 direction;   // of a spot's single view; zero: six faces of a cube
-    float tanHalf;    // of a view's half angle
-    uvec2 origin;     // first texel of the first view; the others' lie beside it, three a row
-    uint size;        // texels along a view's side
+struct LampCluster {     // 4 vec4
+    vec3 center;         // m
+    float radius;        // m, of the light its shadows have
+    vec3 direction;      // of a spot's single view; zero: six faces of a cube
+    float tanHalf;       // of a view's half angle
+    uvec2 origin;        // first texel of the first view; the others' lie beside it, three a row
+    uint size;           // texels along a view's side
     float nearDistance;  // m, of the views' planes
     float farDistance;
     uint unused[3];

@@ -9,7 +9,6 @@
 namespace ag::io {
 #endif
 
-
 struct CameraConstants {
     mat4 clipFromWorld;  // reversed depth, infinite far plane
     mat4 worldFromClip;

@@ -12,11 +12,11 @@ const uint kMaxShadowViews = 16;
 const uint kMaxCascades = 4;
 
 struct ShadowView {
-    mat4 clipFromWorld;   // reversed depth
-    uvec2 origin;         // first texel in the atlas
-    uint size;            // texels along a side
-    float texelSize;      // m, of a square one as large
-    float farDistance;    // m along the camera's axis this cascade reaches
+    mat4 clipFromWorld;  // reversed depth
+    uvec2 origin;        // first texel in the atlas
+    uint size;           // texels along a side
+    float texelSize;     // m, of a square one as large
+    float farDistance;   // m along the camera's axis this cascade reaches
 };
 
 #ifdef __cplusplus
