@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "engine/core/check.h"
 #include "gi/light_views.h"
 #include "gi/scene_draws.h"
 
@@ -38,19 +39,25 @@ uint32_t placeCount(const RenderScene& scene, uint32_t mostClusters) {
     return std::min(std::bit_ceil(casters), mostClusters);
 }
 
-// Centres of before keep their places, the others take free ones.
+uint64_t ownerOf(const RenderScene& scene, const LightCluster& cluster) {
+    return scene.lights[cluster.center].id + 1;  // 0 is nobody
+}
+
+// Centres of before keep their places, the others take free ones. There are as many places as clusters may
+// be.
 void assignPlaces(const RenderScene& scene, const LightClusters& clusters, uint32_t count,
                   LampShadowHistory& h) {
     h.owners.resize(count, 0);
     for (uint64_t& owner : h.owners)
         if (std::ranges::none_of(clusters.clusters,
-                                 [&](const LightCluster& c) { return scene.lights[c.center].id == owner; }))
+                                 [&](const LightCluster& c) { return ownerOf(scene, c) == owner; }))
             owner = 0;
     h.places.resize(clusters.clusters.size());
     for (size_t i = 0; i < clusters.clusters.size(); ++i) {
-        const uint64_t id = scene.lights[clusters.clusters[i].center].id;
+        const uint64_t id = ownerOf(scene, clusters.clusters[i]);
         auto place = std::ranges::find(h.owners, id);
         if (place == h.owners.end()) place = std::ranges::find(h.owners, uint64_t(0));
+        AG_CHECK_MSG(place != h.owners.end(), "more clusters than places");
         *place = id;
         h.places[i] = uint32_t(place - h.owners.begin());
     }

@@ -16,7 +16,7 @@ struct LampShadowSettings {
 };
 
 struct LampShadowHistory {
-    std::vector<uint64_t> owners;       // id of the light whose place it is, by place; 0: free
+    std::vector<uint64_t> owners;       // one more than the id of the light whose place it is; 0: free
     std::vector<uint32_t> places;       // of this frame's clusters
     std::vector<io::LampCluster> rows;  // scratch
 };
