@@ -81,7 +81,8 @@ void setUltra(GiSettings& gi) {
 // Direct light of many lamps: a shadow map each; as published; ours.
 void setLightsReference(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kNone;
-    gi.lightClusters = {.minDistance = 0, .growth = 0, .most = 256, .strongFirst = false, .hysteresis = 1};
+    gi.lightClusters = {
+        .minDistance = 0, .growth = 0, .most = kMostLampClusters, .strongFirst = false, .hysteresis = 1};
     gi.lampLighting.tiles = false;
 }
 
@@ -224,7 +225,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.shadowMaps.cascadeDistance);
     s.add({"shadow_maps", "cascade_split", 0, 1, "", "0 uniform, 1 logarithmic"},
           &gi.shadowMaps.cascadeSplit);
-    s.add({"light_clusters", "most", 0, 256, "clusters", "of lamps, each with a shadow map"},
+    s.add({"light_clusters", "most", 0, kMostLampClusters, "clusters", "of lamps, each with a shadow map"},
           &gi.lightClusters.most);
     s.add({"light_clusters", "min_distance", 0, 1000, "m", "between clusters' centres at the camera"},
           &gi.lightClusters.minDistance);

@@ -29,9 +29,7 @@ uint32_t pyramidNodes(uint32_t largestFace) {
 Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const GBuffer& gbuffer,
                          const ImportanceSettings& settings) {
     if (rsm.empty()) return {};
-    Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace),
-                          .viewWeight = settings.viewWeight,
-                          .viewDependent = settings.viewWeight > 0};
+    Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace), .viewWeight = settings.viewWeight};
     const io::ImportanceSettings push{.atlasSize = rsm.atlas.size,
                                       .faceCount = rsm.atlas.faceCount,
                                       .pyramidStride = importance.pyramidStride,
@@ -39,15 +37,15 @@ Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet
     importance.pyramid =
         graph.buffer("importance.pyramid",
                      {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
-    if (importance.viewDependent) importance.viewPoints = addViewPoints(graph, scene, gbuffer);
+    if (importance.viewDependent()) importance.viewPoints = addViewPoints(graph, scene, gbuffer);
 
     const uint32_t blocks =
         (rsm.largestFace / io::kImportanceBlock) * (rsm.largestFace / io::kImportanceBlock);
     PassBuilder evaluate =
-        graph.compute("importance.evaluate", importance.viewDependent ? "importance/evaluate_view.comp"
-                                                                      : "importance/evaluate_flux.comp");
+        graph.compute("importance.evaluate", importance.viewDependent() ? "importance/evaluate_view.comp"
+                                                                        : "importance/evaluate_flux.comp");
     evaluate.read("texels", rsm.texels).read("faces", rsm.faces).read("maps", rsm.maps);
-    if (importance.viewDependent) evaluate.read("viewPoints", importance.viewPoints);
+    if (importance.viewDependent()) evaluate.read("viewPoints", importance.viewPoints);
     evaluate.write("pyramid", importance.pyramid)
         .push(push)
         .dispatchGroups((blocks + 63) / 64, rsm.atlas.faceCount);

@@ -18,7 +18,7 @@ struct Importance {
     uint32_t pyramidStride = 0;
     BufferHandle viewPoints;  // io::ViewPoint, also a texel buffer of vec4; invalid unless viewDependent
     float viewWeight = 0;
-    bool viewDependent = false;
+    bool viewDependent() const { return viewWeight > 0; }
 };
 
 Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const GBuffer& gbuffer,

@@ -1,7 +1,6 @@
 #include "gi/lamp_shadows.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "engine/core/check.h"
 #include "gi/light_views.h"
@@ -28,15 +27,6 @@ Places placesFor(uint32_t count, const LampShadowSettings& s) {
         if (columns * rows >= count) return {face, std::min(columns, count), count};
     }
     return {16, s.atlasSize / 48, count};
-}
-
-// As many as the scene's casters may ever need, in powers of two, so that neither walking about nor lamps
-// that come and go change the faces' size.
-uint32_t placeCount(const RenderScene& scene, uint32_t mostClusters) {
-    uint32_t casters = 0;
-    for (const RenderLight& light : scene.lights)
-        casters += light.kind != LightKind::kDirectional && light.castsShadow;
-    return std::min(std::bit_ceil(casters), mostClusters);
 }
 
 uint64_t ownerOf(const RenderScene& scene, const LightCluster& cluster) {
@@ -104,7 +94,7 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
                            uint32_t mostClusters, const LampShadowSettings& settings,
                            LampShadowHistory& history) {
     const RenderScene& s = *scene.scene;
-    const Places places = placesFor(placeCount(s, mostClusters), settings);
+    const Places places = placesFor(mostClustersNeeded(s, mostClusters), settings);
     // Each place has its view slots, drawn or not, so that what is culled for them lasts.
     const uint32_t firstSlot = scene.viewsClaimed;
     scene.viewsClaimed += places.count * kFaces;

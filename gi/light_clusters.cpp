@@ -1,6 +1,7 @@
 #include "gi/light_clusters.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -126,8 +127,21 @@ bool sphereInView(const glm::mat4& clipFromWorld, glm::vec3 center, float radius
     return true;
 }
 
+uint32_t mostClustersNeeded(const RenderScene& scene, uint32_t most) {
+    uint32_t casters = 0;
+    for (const RenderLight& light : scene.lights)
+        casters += light.kind != LightKind::kDirectional && light.castsShadow;
+    return std::min(std::bit_ceil(casters), most);
+}
+
 const LightClusters& clusterLamps(const RenderScene& scene, const LightClusterSettings& settings,
                                   LightClusterHistory& history) {
+    if (history.lights == scene.lights && history.clipFromWorld == scene.camera.clipFromWorld &&
+        history.settings == settings)
+        return history.clusters;
+    history.lights = scene.lights;
+    history.clipFromWorld = scene.camera.clipFromWorld;
+    history.settings = settings;
     takeSeenLamps(scene, history.clusters);
     keepDistances(scene, settings, history);
     orderLamps(scene, settings, history);

@@ -9,12 +9,16 @@
 
 namespace ag::gi {
 
+constexpr uint32_t kMostLampClusters = 256;
+
 struct LightClusterSettings {
     float minDistance = 0.5f;  // m between centres at the camera
     float growth = 0.1f;       // m more for each m between lamp and camera; the error seen stays the same
     uint32_t most = 32;        // clusters; the distances are stretched until so many do
     bool strongFirst = true;   // strong lamps keep a map of their own longer; off: as published, in order
     float hysteresis = 0.75f;  // a centre of the frame before needs this part of the distance; 1: none
+
+    bool operator==(const LightClusterSettings&) const = default;
 };
 
 struct LightCluster {
@@ -37,10 +41,18 @@ struct LightClusterHistory {
     std::vector<uint32_t> order;
     std::vector<float> distances;  // m that centres keep from each lamp
     LightClusters clusters;
+    // What they were made for; while it is the same nothing is done.
+    std::vector<RenderLight> lights;
+    glm::mat4 clipFromWorld{0};
+    LightClusterSettings settings;
 };
 
 // Whether a sphere reaches into a camera's view (its five planes; there is no far one).
 bool sphereInView(const glm::mat4& clipFromWorld, glm::vec3 center, float radius);
+
+// How many clusters may come to need a map: `most`, or the scene's casters, in powers of two, so that neither
+// walking about nor lamps that come and go change it often.
+uint32_t mostClustersNeeded(const RenderScene& scene, uint32_t most);
 
 // Spots and points with light whose range reaches into the view, clustered. The result lives in the history.
 const LightClusters& clusterLamps(const RenderScene& scene, const LightClusterSettings& settings,

@@ -1,11 +1,11 @@
 #include "gi/scene_gpu.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 #include "engine/core/hash.h"
 #include "engine/gpu/device.h"
+#include "gi/light_clusters.h"
 #include "gi/surface_sampling.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
 
@@ -39,15 +39,12 @@ io::Material materialRow(const Material& m) {
 
 // The camera, and for each light at most a cube of RSM faces and one of shadow views.
 uint64_t viewsNeeded(const RenderScene& scene) {
-    uint64_t views = 1, lamps = 0;
+    uint64_t views = 1 + 6 * uint64_t(mostClustersNeeded(scene, kMostLampClusters));
     for (const RenderLight& light : scene.lights) {
-        const bool point = light.kind == LightKind::kPoint;
-        if (light.bounces) views += point ? 6 : 1;
-        lamps += light.kind != LightKind::kDirectional && light.castsShadow;
+        if (light.bounces) views += light.kind == LightKind::kPoint ? 6 : 1;
         if (light.kind == LightKind::kDirectional) views += io::kMaxCascades;
     }
-    // Places of lamp shadows are counted in powers of two.
-    return views + 6 * std::min(std::bit_ceil(lamps), kMostLampClusters);
+    return views;
 }
 
 template <class T>

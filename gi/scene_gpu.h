@@ -16,7 +16,6 @@
 namespace ag::gi {
 
 constexpr uint32_t kFramesInFlight = 2;
-constexpr uint64_t kMostLampClusters = 256;  // each with six views
 
 // Handles of this frame's scene, and what the techniques need to declare draws.
 struct SceneView {

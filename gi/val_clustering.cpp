@@ -54,8 +54,8 @@ BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const Importance&
         graph.buffer("val_clustering.errors", {.sizeBytes = push.clusterCount * sizeof(io::ClusterError)});
     graph.compute("val_clustering.evaluate", "val_clustering/evaluate.comp")
         .readPrevious("previous", state.clusters)
-        .read("viewPoints", importance.viewDependent ? importance.viewPoints : rsm.texels)
-        .spec(0, importance.viewDependent)
+        .read("viewPoints", importance.viewDependent() ? importance.viewPoints : rsm.texels)
+        .spec(0, importance.viewDependent())
         .write("errors", errors)
         .push(push)
         .dispatchGroups(push.clusterCount);
@@ -142,7 +142,7 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
                           ValClusteringHistory& history) {
     if (rsm.empty()) return {};
     const uint64_t light = combineHash(rsm.inputsVersion, hashOf(settings));
-    const uint64_t inputs = combineHash(light, importance.viewDependent ? viewVersion : 0);
+    const uint64_t inputs = combineHash(light, importance.viewDependent() ? viewVersion : 0);
     const io::ClusterSettings push{
         .metricWeights = {settings.distanceWeight, settings.normalWeight, settings.chromaWeight},
         .clusterCount = settings.count,

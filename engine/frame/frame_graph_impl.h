@@ -202,7 +202,7 @@ struct FrameGraph::Impl {
     const gpu::Image& imageOf(const Resource& resource) const;
     const gpu::Buffer& bufferOf(const Resource& resource) const;
 
-    // Recording (frame_graph_execute.cpp)
+    // Running and recording (frame_graph_execute.cpp, frame_graph_record.cpp)
     void synchronize(VkCommandBuffer commands, const Pass& pass, PassRecord* record);
     void synchronizeOutputs(VkCommandBuffer commands);
     void addBarrier(Resource& resource, const Access& access, bool discard, PassRecord* record);

@@ -15,9 +15,7 @@ uint findTexel(vec3 position, uint faceCount, uvec2 atlasSize) {
         vec2 at = clip.xy / clip.w * 0.5 + 0.5;
         if (clip.w <= 0.0 || any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0)))) continue;
         uvec2 coord = faces.items[i].origin + uvec2(at * float(faces.items[i].size));
-        uvec2 tile = coord / kRsmTileSize, inTile = coord % kRsmTileSize;
-        uint index = rsmTexelIndex(tile.y * (atlasSize.x / kRsmTileSize) + tile.x,
-                                   inTile.y * kRsmTileSize + inTile.x);
+        uint index = rsmIndexOfCoord(coord, atlasSize.x);
         RsmSurface s = AG_RSM_FETCH(texels, index);
         vec3 d = s.position - position;
         if (s.weight > 0.0 && dot(d, d) < 4.0 * s.area) found = index;

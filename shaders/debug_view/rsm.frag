@@ -11,9 +11,7 @@ layout(location = 0) out vec4 color;
 
 void main() {
     uvec2 coord = uvec2(gl_FragCoord.xy);
-    uvec2 tile = coord / kRsmTileSize, inTile = coord % kRsmTileSize;
-    uint index = rsmTexelIndex(tile.y * (push.atlas.size.x / kRsmTileSize) + tile.x,
-                               inTile.y * kRsmTileSize + inTile.x);
+    uint index = rsmIndexOfCoord(coord, push.atlas.size.x);
     RsmSurface s = AG_RSM_FETCH(texels, index);
     color = vec4(s.weight > 0.0 ? s.flux / s.area : vec3(0.0), 1.0);
 }

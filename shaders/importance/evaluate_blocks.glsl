@@ -24,12 +24,9 @@ struct BlockSum {
 BlockSum sumBlock(uvec2 origin) {
     BlockSum sum = BlockSum(0.0, 0.0, vec3(0.0), vec3(0.0, 1.0, 0.0));
     float brightest = 0.0;
-    uint tilesX = push.settings.atlasSize.x / kRsmTileSize;
     for (uint i = 0; i < kImportanceBlock * kImportanceBlock; ++i) {
         uvec2 coord = origin + uvec2(i % kImportanceBlock, i / kImportanceBlock);
-        uvec2 tile = coord / kRsmTileSize, inTile = coord % kRsmTileSize;
-        uint index = rsmTexelIndex(tile.y * tilesX + tile.x, inTile.y * kRsmTileSize + inTile.x);
-        RsmSurface s = AG_RSM_FETCH(texels, index);
+        RsmSurface s = AG_RSM_FETCH(texels, rsmIndexOfCoord(coord, push.settings.atlasSize.x));
         sum.weight += s.weight;
         sum.litCount += s.weight > 0.0 ? 1.0 : 0.0;
         if (s.weight > brightest) {

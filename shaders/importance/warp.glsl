@@ -5,16 +5,6 @@
 
 #include "importance/pyramid.glsl"
 
-uint tileOfTexel(uint atlasWidth, uvec2 coord) {
-    uvec2 tile = coord / kRsmTileSize;
-    return tile.y * (atlasWidth / kRsmTileSize) + tile.x;
-}
-
-uint indexOfTexel(uint atlasWidth, uvec2 coord) {
-    uvec2 inTile = coord % kRsmTileSize;
-    return rsmTexelIndex(tileOfTexel(atlasWidth, coord), inTile.y * kRsmTileSize + inTile.x);
-}
-
 // Splits u in proportion a : b; returns 0 or 1 and stretches u over the chosen part.
 uint splitUnit(inout float u, float a, float b) {
     float total = a + b;
@@ -75,7 +65,7 @@ uint litTexelOfBlock(uint atlasWidth, uvec2 origin, vec2 u) {
     for (uint i = 0; i < count; ++i) {
         uint place = (start + i) % count;
         uvec2 coord = origin + uvec2(place % kImportanceBlock, place / kImportanceBlock);
-        uint index = indexOfTexel(atlasWidth, coord);
+        uint index = rsmIndexOfCoord(coord, atlasWidth);
         if (found == kNoCluster && texelFetch(texels, int(index) * 3 + 1).w > 0.0) found = index;
     }
     return found;

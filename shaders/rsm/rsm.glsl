@@ -17,9 +17,14 @@ RsmSurface fetchRsmTexel_(vec4 a, vec4 b, vec4 c) { return RsmSurface(a.xyz, b.x
 // Texels are stored tile by tile, so that a tile's 256 lie together: index of a texel by its tile and its place.
 uint rsmTexelIndex(uint tile, uint inTile) { return tile * (kRsmTileSize * kRsmTileSize) + inTile; }
 
+uint rsmTileOfCoord(uvec2 coord, uint atlasWidth) {
+    uvec2 tile = coord / kRsmTileSize;
+    return tile.y * (atlasWidth / kRsmTileSize) + tile.x;
+}
+
 uint rsmIndexOfCoord(uvec2 coord, uint atlasWidth) {
-    uvec2 tile = coord / kRsmTileSize, inTile = coord % kRsmTileSize;
-    return rsmTexelIndex(tile.y * (atlasWidth / kRsmTileSize) + tile.x, inTile.y * kRsmTileSize + inTile.x);
+    uvec2 inTile = coord % kRsmTileSize;
+    return rsmTexelIndex(rsmTileOfCoord(coord, atlasWidth), inTile.y * kRsmTileSize + inTile.x);
 }
 
 uvec2 rsmTexelCoord(uint tile, uint inTile, uint atlasWidth) {

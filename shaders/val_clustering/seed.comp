@@ -32,7 +32,7 @@ uint projectToTile(vec3 position, RsmMap map) {
         vec4 clip = face.clipFromWorld * vec4(position, 1.0);
         vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
         bool inside = clip.w > 0.0 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
-        if (inside) tile = tileOfTexel(push.settings.atlasSize.x, face.origin + min(uvec2(uv * float(face.size)), uvec2(face.size - 1)));
+        if (inside) tile = rsmTileOfCoord(face.origin + min(uvec2(uv * float(face.size)), uvec2(face.size - 1)), push.settings.atlasSize.x);
     }
     return tile;
 }
@@ -50,7 +50,7 @@ ClusterSeed seedFromImportance(uint cluster, uint mapIndex) {
     uint texel = litTexelOfBlock(push.settings.atlasSize.x, origin, u);
     if (texel == kNoCluster) return deadSeed(mapIndex);
     RsmSurface s = AG_RSM_FETCH(texels, texel);
-    return ClusterSeed(s.position, tileOfTexel(push.settings.atlasSize.x, origin), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
+    return ClusterSeed(s.position, rsmTileOfCoord(origin, push.settings.atlasSize.x), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
 }
 
 ClusterSeed seedFromTexel(uint texel, uint mapIndex) {

@@ -27,7 +27,7 @@ vec3 fluxOfBlock(uvec2 origin) {
     vec3 sum = vec3(0.0);
     for (uint i = 0; i < kImportanceBlock * kImportanceBlock; ++i) {
         uvec2 coord = origin + uvec2(i % kImportanceBlock, i / kImportanceBlock);
-        sum += texelFetch(texels, int(indexOfTexel(push.atlasWidth, coord)) * 3 + 2).rgb;
+        sum += texelFetch(texels, int(rsmIndexOfCoord(coord, push.atlasWidth)) * 3 + 2).rgb;
     }
     return sum;
 }

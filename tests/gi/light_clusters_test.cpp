@@ -136,6 +136,26 @@ TEST(LightClusters, CentresKeepTheirRoleAlongAWalk) {
     EXPECT_LT(kept, flipping / 2);
 }
 
+// Where nothing changes nothing may: a budget, hysteresis and a second look must not shift centres.
+TEST(LightClusters, NothingMovesNothingChanges) {
+    RenderScene scene = sceneWithLamps(300);
+    for (const uint32_t most : {10u, 26u, 100u}) {
+        LightClusterSettings s;
+        s.most = most;
+        LightClusterHistory history;
+        const std::vector<uint32_t> first = clusterLamps(scene, s, history).clusterOf;
+        for (int i = 0; i < 5; ++i)
+            EXPECT_EQ(clusterLamps(scene, s, history).clusterOf, first);
+        // A lamp that moves or a camera that turns is looked at again.
+        const uint32_t seen = history.clusters.lamps[0];
+        const glm::vec3 before = scene.lights[seen].position;
+        scene.lights[seen].position += glm::vec3(0, 100, 0);
+        const LightClusters& moved = clusterLamps(scene, s, history);
+        EXPECT_EQ(std::ranges::count(moved.lamps, seen), 0);
+        scene.lights[seen].position = before;
+    }
+}
+
 TEST(LightClusters, LampsWithoutShadowHaveNoCluster) {
     RenderScene scene = sceneWithLamps(50);
     for (RenderLight& light : scene.lights)

@@ -1,0 +1,217 @@
+// Recording passes: dispatches, draws, atlases of patches, transfers.
+#include <algorithm>
+
+#include "engine/frame/frame_graph_impl.h"
+
+namespace ag {
+namespace {
+
+void beginLabel(VkCommandBuffer commands, std::string_view name) {
+    if (!vkCmdBeginDebugUtilsLabelEXT) return;
+    char text[96];
+    const size_t length = std::min(name.size(), sizeof text - 1);
+    std::copy_n(name.data(), length, text);
+    text[length] = 0;
+    const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = text};
+    vkCmdBeginDebugUtilsLabelEXT(commands, &label);
+}
+
+void endLabel(VkCommandBuffer commands) {
+    if (vkCmdEndDebugUtilsLabelEXT) vkCmdEndDebugUtilsLabelEXT(commands);
+}
+
+VkExtent2D extentOf(glm::uvec2 size) {
+    return {size.x, size.y};
+}
+
+}  // namespace
+
+void FrameGraph::Impl::recordCompute(VkCommandBuffer commands, const Pass& pass) {
+    const gpu::Pipeline& pipeline = *pass.pipeline;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
+    if (const VkDescriptorSet set = descriptorSet(pass, pipeline))
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
+                                nullptr);
+    if (pipeline.pushSizeBytes > 0)
+        vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
+                           pass.push.data());
+    if (pass.dispatchIndirect) {
+        const auto all = usesOf(pass);
+        const auto arguments = std::ranges::find(all, UseKind::kIndirect, &Use::kind);
+        vkCmdDispatchIndirect(commands, bufferOf(resources[arguments->resource]).handle(),
+                              pass.indirectOffset);
+        return;
+    }
+    const glm::uvec3 size = pass.threads ? pipeline.workgroupSize : glm::uvec3(1);
+    const glm::uvec3 groups = (pass.dispatch + size - 1u) / size;
+    if (groups.x > 0 && groups.y > 0 && groups.z > 0) vkCmdDispatch(commands, groups.x, groups.y, groups.z);
+}
+
+namespace {
+
+VkRenderingAttachmentInfo attachment(const gpu::Image& image, const Use& use) {
+    const bool depth = gpu::isDepthFormat(image.desc().format);
+    const bool clear = use.kind == UseKind::kColorClear || use.kind == UseKind::kDepthClear;
+    VkRenderingAttachmentInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                   .imageView = image.mipView(0),
+                                   .imageLayout = accessOf(use.kind).layout,
+                                   .loadOp = clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
+                                   .storeOp = use.kind == UseKind::kDepthTest ? VK_ATTACHMENT_STORE_OP_NONE
+                                                                              : VK_ATTACHMENT_STORE_OP_STORE};
+    if (depth)
+        info.clearValue.depthStencil = {use.clear.x, 0};
+    else
+        info.clearValue.color = {{use.clear.x, use.clear.y, use.clear.z, use.clear.w}};
+    return info;
+}
+
+void setViewport(VkCommandBuffer commands, glm::uvec4 rect) {
+    const VkViewport viewport{float(rect.x), float(rect.y), float(rect.z), float(rect.w), 0, 1};
+    const VkRect2D scissor{{int32_t(rect.x), int32_t(rect.y)}, {rect.z, rect.w}};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+void bindGeometry(VkCommandBuffer commands, const Geometry& g) {
+    if (!g.positions) return;
+    const VkBuffer buffers[] = {g.positions->handle(),
+                                g.attributes ? g.attributes->handle() : g.positions->handle()};
+    const VkDeviceSize offsets[] = {0, 0};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    vkCmdBindIndexBuffer(commands, g.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
+}
+
+void clearPatch(VkCommandBuffer commands, glm::uvec4 rect, std::span<const Use> uses) {
+    const auto atlas = std::ranges::find(uses, UseKind::kDepthPatch, &Use::kind);
+    VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT};
+    clear.clearValue.depthStencil = {atlas->clear.x, 0};
+    const VkClearRect area{{{int32_t(rect.x), int32_t(rect.y)}, {rect.z, rect.w}}, 0, 1};
+    vkCmdClearAttachments(commands, 1, &clear, 1, &area);
+}
+
+}  // namespace
+
+void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) {
+    std::array<VkRenderingAttachmentInfo, gpu::kMaxColorTargets> colors{};
+    VkRenderingAttachmentInfo depth{};
+    uint32_t colorCount = 0;
+    bool hasDepth = false;
+    glm::uvec2 size(0);
+    for (const Use& use : usesOf(pass)) {
+        const bool isColor = use.kind == UseKind::kColorClear || use.kind == UseKind::kColorLoad;
+        const bool isDepth = use.kind == UseKind::kDepthClear || use.kind == UseKind::kDepthLoad ||
+                             use.kind == UseKind::kDepthPatch || use.kind == UseKind::kDepthTest;
+        if (!isColor && !isDepth) continue;
+        const gpu::Image& image = imageOf(resources[use.resource]);
+        size = image.desc().size;
+        (isColor ? colors[colorCount++] : depth) = attachment(image, use);
+        hasDepth = hasDepth || isDepth;
+    }
+    const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                               .renderArea = {{0, 0}, extentOf(size)},
+                               .layerCount = 1,
+                               .colorAttachmentCount = colorCount,
+                               .pColorAttachments = colors.data(),
+                               .pDepthAttachment = hasDepth ? &depth : nullptr};
+    vkCmdBeginRendering(commands, &info);
+    recordDraws(commands, pass, pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE, size);
+    vkCmdEndRendering(commands);
+}
+
+void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
+                                   glm::uvec2 size) {
+    const glm::uvec4 whole(0, 0, size);
+    const auto bind = [&](const gpu::Pipeline& pipeline, std::span<const std::byte> push, glm::uvec4 rect) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+        if (set)
+            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set, 0,
+                                    nullptr);
+        if (pipeline.pushSizeBytes > 0) {
+            AG_CHECK_EQ(pipeline.pushSizeBytes, push.size());
+            vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
+                               push.data());
+        }
+        setViewport(commands, rect == glm::uvec4(0) ? whole : rect);
+    };
+    if (pass.kind == PassKind::kFullscreen) {
+        bind(*pass.pipeline, {pass.push.data(), pass.pushSizeBytes}, whole);
+        vkCmdDraw(commands, 3, 1, 0, 0);
+    }
+    bindGeometry(commands, pass.geometry);
+    std::vector<Patch>* held = patchesOf(pass);
+    const std::span<const RasterDraw> all = drawsOf(pass);
+    PassStats& counts = stats[pass.stats];
+    counts.patches = counts.patchesDrawn = 0;
+    patches.clear();
+    for (size_t i = 0; i < all.size(); ++i) {
+        const RasterDraw& draw = all[i];
+        if (draw.beginsPatch) {
+            const auto next = std::find_if(all.begin() + std::ptrdiff_t(i) + 1, all.end(),
+                                           [](const RasterDraw& d) { return d.beginsPatch; });
+            const size_t end = size_t(next - all.begin());
+            const Patch patch{draw.viewport, patchKey(pass, i, end)};
+            patches.push_back(patch);
+            ++counts.patches;
+            const auto known = std::ranges::find(*held, patch.rect, &Patch::rect);
+            if (options.skip && known != held->end() && known->key == patch.key) {
+                i = end - 1;
+                continue;
+            }
+            ++counts.patchesDrawn;
+            clearPatch(commands, patch.rect, usesOf(pass));
+            continue;
+        }
+        bind(pipelines->get(requestFor(pass, &draw)), {draw.push.data(), draw.pushSizeBytes}, draw.viewport);
+        vkCmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
+                                 draw.commandsOffsetBytes, draw.commandCount,
+                                 sizeof(VkDrawIndexedIndirectCommand));
+    }
+    // Those not declared now may have been drawn over.
+    if (held) std::swap(*held, patches);
+}
+
+std::vector<Patch>* FrameGraph::Impl::patchesOf(const Pass& pass) {
+    for (const Use& use : usesOf(pass))
+        if (use.kind == UseKind::kDepthPatch) return &memoryOf(resources[use.resource])->patches;
+    return nullptr;
+}
+
+void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass) {
+    const Use& to = usesOf(pass).back();
+    if (pass.kind == PassKind::kFill) {
+        vkCmdFillBuffer(commands, bufferOf(resources[to.resource]).handle(), 0, VK_WHOLE_SIZE, pass.fillWord);
+    } else if (pass.kind == PassKind::kUpload) {
+        constexpr uint32_t kMost = 65536;  // of one command
+        for (uint32_t at = 0; at < pass.dataSize; at += kMost)
+            vkCmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), at,
+                              std::min(kMost, pass.dataSize - at), data.data() + pass.dataOffset + at);
+    } else {
+        const gpu::Image& source = imageOf(resources[usesOf(pass).front().resource]);
+        const gpu::Image& target = imageOf(resources[to.resource]);
+        VkImageBlit region{.srcSubresource = {source.aspect(), 0, 0, 1},
+                           .dstSubresource = {target.aspect(), 0, 0, 1}};
+        region.srcOffsets[1] = {int32_t(source.desc().size.x), int32_t(source.desc().size.y), 1};
+        region.dstOffsets[1] = {int32_t(target.desc().size.x), int32_t(target.desc().size.y), 1};
+        vkCmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(),
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+    }
+}
+
+void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
+    beginLabel(commands, pass.name);
+    switch (pass.kind) {
+        case PassKind::kCompute:
+            recordCompute(commands, pass);
+            break;
+        case PassKind::kFullscreen:
+        case PassKind::kRaster:
+            recordRaster(commands, pass);
+            break;
+        default:
+            recordTransfer(commands, pass);
+            break;
+    }
+    endLabel(commands);
+}
+
+}  // namespace ag
