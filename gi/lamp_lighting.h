@@ -1,7 +1,8 @@
 // Irradiance straight from spots and points, however many: tiles of the screen list the lamps that reach
-// them, and a cluster's visibility, as from a disk of its radius (PCSS), is found once a pixel for all of its
-// lamps (LightCluster). Difference: no image of each cluster's visibility is kept; no pixel meets lamps out
-// of reach.
+// them, and a cluster's visibility is found once a pixel for all of its lamps (LightCluster). Differences: no
+// pixel meets lamps out of reach; instead of an image of each cluster's visibility two images for all keep
+// what arrives and what would without shadows, at a pixel of each 2 x 2; shadows come from the centre instead
+// of a disk (PCSS), and lamps far from it as seen from the receiver have less of them.
 #pragma once
 
 #include "gi/gbuffer.h"
@@ -12,8 +13,12 @@
 namespace ag::gi {
 
 struct LampLightingSettings {
-    bool tiles = true;       // off: every pixel meets all lamps in view
-    uint32_t softTaps = 12;  // of a cluster's shadow
+    bool tiles = true;      // off: every pixel meets all lamps in view
+    bool quads = true;      // shadows at one pixel of each 2 x 2, the others take their neighbours' share
+    uint32_t softTaps = 0;  // of the disk that a cluster's shadow comes from; 0: from the centre
+    // A lamp has all of its cluster's shadow where it is so many times farther off than from the centre,
+    // nearer by in proportion less. 0: everywhere, as published.
+    float shadowReach = 4;
 };
 
 struct LampLightingHistory {  // scratch, so that a steady frame allocates nothing

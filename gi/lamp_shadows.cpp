@@ -101,7 +101,8 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
     if (clusters.clusters.empty() || s.instances.empty()) return {};
     assignPlaces(s, clusters, places.count, history);
     LampShadows shadows{
-        .atlas = graph.image("lamp_shadows.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()})};
+        .atlas = graph.image("lamp_shadows.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()}),
+        .places = places.count};
     history.rows.clear();
     PassBuilder pass = beginFaces(graph, scene, shadows.atlas);
     const DrawFilter filter = hasMasked(scene) ? DrawFilter::kAll : DrawFilter::kOpaqueOnly;

@@ -24,6 +24,7 @@ struct LampShadowHistory {
 struct LampShadows {
     ImageHandle atlas;      // D32; invalid: no lamp casts shadows
     BufferHandle clusters;  // io::LampCluster; also a texel buffer of vec4
+    uint32_t places = 0;    // of clusters that may come to need one; steadier than how many do
 };
 
 LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const LightClusters& clusters,

@@ -20,14 +20,15 @@ struct Sun {
     uint viewCount;   // 0: casts no shadow
 };
 
-struct Lamp {        // 4 vec4; sorted by cluster
-    vec3 position;   // m
-    float range;     // m, 0: no limit
-    vec3 intensity;  // W/sr
-    uint cluster;    // kNoLampCluster: casts no shadow
-    vec3 direction;  // of a spot, the way the light travels, unit
-    float cosInner;
-    float cosOuter;  // -2: a point
+struct Lamp {             // 4 vec4; sorted by cluster
+    vec3 position;        // m
+    float inverseRange2;  // 1/m², 0: no limit
+    vec3 intensity;       // W/sr
+    uint cluster;         // kNoLampCluster: casts no shadow
+    vec3 axis;  // of a spot, against the way the light travels, over the span of cosines it fades in
+    float
+        coneOffset;  // the share of the axial intensity is (dot(axis, to the light) + this)², within 0 and 1
+    float clusterDistance;  // m from its cluster's centre
     uint unused[3];
 };
 

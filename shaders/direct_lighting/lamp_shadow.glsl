@@ -1,5 +1,5 @@
-// How much of a cluster's light arrives: as from a disk about its centre, by the centre's depth maps. Needs sampler
-// `shadowAtlas` and texel buffer `clusters`.
+// How much of a cluster's light arrives, by its centre's depth maps: as from the centre, or as from a disk about it. Needs
+// sampler `shadowAtlas` and texel buffer `clusters`.
 #ifndef AG_LAMP_SHADOW_GLSL
 #define AG_LAMP_SHADOW_GLSL
 
@@ -7,7 +7,7 @@
 #include "direct_lighting/direct_lighting_io.h"
 #include "direct_lighting/shadow_lookup.glsl"
 
-layout(constant_id = 1) const int kSoftTaps = 12;
+layout(constant_id = 1) const int kSoftTaps = 0;  // of a disk as large as the cluster (PCSS); 0: a point
 const float kMostSpread = 4.0;
 
 // Taps of a disk that are spread evenly for any count (Vogel).
@@ -109,6 +109,7 @@ float clusterShare(uint index, vec3 position, vec3 normal) {
     float texel = 2.0 * cluster.tanHalf / float(cluster.size) * distance_;  // m at the receiver
     bool soft = cluster.radius > texel;
     float hard = litShare(mapOf(cluster, viewToward(cluster, d)), texel, position, normal, -d / distance_);
+    if (kSoftTaps == 0) return hard;
     float disk = softShare(cluster, position, normal, texel, soft);
     return soft ? disk : hard;
 }

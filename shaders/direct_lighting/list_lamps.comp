@@ -31,7 +31,7 @@ vec3 placeOf(uvec2 origin, uint i, uvec2 size, out float depth) {
 
 bool reachesBox(vec4 lamp, Box box) {
     vec3 apart = max(max(box.least - lamp.xyz, lamp.xyz - box.most), vec3(0.0));
-    return box.least.x <= box.most.x && (lamp.w <= 0.0 || dot(apart, apart) < lamp.w * lamp.w);
+    return box.least.x <= box.most.x && dot(apart, apart) * lamp.w < 1.0;
 }
 
 void main() {

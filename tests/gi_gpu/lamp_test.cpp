@@ -80,6 +80,32 @@ TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
     EXPECT_LT(most, 0.01 * mean) << "half floats, summed in the same order";
 }
 
+// With a map for each lamp only the pixels between differ from the reference, and only at shadows' edges.
+TEST(LampLighting, QuadsTakeTheirNeighboursShare) {
+    const auto b = directBench(*scenegen::buildScene("lamps", 14), {320, 192});
+    ASSERT_TRUE(applyPreset("lights-reference", b->settings));
+    const Image reference = directImage(*b);
+    ASSERT_TRUE(applyPreset("afterglow-lights", b->settings));
+    b->settings.lampLighting.quads = false;
+    const Image each = directImage(*b);
+    b->settings.lampLighting.quads = true;
+    const Image quads = directImage(*b);
+    double own = 0, between = 0, scale = 0;
+    for (size_t i = 0; i < quads.pixels.size(); ++i) {
+        const size_t x = i % size_t(quads.width), y = i / size_t(quads.width);
+        const glm::vec3 truth = reference.pixels[i];
+        ASSERT_LT(glm::length(each.pixels[i] - truth), 1e-3f * (1 + glm::length(truth)))
+            << "one lamp a cluster";
+        const double off = double(glm::dot(quads.pixels[i] - truth, quads.pixels[i] - truth));
+        (x % 2 || y % 2 ? between : own) += off / double(quads.pixels.size());
+        scale += double(glm::dot(truth, truth)) / double(quads.pixels.size());
+    }
+    std::printf("quads: relative RMSE %.4f at their own pixels, %.4f between\n", std::sqrt(own / scale),
+                std::sqrt(between / scale));
+    EXPECT_LT(std::sqrt(own / scale), 1e-3);
+    EXPECT_LT(std::sqrt(between / scale), 0.03);
+}
+
 // A cluster's shadow is that of a disk of light about its centre: behind a half-plane's edge the share of the
 // disk above the edge.
 TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {

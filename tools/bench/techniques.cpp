@@ -36,7 +36,8 @@ std::vector<Variant> ours() {
 std::vector<Variant> lampBudgets() {
     std::vector<Variant> variants;
     for (const int count : {10, 26})
-        variants.push_back({fmt::format("{} clusters", count), {fmt::format("light_clusters.most={}", count)}});
+        variants.push_back(
+            {fmt::format("{} clusters", count), {fmt::format("light_clusters.most={}", count)}});
     return variants;
 }
 

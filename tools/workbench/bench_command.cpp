@@ -2,9 +2,11 @@
 
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "engine/core/log.h"
 #include "tools/bench/measure.h"
+#include "tools/scenegen/scenes.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/progress_line.h"
 #include "tools/workbench/scene_options.h"
@@ -71,16 +73,26 @@ void printRow(const bench::Row& row) {
               << std::flush;
 }
 
-// "lamps:80" is lamps with 80 for its number.
-SceneOptions sceneArguments(const BenchOptions& o, const std::string& name) {
-    SceneOptions arguments{.scene = name, .param = o.param, .size = o.size};
-    const size_t colon = name.rfind(':');
-    const std::string number = colon == std::string::npos ? "" : name.substr(colon + 1);
-    const bool isNumber = !number.empty() && number.size() < 8 &&
-                          number.find_first_not_of("0123456789") == std::string::npos;
-    if (!isNumber) return arguments;
-    arguments.scene = name.substr(0, colon);
-    arguments.param = uint32_t(std::stoul(number));
+// The number after the last of a mark in a name; none: the mark is part of the name.
+std::optional<uint32_t> takeNumber(std::string& name, char mark) {
+    const size_t at = name.rfind(mark);
+    const std::string number = at == std::string::npos ? "" : name.substr(at + 1);
+    const bool isNumber =
+        !number.empty() && number.size() < 8 && number.find_first_not_of("0123456789") == std::string::npos;
+    if (!isNumber) return std::nullopt;
+    name.resize(at);
+    return uint32_t(std::stoul(number));
+}
+
+// "lamps:80" is lamps with 80 for its number, "sponza+80" is sponza with 80 lamps hung in it.
+SceneOptions sceneArguments(const BenchOptions& o, std::string name) {
+    SceneOptions arguments{.param = o.param, .size = o.size};
+    arguments.lamps = takeNumber(name, '+').value_or(0);
+    const std::string whole = name;
+    const std::optional<uint32_t> number = takeNumber(name, ':');
+    const bool takesIt = number && scenegen::isBuiltIn(name);  // else it is a view of the scene library's
+    if (takesIt) arguments.param = *number;
+    arguments.scene = takesIt ? name : whole;
     return arguments;
 }
 
@@ -131,8 +143,14 @@ int runBench(BenchOptions o) {
 void addBenchCommand(CLI::App& program, int& exitCode) {
     const auto o = std::make_shared<BenchOptions>();
     CLI::App* command = program.add_subcommand("bench", "run time against error, technique by technique");
-    command->add_option("--scenes", o->scenes, "comma-separated; NAME:NUMBER where one takes a number")->delimiter(',')->capture_default_str();
-    command->add_option("--techniques", o->techniques, "comma-separated; by default all of indirect light")->delimiter(',');
+    command
+        ->add_option(
+            "--scenes", o->scenes,
+            "comma-separated; NAME:NUMBER where one takes a number, NAME+LAMPS with lamps hung in it")
+        ->delimiter(',')
+        ->capture_default_str();
+    command->add_option("--techniques", o->techniques, "comma-separated; by default all of indirect light")
+        ->delimiter(',');
     command->add_option("--param", o->param, "number of the built-in scenes that take one");
     command->add_option("--size", o->size, "pixels, WxH")->capture_default_str();
     command->add_option("--frames", o->measure.frames, "to time")

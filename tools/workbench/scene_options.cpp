@@ -9,6 +9,7 @@
 
 #include "engine/core/log.h"
 #include "tools/scenegen/scenes.h"
+#include "tools/workbench/hang_lamps.h"
 #include "tools/workbench/scene_library.h"
 
 namespace ag::workbench {
@@ -118,6 +119,8 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
         ->allow_extra_args(false);
     command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")
         ->allow_extra_args(false);
+    command.add_option("--lamps", o.lamps, "hang so many points of light in the scene's free space")
+        ->check(CLI::Range(0u, kMostHungLamps));
     command.add_flag("--no-scene-lights", o.noSceneLights, "drop the file's own lights");
 }
 
@@ -143,7 +146,8 @@ Result<SceneOptions> withLibraryScene(SceneOptions options) {
     const LibraryScene& scene = **found;
     options.scene = scene.file;
     if (options.view.empty() && options.camera.empty()) options.view = scene.view;
-    const bool lit = !options.suns.empty() || !options.points.empty() || !options.spots.empty();
+    const bool lit =
+        !options.suns.empty() || !options.points.empty() || !options.spots.empty() || options.lamps > 0;
     if (!lit && !scene.sun.empty()) options.suns = {scene.sun};
     return options;
 }
@@ -164,6 +168,8 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     for (const Status& added :
          {addSuns(options, loaded.scene), addPoints(options, loaded.scene), addSpots(options, loaded.scene)})
         if (!added) return added.error();
+    if (const uint32_t hung = hangLamps(loaded.scene, options.lamps); hung < options.lamps)
+        spdlog::warn("{} has free space for {} of {} lamps", options.scene, hung, options.lamps);
     if (loaded.scene.lights.empty() && !options.noSceneLights) {
         spdlog::warn("{} has no light: a sun is added", options.scene);
         loaded.scene.lights.push_back({.kind = LightKind::kDirectional,

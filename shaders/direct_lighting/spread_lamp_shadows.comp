@@ -1,0 +1,113 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Irradiance straight from a tile's lamps at every pixel: what arrives without shadows, worked out here, times the share
+// that does arrive about here, from the up to four neighbours for which shadows were found. Four pixels an invocation
+// share the loads.
+#include "common/lane_loop.glsl"
+#include "gbuffer/gbuffer.glsl"
+
+layout(local_size_x = 64) in;  // one tile
+
+layout(constant_id = 0) const bool kFirst = true;  // starts from zero instead of adding
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 3) uniform samplerBuffer lamps;
+layout(set = 0, binding = 7) uniform usamplerBuffer lists;
+#include "direct_lighting/lamp.glsl"
+layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 4) uniform sampler2D shadowed;
+layout(set = 0, binding = 5) uniform sampler2D unshadowed;
+layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
+layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
+
+const int kPixels = 4;
+
+struct Receiver {
+    vec3 position, normal;
+    float depth;
+};
+
+Lamp lampOfLane(Lamp mine, uint lane) {
+    Lamp lamp;
+    lamp.position = subgroupShuffle(mine.position, lane);
+    lamp.inverseRange2 = subgroupShuffle(mine.inverseRange2, lane);
+    lamp.intensity = subgroupShuffle(mine.intensity, lane);
+    lamp.axis = subgroupShuffle(mine.axis, lane);
+    lamp.coneOffset = subgroupShuffle(mine.coneOffset, lane);
+    return lamp;
+}
+
+Receiver receiverAt(uvec2 pixel) {
+    uvec2 size = camera.camera.size;
+    ivec2 at = ivec2(min(pixel, size - 1));
+    Receiver r;
+    r.depth = texelFetch(depthMap, at, 0).x;
+    r.position = worldFromPixel(camera.camera.worldFromClip, size, at, r.depth);
+    r.normal = texelFetch(normalMap, at, 0).xyz;
+    return r;
+}
+
+// 1 on the same plane, facing the same way. `pixel`: m at the receiver. Never quite 0, so that something is taken.
+float likeness(Receiver a, Receiver b, float pixel) {
+    float apart = dot(a.normal, b.position - a.position) / pixel, facing = max(dot(a.normal, b.normal), 0.0);
+    return b.depth > 0.0 ? max(facing * facing / (1.0 + apart * apart * apart * apart), 1e-4) : 0.0;
+}
+
+void main() {
+    uvec2 size = camera.camera.size, tiles = (size + kLampTileSize - 1) / kLampTileSize;
+    uint tile = gl_WorkGroupID.x, block = gl_LocalInvocationID.x;
+    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kLampTileSize + 2 * uvec2(block % 8, block / 8);
+    Receiver r[kPixels];
+    vec3 e[kPixels];
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        r[p] = receiverAt(origin + uvec2(p & 1, p >> 1));
+        e[p] = vec3(0.0);
+    }
+    uint first = tile * kMaxLampsPerTile, end = first + counts.items[tile];
+    float distance2;
+    if (kLaneParallel) {
+        for (uint base = first; base < end; base += kSubgroupSize) {
+            uint entry = base + gl_SubgroupInvocationID;
+            Lamp mine = fetchLamp(min(entry, end - 1));
+            if (entry >= end) mine.intensity = vec3(0.0);
+            [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
+                Lamp lamp = lampOfLane(mine, lane);
+                [[unroll]] for (int p = 0; p < kPixels; ++p)
+                    e[p] += irradianceFrom(lamp, r[p].position, r[p].normal, distance2);
+            }
+        }
+    } else {
+        for (uint entry = first; entry < end; ++entry) {
+            Lamp lamp = fetchLamp(entry);
+            [[unroll]] for (int p = 0; p < kPixels; ++p)
+                e[p] += irradianceFrom(lamp, r[p].position, r[p].normal, distance2);
+        }
+    }
+    Receiver near[kPixels];  // those for which shadows were found
+    vec3 some[kPixels], all[kPixels];
+    [[unroll]] for (int q = 0; q < kPixels; ++q) {
+        uvec2 at = min(origin / 2 + uvec2(q & 1, q >> 1), (size - 1) / 2);
+        near[q] = receiverAt(2 * at);
+        some[q] = texelFetch(shadowed, ivec2(at), 0).rgb;
+        all[q] = texelFetch(unshadowed, ivec2(at), 0).rgb;
+    }
+    mat4 clip = camera.camera.clipFromWorld;  // its second row is the image's up, as long as a half angle's cotangent
+    float pixelAtOne = 2.0 / (float(size.y) * length(vec3(clip[0].y, clip[1].y, clip[2].y)));
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        uvec2 pixel = origin + uvec2(p & 1, p >> 1);
+        float metres = pixelAtOne * camera.camera.near / max(r[p].depth, 1e-9);
+        vec3 arrived = vec3(0.0), sent = vec3(0.0);
+        [[unroll]] for (int q = 0; q < kPixels; ++q) {
+            bool between = (q & ~p) == 0;  // pixel 0 takes its own, 1 also the right one's, 2 the lower one's, 3 all
+            float w = between ? likeness(r[p], near[q], metres) : 0.0;
+            arrived += w * some[q];
+            sent += w * all[q];
+        }
+        vec3 share = mix(vec3(1.0), arrived / max(sent, vec3(1e-20)), greaterThan(sent, vec3(1e-20)));
+        vec3 result = r[p].depth > 0.0 ? e[p] * share : vec3(0.0);
+        if (any(greaterThanEqual(pixel, size))) continue;
+        if (!kFirst) result += imageLoad(irradiance, ivec2(pixel)).rgb;
+        imageStore(irradiance, ivec2(pixel), vec4(result, 1.0));
+    }
+}
