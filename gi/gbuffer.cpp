@@ -1,5 +1,7 @@
 #include "gi/gbuffer.h"
 
+#include "shaders/gbuffer/view_points_io.h"
+
 #include "gi/scene_draws.h"
 
 namespace ag::gi {
@@ -25,6 +27,19 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     bindMaterials(pass, scene);
     drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, Viewer::kCamera);
     return g;
+}
+
+BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {
+    const BufferHandle points =
+        graph.buffer("gbuffer.view_points", {.sizeBytes = io::kViewPointCount * sizeof(io::ViewPoint),
+                                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.compute("gbuffer.sample_view", "gbuffer/sample_view.comp")
+        .sample("normalMap", gbuffer.normal)
+        .sample("depthMap", gbuffer.depth)
+        .read("camera", scene.camera)
+        .write("viewPoints", points)
+        .dispatchThreads(io::kViewPointCount);
+    return points;
 }
 
 }  // namespace ag::gi

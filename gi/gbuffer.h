@@ -16,4 +16,7 @@ struct GBuffer {
 
 GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene);
 
+// io::kViewPointCount surface points that stand for the view: io::ViewPoint, also a texel buffer of vec4.
+BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer);
+
 }  // namespace ag::gi

@@ -23,6 +23,7 @@ struct GiHistory {
 // Everything the frame made: for composition, debug views, tests and captures.
 struct GiFrame {
     GBuffer gbuffer;
+    BufferHandle viewPoints;
     RsmSet rsm;
     Importance importance;
     Clusters clusters;

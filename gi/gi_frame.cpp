@@ -8,10 +8,11 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     GiFrame f;
     // What the camera sees
     f.gbuffer = addGBuffer(graph, scene);
+    f.viewPoints = addViewPoints(graph, scene, f.gbuffer);
 
     // First bounce: where light lands, as few lights
     f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count);
-    f.importance = addImportance(graph, scene, f.rsm, f.gbuffer, s.importance);
+    f.importance = addImportance(graph, scene, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
                                   h.valClustering);
     f.vals = s.firstBounce == FirstBounce::kPointLights
@@ -33,10 +34,11 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     // Direct light
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);
     f.direct = addSunLighting(graph, scene, f.gbuffer, f.shadows);
-    const LightClusters& lamps = clusterLamps(*scene.scene, s.lightClusters, h.lightClusters);
+    const LightClusters& lamps =
+        clusterLamps(*scene.scene, h.lampLighting.relevance, s.lightClusters, h.lightClusters);
     f.lampShadows = addLampShadows(graph, scene, lamps, s.lightClusters.most, s.lampShadows, h.lampShadows);
-    f.direct = addLampLighting(graph, scene, f.gbuffer, lamps, f.lampShadows, f.direct, s.lampLighting,
-                               h.lampLighting);
+    f.direct = addLampLighting(graph, scene, f.gbuffer, f.viewPoints, lamps, f.lampShadows, f.direct,
+                               s.lampLighting, h.lampLighting);
 
     // To the eye
     f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);

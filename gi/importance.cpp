@@ -3,19 +3,6 @@
 namespace ag::gi {
 namespace {
 
-BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {
-    const BufferHandle points =
-        graph.buffer("importance.view_points", {.sizeBytes = io::kViewPointCount * sizeof(io::ViewPoint),
-                                                .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.compute("importance.sample_view", "importance/sample_view.comp")
-        .sample("normalMap", gbuffer.normal)
-        .sample("depthMap", gbuffer.depth)
-        .read("camera", scene.camera)
-        .write("viewPoints", points)
-        .dispatchThreads(io::kViewPointCount);
-    return points;
-}
-
 // Nodes of a full 2x2 pyramid over the largest face's blocks.
 uint32_t pyramidNodes(uint32_t largestFace) {
     uint32_t nodes = 0;
@@ -26,8 +13,8 @@ uint32_t pyramidNodes(uint32_t largestFace) {
 
 }  // namespace
 
-Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const GBuffer& gbuffer,
-                         const ImportanceSettings& settings) {
+Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm,
+                         BufferHandle viewPoints, const ImportanceSettings& settings) {
     if (rsm.empty()) return {};
     Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace), .viewWeight = settings.viewWeight};
     const io::ImportanceSettings push{.atlasSize = rsm.atlas.size,
@@ -37,7 +24,7 @@ Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet
     importance.pyramid =
         graph.buffer("importance.pyramid",
                      {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
-    if (importance.viewDependent()) importance.viewPoints = addViewPoints(graph, scene, gbuffer);
+    if (importance.viewDependent()) importance.viewPoints = viewPoints;
 
     const uint32_t blocks =
         (rsm.largestFace / io::kImportanceBlock) * (rsm.largestFace / io::kImportanceBlock);

@@ -16,7 +16,8 @@ io::Lamp lampRow(const RenderScene& scene, uint32_t index, const LightClusters& 
                  .intensity = light.intensity,
                  .cluster = cluster,
                  .axis = glm::vec3(0),
-                 .coneOffset = 1};
+                 .coneOffset = 1,
+                 .id = {uint32_t(light.id), uint32_t(light.id >> 32)}};
     if (light.kind == LightKind::kSpot) {
         const float inner = std::cos(light.innerConeAngle), outer = std::cos(light.outerConeAngle);
         const float scale = 1 / std::max(inner - outer, 1e-4f);
@@ -110,8 +111,9 @@ LampQuads addLampQuads(FrameGraph& graph, const SceneView& scene, const GBuffer&
 }  // namespace
 
 Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                           const LightClusters& clusters, const LampShadows& shadows, Irradiance before,
-                           const LampLightingSettings& settings, LampLightingHistory& history) {
+                           BufferHandle viewPoints, const LightClusters& clusters, const LampShadows& shadows,
+                           Irradiance before, const LampLightingSettings& settings,
+                           LampLightingHistory& history) {
     if (clusters.lamps.empty()) return before;
     const bool shadowed = bool(shadows.atlas);
     const bool quads = shadowed && settings.quads && shadows.places > kFewClusters;
@@ -140,6 +142,8 @@ Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuf
         shade.readWrite("irradiance", result.image);
     else
         shade.write("irradiance", result.image);
+    if (shadowed)
+        addLampRelevance(graph, viewPoints, lists.lamps, uint32_t(history.lamps.size()), history.relevance);
     return result;
 }
 

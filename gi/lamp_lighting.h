@@ -6,6 +6,7 @@
 #pragma once
 
 #include "gi/gbuffer.h"
+#include "gi/lamp_relevance.h"
 #include "gi/lamp_shadows.h"
 #include "gi/val_shading.h"
 #include "shaders/direct_lighting/direct_lighting_io.h"
@@ -24,11 +25,14 @@ struct LampLightingSettings {
 struct LampLightingHistory {  // scratch, so that a steady frame allocates nothing
     std::vector<io::Lamp> lamps;
     std::vector<uint32_t> order;
+    LampRelevance relevance;  // outlives the frame
 };
 
-// Adds to `before`, or starts anew where that has no image.
+// Adds to `before`, or starts anew where that has no image. Measures the lamps at the view points for
+// clustering to come.
 Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                           const LightClusters& clusters, const LampShadows& shadows, Irradiance before,
-                           const LampLightingSettings& settings, LampLightingHistory& history);
+                           BufferHandle viewPoints, const LightClusters& clusters, const LampShadows& shadows,
+                           Irradiance before, const LampLightingSettings& settings,
+                           LampLightingHistory& history);
 
 }  // namespace ag::gi

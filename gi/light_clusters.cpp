@@ -15,6 +15,13 @@ float strengthOf(const RenderLight& light) {
     return (light.intensity.x + light.intensity.y + light.intensity.z) / 3;
 }
 
+float meanStrength(const RenderScene& scene, std::span<const uint32_t> lamps) {
+    double sum = 0;
+    for (const uint32_t lamp : lamps)
+        sum += double(strengthOf(scene.lights[lamp]));
+    return float(sum / double(std::max<size_t>(lamps.size(), 1)));
+}
+
 void takeSeenLamps(const RenderScene& scene, LightClusters& out) {
     out.lamps.clear();
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
@@ -30,14 +37,17 @@ void takeSeenLamps(const RenderScene& scene, LightClusters& out) {
 // angle that shrinks with the distance to the camera, and matter as much as the lamp does.
 void keepDistances(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
     const LightClusters& c = h.clusters;
-    double mean = 0;
-    for (const uint32_t lamp : c.lamps)
-        mean += double(strengthOf(scene.lights[lamp])) / double(c.lamps.size());
+    const float strength = meanStrength(scene, c.lamps);
     h.distances.resize(c.lamps.size());
+    h.weights.resize(c.lamps.size());
     for (size_t i = 0; i < c.lamps.size(); ++i) {
         const RenderLight& light = scene.lights[c.lamps[i]];
+        const std::optional<float> measured = h.relevance.of(light.id);
+        h.weights[i] = !s.strongFirst ? 1
+                       : measured     ? *measured / h.relevance.mean()
+                                      : strengthOf(light) / strength;
         float distance = s.minDistance + s.growth * glm::distance(light.position, scene.camera.position);
-        if (s.strongFirst) distance *= std::sqrt(std::clamp(float(mean) / strengthOf(light), 0.25f, 4.0f));
+        distance *= std::clamp(1 / std::sqrt(h.weights[i]), 0.25f, 8.0f);
         if (std::ranges::binary_search(h.centers, light.id)) distance *= s.hysteresis;
         h.distances[i] = distance;
     }
@@ -51,7 +61,7 @@ void orderLamps(const RenderScene& scene, const LightClusterSettings& s, LightCl
     const auto rank = [&](uint32_t i) {
         const RenderLight& light = scene.lights[h.clusters.lamps[i]];
         const bool before = s.hysteresis < 1 && std::ranges::binary_search(h.centers, light.id);
-        return std::tuple(!before, s.strongFirst ? -strengthOf(light) : 0.0f, i);
+        return std::tuple(!before, -h.weights[i], i);
     };
     std::ranges::sort(h.order, {}, rank);
 }
@@ -134,14 +144,15 @@ uint32_t mostClustersNeeded(const RenderScene& scene, uint32_t most) {
     return std::min(std::bit_ceil(casters), most);
 }
 
-const LightClusters& clusterLamps(const RenderScene& scene, const LightClusterSettings& settings,
-                                  LightClusterHistory& history) {
+const LightClusters& clusterLamps(const RenderScene& scene, const LampRelevance& relevance,
+                                  const LightClusterSettings& settings, LightClusterHistory& history) {
     if (history.lights == scene.lights && history.clipFromWorld == scene.camera.clipFromWorld &&
-        history.settings == settings)
+        history.settings == settings && history.relevance == relevance)
         return history.clusters;
     history.lights = scene.lights;
     history.clipFromWorld = scene.camera.clipFromWorld;
     history.settings = settings;
+    history.relevance = relevance;
     takeSeenLamps(scene, history.clusters);
     keepDistances(scene, settings, history);
     orderLamps(scene, settings, history);

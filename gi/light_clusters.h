@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/scene/render_scene.h"
+#include "gi/lamp_relevance.h"
 
 namespace ag::gi {
 
@@ -39,12 +40,14 @@ struct LightClusters {
 struct LightClusterHistory {
     std::vector<uint64_t> centers;  // ids of lights, sorted
     std::vector<uint32_t> order;
+    std::vector<float> weights;    // how much each lamp matters, 1: as the mean
     std::vector<float> distances;  // m that centres keep from each lamp
     LightClusters clusters;
     // What they were made for; while it is the same nothing is done.
     std::vector<RenderLight> lights;
     glm::mat4 clipFromWorld{0};
     LightClusterSettings settings;
+    LampRelevance relevance;
 };
 
 // Whether a sphere reaches into a camera's view (its five planes; there is no far one).
@@ -55,7 +58,7 @@ bool sphereInView(const glm::mat4& clipFromWorld, glm::vec3 center, float radius
 uint32_t mostClustersNeeded(const RenderScene& scene, uint32_t most);
 
 // Spots and points with light whose range reaches into the view, clustered. The result lives in the history.
-const LightClusters& clusterLamps(const RenderScene& scene, const LightClusterSettings& settings,
-                                  LightClusterHistory& history);
+const LightClusters& clusterLamps(const RenderScene& scene, const LampRelevance& relevance,
+                                  const LightClusterSettings& settings, LightClusterHistory& history);
 
 }  // namespace ag::gi

@@ -15,8 +15,6 @@
 
 namespace ag::gi {
 
-constexpr uint32_t kFramesInFlight = 2;
-
 // Handles of this frame's scene, and what the techniques need to declare draws.
 struct SceneView {
     const RenderScene* scene = nullptr;

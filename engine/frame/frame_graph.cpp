@@ -51,7 +51,8 @@ bool same(const ImageInfo& a, const ImageInfo& b) {
 }
 
 bool same(const BufferInfo& a, const BufferInfo& b) {
-    return a.sizeBytes == b.sizeBytes && a.texelFormat == b.texelFormat && a.indirect == b.indirect;
+    return a.sizeBytes == b.sizeBytes && a.texelFormat == b.texelFormat && a.indirect == b.indirect &&
+           a.hostVisible == b.hostVisible;
 }
 
 }  // namespace
@@ -229,6 +230,21 @@ void FrameGraph::copyImage(std::string_view name, ImageHandle from, ImageHandle 
     impl_->addPass(name, PassKind::kCopyImage);
     impl_->addUse({.resource = from.index, .kind = UseKind::kTransferRead});
     impl_->addUse({.resource = to.index, .kind = UseKind::kTransferWrite});
+}
+
+std::span<const std::byte> FrameGraph::readBack(const std::array<std::string_view, kFramesInFlight>& names,
+                                                BufferHandle from) {
+    const std::string_view name = names[impl_->frame % kFramesInFlight];
+    const BufferHandle copy =
+        buffer(name, {.sizeBytes = impl_->resources[from.index].buffer.sizeBytes, .hostVisible = true});
+    impl_->addPass(name, PassKind::kCopyBuffer);
+    impl_->addUse({.resource = from.index, .kind = UseKind::kTransferRead});
+    impl_->addUse({.resource = copy.index, .kind = UseKind::kTransferWrite});
+    output(copy);
+    const Resource& resource = impl_->resources[copy.index];
+    const Memory& memory = impl_->slots[resource.slot].halves[0];
+    if (memory.version == 0 || !memory.buffer) return {};
+    return {memory.buffer->mapped(), resource.buffer.sizeBytes};
 }
 
 void FrameGraph::output(ImageHandle image, VkImageLayout layout) {

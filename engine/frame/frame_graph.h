@@ -32,6 +32,8 @@
 
 namespace ag {
 
+constexpr uint32_t kFramesInFlight = 2;
+
 namespace gpu {
 class Buffer;
 class Device;
@@ -65,6 +67,7 @@ struct BufferInfo {
     uint64_t sizeBytes = 0;
     VkFormat texelFormat = VK_FORMAT_UNDEFINED;  // set it to read the buffer as a texel buffer
     bool indirect = false;
+    bool hostVisible = false;  // lies in memory that the CPU reads; for FrameGraph::readBack
 };
 
 struct HistoryBuffer {
@@ -236,6 +239,12 @@ class FrameGraph {
     void upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes);
     void copyImage(std::string_view name, ImageHandle from,
                    ImageHandle to);  // blit with nearest filter if sizes differ
+
+    // Copies a buffer to the CPU when the frame has run and returns what its copy held kFramesInFlight frames
+    // ago (the caller has waited for that one's work): nothing stalls. Empty as long as there is none.
+    // `names`: of the copies. The span is valid until execute().
+    std::span<const std::byte> readBack(const std::array<std::string_view, kFramesInFlight>& names,
+                                        BufferHandle buffer);
 
     // What the frame is for: must be current when it ends. An output image is left in `layout`.
     void output(ImageHandle image, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);

@@ -126,11 +126,16 @@ void FrameGraph::Impl::synchronize(VkCommandBuffer commands, const Pass& pass, P
 
 void FrameGraph::Impl::synchronizeOutputs(VkCommandBuffer commands) {
     for (Resource& r : resources) {
-        if (!r.isOutput || !r.isImage || r.kind == ResourceKind::kImport) continue;
+        if (!r.isOutput || r.kind == ResourceKind::kImport) continue;
         if (slots[r.slot].halves[r.half].version == 0) continue;
-        const Access access{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, 0,
-                            r.outputLayout};
-        addBarrier(r, access, false, nullptr);
+        if (r.isImage)
+            addBarrier(r,
+                       {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, 0, r.outputLayout},
+                       false, nullptr);
+        else if (r.buffer.hostVisible)
+            addBarrier(
+                r, {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED},
+                false, nullptr);
     }
     if (commands) flushBarriers(commands);
 }

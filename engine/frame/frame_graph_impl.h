@@ -103,7 +103,7 @@ struct Use {
     uint64_t versionAfter = 0;  // of a write
 };
 
-enum class PassKind : uint8_t { kCompute, kFullscreen, kRaster, kFill, kUpload, kCopyImage };
+enum class PassKind : uint8_t { kCompute, kFullscreen, kRaster, kFill, kUpload, kCopyImage, kCopyBuffer };
 
 struct Pass {
     std::string_view name, shader, vertexShader;

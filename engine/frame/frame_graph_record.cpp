@@ -185,6 +185,10 @@ void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass
         for (uint32_t at = 0; at < pass.dataSize; at += kMost)
             vkCmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), at,
                               std::min(kMost, pass.dataSize - at), data.data() + pass.dataOffset + at);
+    } else if (pass.kind == PassKind::kCopyBuffer) {
+        const gpu::Buffer& source = bufferOf(resources[usesOf(pass).front().resource]);
+        const VkBufferCopy region{.size = resources[to.resource].buffer.sizeBytes};
+        vkCmdCopyBuffer(commands, source.handle(), bufferOf(resources[to.resource]).handle(), 1, &region);
     } else {
         const gpu::Image& source = imageOf(resources[usesOf(pass).front().resource]);
         const gpu::Image& target = imageOf(resources[to.resource]);

@@ -24,6 +24,7 @@ gpu::ImageDesc descOf(const Slot& slot) {
 gpu::BufferDesc descOf(const Slot& slot, const BufferInfo& info) {
     return {.name = slot.name,
             .sizeBytes = std::max<uint64_t>(info.sizeBytes, 16),
+            .hostVisible = info.hostVisible,
             .indirect = info.indirect,
             .texelFormat = info.texelFormat};
 }

@@ -29,7 +29,13 @@ struct Lamp {             // 4 vec4; sorted by cluster
     float
         coneOffset;  // the share of the axial intensity is (dot(axis, to the light) + this)², within 0 and 1
     float clusterDistance;  // m from its cluster's centre
-    uint unused[3];
+    uvec2 id;               // of the light, low and high word
+    uint unused;
+};
+
+struct LampRelevance {
+    uvec2 id;
+    float relevance;  // W/m² without shadows, summed over channels and points of the view; 0: not a lamp
 };
 
 struct LampCluster {     // 4 vec4

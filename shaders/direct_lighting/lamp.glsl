@@ -1,12 +1,13 @@
-// A lamp in registers and what it sends to a place. Needs texel buffers `lamps` and `lists`.
+// A lamp in registers and what it sends to a place. Needs texel buffer `lamps`.
 #ifndef AG_LAMP_GLSL
 #define AG_LAMP_GLSL
 
 #include "direct_lighting/direct_lighting_io.h"
 
-Lamp fetchLamp(uint entry) {
-    int at = int(texelFetch(lists, int(entry)).x) * 4;
+Lamp lampAt(uint index) {
+    int at = int(index) * 4;
     vec4 a = texelFetch(lamps, at), b = texelFetch(lamps, at + 1), c = texelFetch(lamps, at + 2);
+    vec4 d = texelFetch(lamps, at + 3);
     Lamp lamp;
     lamp.position = a.xyz;
     lamp.inverseRange2 = a.w;
@@ -14,7 +15,8 @@ Lamp fetchLamp(uint entry) {
     lamp.cluster = floatBitsToUint(b.w);
     lamp.axis = c.xyz;
     lamp.coneOffset = c.w;
-    lamp.clusterDistance = texelFetch(lamps, at + 3).x;
+    lamp.clusterDistance = d.x;
+    lamp.id = floatBitsToUint(d.yz);
     return lamp;
 }
 

@@ -37,7 +37,7 @@ void main() {
     vec3 e = vec3(0.0), all = vec3(0.0);
     uint first = tile * kMaxLampsPerTile, end = first + counts.items[tile];
     for (uint i = first; i < end;) {
-        uint cluster = fetchLamp(i).cluster;
+        uint cluster = lampAt(texelFetch(lists, int(i)).x).cluster;
         float share = 1.0;
 #ifdef AG_SHADOW
         bool casts = cluster != kNoLampCluster;
@@ -45,7 +45,7 @@ void main() {
         share = casts ? share : 1.0;
 #endif
         for (; i < end; ++i) {
-            Lamp lamp = fetchLamp(i);
+            Lamp lamp = lampAt(texelFetch(lists, int(i)).x);
             if (lamp.cluster != cluster) break;
             float distance2;
             vec3 from = irradianceFrom(lamp, position, normal, distance2);

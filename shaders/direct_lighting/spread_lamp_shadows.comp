@@ -69,7 +69,7 @@ void main() {
     if (kLaneParallel) {
         for (uint base = first; base < end; base += kSubgroupSize) {
             uint entry = base + gl_SubgroupInvocationID;
-            Lamp mine = fetchLamp(min(entry, end - 1));
+            Lamp mine = lampAt(texelFetch(lists, int(min(entry, end - 1))).x);
             if (entry >= end) mine.intensity = vec3(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
                 Lamp lamp = lampOfLane(mine, lane);
@@ -79,7 +79,7 @@ void main() {
         }
     } else {
         for (uint entry = first; entry < end; ++entry) {
-            Lamp lamp = fetchLamp(entry);
+            Lamp lamp = lampAt(texelFetch(lists, int(entry)).x);
             [[unroll]] for (int p = 0; p < kPixels; ++p)
                 e[p] += irradianceFrom(lamp, r[p].position, r[p].normal, distance2);
         }

@@ -3,21 +3,14 @@
 #define AG_IMPORTANCE_IO_H
 
 #include "common/portable.h"
+#include "gbuffer/view_points_io.h"
 
 #ifdef __cplusplus
 namespace ag::io {
 #endif
 
 const uint kImportanceBlock = 4;      // texels along a block's side
-const uint kViewPointCount = 1024;    // G-buffer samples that stand for the view
-const uint kSeedingViewPoints = 256;  // of them for the view term of seeding (RSMC: 256)
-
-struct ViewPoint {  // 2 vec4
-    vec3 position;
-    float weight;  // 1, or 0 where the pixel shows no surface
-    vec3 normal;
-    float depth;  // reversed depth of the pixel, 0: sky
-};
+const uint kSeedingViewPoints = 256;  // for the view term of seeding (RSMC: 256)
 
 struct ImportanceSettings {  // push constants
     uvec2 atlasSize;         // texels

@@ -60,6 +60,32 @@ TEST(DeviceGraph, HistoriesCountTheirSteps) {
     EXPECT_EQ(frame(5, true), 1u);
 }
 
+TEST(DeviceGraph, WhatIsReadBackIsOfTwoFramesBefore) {
+    DeviceGraph g;
+    const auto frame = [&](uint32_t word) {
+        g.graph.beginFrame(g.options);
+        const BufferHandle b = g.graph.buffer("words", {.sizeBytes = 64});
+        g.graph.fill("fill", b, word);
+        const std::span<const std::byte> read = g.graph.readBack({"read0", "read1"}, b);
+        uint32_t got = 0;
+        if (!read.empty()) std::memcpy(&got, read.data() + 60, 4);
+        g.execute();
+        return got;
+    };
+    const auto outcome = [&] { return g.graph.report().back().outcome; };
+    EXPECT_EQ(frame(7), 0u) << "nothing yet";
+    EXPECT_EQ(frame(8), 0u);
+    EXPECT_EQ(frame(9), 7u);
+    EXPECT_EQ(frame(9), 8u);
+    EXPECT_EQ(outcome(), PassOutcome::kRan);
+    EXPECT_EQ(frame(9), 9u);
+    EXPECT_EQ(frame(9), 9u);
+    EXPECT_EQ(outcome(), PassOutcome::kSkipped) << "both copies hold it";
+    EXPECT_EQ(frame(5), 9u);
+    EXPECT_EQ(frame(5), 9u);
+    EXPECT_EQ(frame(5), 5u);
+}
+
 TEST(DeviceGraph, PassTimesArrive) {
     DeviceGraph g;
     g.options = {.skip = false};

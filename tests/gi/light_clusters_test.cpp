@@ -33,7 +33,7 @@ TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
     const RenderScene scene = sceneWithLamps(300);
     const LightClusterSettings s = published();
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, s, history);
+    const LightClusters& c = clusterLamps(scene, {}, s, history);
     ASSERT_GT(c.clusters.size(), 5u);
     EXPECT_EQ(c.stretch, 1);
     // First pass: in order, each lamp that keeps its distance from all centres before it.
@@ -67,7 +67,7 @@ TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
 TEST(LightClusters, LampsThatCannotReachTheViewAreLeftOut) {
     RenderScene scene = sceneWithLamps(300);
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, published(), history);
+    const LightClusters& c = clusterLamps(scene, {}, published(), history);
     std::set<uint32_t> seen(c.lamps.begin(), c.lamps.end());
     EXPECT_LT(seen.size(), 300u);
     // Every lamp with a point of its sphere in the view is there: corners of the view at many distances.
@@ -81,7 +81,7 @@ TEST(LightClusters, LampsThatCannotReachTheViewAreLeftOut) {
         }
     for (RenderLight& light : scene.lights)
         light.position.z += 100;
-    EXPECT_TRUE(clusterLamps(scene, published(), history).lamps.empty());
+    EXPECT_TRUE(clusterLamps(scene, {}, published(), history).lamps.empty());
     EXPECT_TRUE(history.clusters.clusters.empty());
 }
 
@@ -91,7 +91,7 @@ TEST(LightClusters, TheBudgetIsKeptByStretchingDistances) {
         LightClusterHistory history;
         LightClusterSettings s = published();
         s.most = most;
-        const LightClusters& c = clusterLamps(scene, s, history);
+        const LightClusters& c = clusterLamps(scene, {}, s, history);
         EXPECT_LE(c.clusters.size(), most);
         EXPECT_GE(c.clusters.size(), most - most / 4) << "little of the budget is left";
         EXPECT_GE(c.stretch, 1);
@@ -102,7 +102,7 @@ TEST(LightClusters, WithoutADistanceEachLampStandsForItself) {
     const RenderScene scene = sceneWithLamps(100);
     LightClusterHistory history;
     const LightClusters& c =
-        clusterLamps(scene, {.minDistance = 0, .growth = 0, .most = 256, .hysteresis = 1}, history);
+        clusterLamps(scene, {}, {.minDistance = 0, .growth = 0, .most = 256, .hysteresis = 1}, history);
     EXPECT_EQ(c.clusters.size(), c.lamps.size());
     for (const LightCluster& cluster : c.clusters) {
         EXPECT_EQ(cluster.lampCount, 1u);
@@ -120,7 +120,7 @@ int newCenters(const LightClusterSettings& settings) {
         const float t = float(step) / 120;
         setCamera(scene, {.position = {8 * t - 4, 2, 12 - 4 * t}, .forward = {0, 0, -1}, .verticalFov = 1},
                   {160, 90});
-        clusterLamps(scene, settings, history);
+        clusterLamps(scene, {}, settings, history);
         for (const uint64_t id : history.centers)
             fresh += step > 0 && !std::ranges::binary_search(before, id);
         before = history.centers;
@@ -143,14 +143,14 @@ TEST(LightClusters, NothingMovesNothingChanges) {
         LightClusterSettings s;
         s.most = most;
         LightClusterHistory history;
-        const std::vector<uint32_t> first = clusterLamps(scene, s, history).clusterOf;
+        const std::vector<uint32_t> first = clusterLamps(scene, {}, s, history).clusterOf;
         for (int i = 0; i < 5; ++i)
-            EXPECT_EQ(clusterLamps(scene, s, history).clusterOf, first);
+            EXPECT_EQ(clusterLamps(scene, {}, s, history).clusterOf, first);
         // A lamp that moves or a camera that turns is looked at again.
         const uint32_t seen = history.clusters.lamps[0];
         const glm::vec3 before = scene.lights[seen].position;
         scene.lights[seen].position += glm::vec3(0, 100, 0);
-        const LightClusters& moved = clusterLamps(scene, s, history);
+        const LightClusters& moved = clusterLamps(scene, {}, s, history);
         EXPECT_EQ(std::ranges::count(moved.lamps, seen), 0);
         scene.lights[seen].position = before;
     }
@@ -161,9 +161,33 @@ TEST(LightClusters, LampsWithoutShadowHaveNoCluster) {
     for (RenderLight& light : scene.lights)
         light.castsShadow = light.id % 2 == 0;
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, history);
+    const LightClusters& c = clusterLamps(scene, {}, {}, history);
     for (size_t i = 0; i < c.lamps.size(); ++i)
         EXPECT_EQ(c.clusterOf[i] == LightClusters::kNoCluster, !scene.lights[c.lamps[i]].castsShadow);
+}
+
+// Lamps that light nothing seen get no map, however strong they are.
+TEST(LightClusters, LampsThatMatterBecomeCentres) {
+    RenderScene scene = sceneWithLamps(60);
+    std::vector<io::LampRelevance> rows;
+    std::set<uint32_t> matter;
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const bool matters = i % 6 == 1;
+        if (matters) matter.insert(i);
+        scene.lights[i].range = 0;
+        scene.lights[i].intensity = glm::vec3(matters ? 1 : 100);
+        rows.push_back({.id = {uint32_t(scene.lights[i].id), 0}, .relevance = matters ? 5.0f : 1e-6f});
+    }
+    rows.push_back({.id = {7, 0}, .relevance = 0});  // no lamp
+    LampRelevance relevance;
+    relevance.set(std::as_bytes(std::span(rows)));
+    EXPECT_NEAR(relevance.mean(), 5.0 / 6, 0.01);
+    EXPECT_FALSE(relevance.of(1000).has_value());
+    LightClusterHistory history;
+    const LightClusters& c = clusterLamps(scene, relevance, {.most = 6}, history);
+    ASSERT_GE(c.clusters.size(), 4u);
+    for (const LightCluster& cluster : c.clusters)
+        EXPECT_TRUE(matter.contains(cluster.center)) << cluster.center;
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/lights.h"
 #include "common/sampling.h"
+#include "shaders/gbuffer/view_points_io.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
@@ -43,6 +45,8 @@ TEST(LampShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
     const auto kept = directBench(*scenegen::buildScene("lamps", 14)),
                anew = directBench(*scenegen::buildScene("lamps", 14));
     anew->options.skip = false;
+    for (Bench* b : {kept.get(), anew.get()})
+        b->settings.lightClusters = {.minDistance = 0, .growth = 0};  // a map each
     kept->frame();
     const PassReport* faces = passNamed(*kept, "lamp_shadows.faces");
     ASSERT_NE(faces, nullptr);
@@ -51,6 +55,7 @@ TEST(LampShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
     kept->frame();
     EXPECT_EQ(passNamed(*kept, "lamp_shadows.faces")->outcome, PassOutcome::kSkipped) << "nothing moves";
     const uint32_t crate = uint32_t(kept->scene.instances.size()) - 1;
+    anew->frame();
     anew->frame();
     for (int step = 0; step < 3; ++step) {
         moveInstance(*kept, crate, {0, 0, 0.2f});
@@ -78,6 +83,32 @@ TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
     }
     EXPECT_GT(mean, 0.1);
     EXPECT_LT(most, 0.01 * mean) << "half floats, summed in the same order";
+}
+
+// What is measured is the light of each lamp, shadows aside, at the points that stand for the view.
+TEST(LampRelevance, IsTheLightAtTheViewsPoints) {
+    const auto b = directBench(*scenegen::buildScene("lamps", 80));
+    b->output = [](FrameGraph& graph, const GiFrame& f) {
+        graph.output(f.direct.image);
+        graph.output(f.viewPoints);
+    };
+    b->frame();
+    LampRelevance relevance;
+    relevance.set(b->read<std::byte>(b->renderer.graph().findBuffer("lamp_relevance.relevance")));
+    const auto points = b->read<io::ViewPoint>(b->last.viewPoints);
+    uint32_t measured = 0;
+    for (const RenderLight& light : b->scene.lights) {
+        double sum = 0;
+        for (const io::ViewPoint& p : points) {
+            const glm::vec3 d = light.position - p.position;
+            const float distance = glm::length(d), cosine = std::max(glm::dot(p.normal, d / distance), 0.0f);
+            const float e = cosine / (distance * distance) * io::rangeWindow(distance, light.range);
+            sum += double(p.weight * e * (light.intensity.x + light.intensity.y + light.intensity.z));
+        }
+        if (const auto of = relevance.of(light.id)) EXPECT_NEAR(*of, sum, 1e-3 * sum + 1e-4);
+        measured += relevance.of(light.id).has_value();
+    }
+    EXPECT_GT(measured, 20u);
 }
 
 // With a map for each lamp only the pixels between differ from the reference, and only at shadows' edges.

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// 256 Halton-chosen surface points of the camera's view (RSMC section 4, view-dependent importance).
+// Halton-chosen surface points of the camera's view (RSMC section 4, view-dependent importance).
 #include "common/sampling.h"
-#include "importance/importance_io.h"
+#include "gbuffer/view_points_io.h"
 #include "scene/scene_io.h"
 
 layout(local_size_x = 64) in;

@@ -1,0 +1,42 @@
+#include "gi/lamp_relevance.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace ag::gi {
+
+std::optional<float> LampRelevance::of(uint64_t id) const {
+    const auto found = std::ranges::lower_bound(entries_, id, {}, &Entry::id);
+    if (found == entries_.end() || found->id != id) return std::nullopt;
+    return found->relevance;
+}
+
+void LampRelevance::set(std::span<const std::byte> rows) {
+    entries_.clear();
+    double sum = 0;
+    for (; rows.size() >= sizeof(io::LampRelevance); rows = rows.subspan(sizeof(io::LampRelevance))) {
+        io::LampRelevance row;
+        std::memcpy(&row, rows.data(), sizeof row);
+        if (row.relevance <= 0) continue;
+        entries_.push_back({uint64_t(row.id.y) << 32 | row.id.x, row.relevance});
+        sum += double(row.relevance);
+    }
+    mean_ = entries_.empty() ? 0 : float(sum / double(entries_.size()));
+    std::ranges::sort(entries_, {}, &Entry::id);
+}
+
+void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, BufferHandle lamps, uint32_t lampCount,
+                      LampRelevance& known) {
+    const auto rows = uint32_t(graph.info(lamps).sizeBytes / sizeof(io::Lamp));
+    const BufferHandle relevance =
+        graph.buffer("lamp_relevance.relevance", {.sizeBytes = rows * sizeof(io::LampRelevance)});
+    graph.compute("lamp_relevance.measure", "direct_lighting/measure_lamps.comp")
+        .read("lamps", lamps)
+        .read("viewPoints", viewPoints)
+        .write("relevance", relevance)
+        .push(io::LampPush{.lampCount = lampCount})
+        .dispatchGroups(rows);
+    known.set(graph.readBack({"lamp_relevance.read0", "lamp_relevance.read1"}, relevance));
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,38 @@
+// How much each lamp matters to what is seen, measured on the device at points of the view and read a few
+// frames later, without waiting: a lamp beyond a wall, however strong and near, needs no shadow map of its
+// own.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/frame/frame_graph.h"
+#include "shaders/direct_lighting/direct_lighting_io.h"
+
+namespace ag::gi {
+
+class LampRelevance {
+  public:
+    // Of a light by its id; none: it was not measured yet.
+    std::optional<float> of(uint64_t id) const;
+    float mean() const { return mean_; }
+    bool operator==(const LampRelevance&) const = default;
+
+    // What was read back; rows that are no lamps are left out.
+    void set(std::span<const std::byte> rows);
+
+  private:
+    struct Entry {
+        uint64_t id = 0;
+        float relevance = 0;
+        bool operator==(const Entry&) const = default;
+    };
+    std::vector<Entry> entries_;  // sorted by id
+    float mean_ = 0;
+};
+
+// Measures `lampCount` rows of `lamps` (io::Lamp) and updates `known` with what was measured earlier.
+void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, BufferHandle lamps, uint32_t lampCount,
+                      LampRelevance& known);
+
+}  // namespace ag::gi
