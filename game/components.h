@@ -19,6 +19,14 @@ struct Collider {           // an upright box the player walks round
     glm::vec2 halfSize{0};  // m, along x and z before turning
 };
 
+struct Flicker {             // of a light: another strength each turn, or none
+    glm::vec3 intensity{0};  // W/sr when it burns fully
+    float depth = 0;         // part of it that comes and goes, 0 to 1
+    float period = 1;        // s between turns
+    float off = 0;           // part of the turns in which it is off, 0 to 1
+    uint32_t seed = 0;       // no two alike
+};
+
 struct HandLamp {
     float yaw = 0, pitch = 0;  // rad, relative to the player's view
 };

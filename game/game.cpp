@@ -25,6 +25,9 @@ void addGameplay(World& world, const SceneAsset& asset, const std::vector<Entity
         const NodeExtras& extras = node.extras;
         if (node.name == "hand_lamp") world.add(entities[i], HandLamp{});
         if (extras.collider && node.mesh >= 0) world.add(entities[i], Collider{halfGround(asset, node)});
+        if (extras.flickerPeriod > 0 && node.light >= 0)
+            world.add(entities[i], Flicker{asset.lights[size_t(node.light)].intensity, extras.flickerDepth,
+                                           extras.flickerPeriod, extras.flickerOff, uint32_t(i)});
         if (extras.movePeriod > 0 || extras.spinSpeed != 0) {
             world.add(entities[i],
                       Mover{node.local.translation, extras.moveExtent, extras.movePeriod, extras.spinSpeed,

@@ -4,6 +4,7 @@
 
 #include "engine/scene/extract_system.h"
 #include "engine/scene/transform_system.h"
+#include "game/systems/flicker_lamps.h"
 #include "game/systems/move_boxes.h"
 #include "game/systems/walk_player.h"
 
@@ -13,6 +14,7 @@ Schedule makeSchedule() {
     Schedule s;
     // The world moves
     s.add("moveBoxes", moveBoxes);
+    s.add("flickerLamps", flickerLamps);
     s.add("walkPlayer", walkPlayer);
     s.add("aimLamp", aimLamp);
     s.add("followPlayer", followPlayer);

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
+#include <utility>
+
+#include "engine/core/log.h"
 
 namespace ag::gi {
 namespace {
@@ -31,6 +35,21 @@ void takeSeenLamps(const RenderScene& scene, LightClusters& out) {
             light.range <= 0 || sphereInView(scene.camera.clipFromWorld, light.position, light.range);
         if (reaches) out.lamps.push_back(i);
     }
+    if (out.lamps.size() <= kMostLamps) {
+        out.leftOut = 0;
+        return;
+    }
+    const uint32_t before = std::exchange(out.leftOut, uint32_t(out.lamps.size()) - kMostLamps);
+    if (before == 0)
+        spdlog::warn("{} lamps reach into view: {} of them, the brightest from here, are lit",
+                     out.lamps.size(), kMostLamps);
+    const auto brightness = [&](uint32_t i) {
+        const glm::vec3 d = scene.lights[i].position - scene.camera.position;
+        return strengthOf(scene.lights[i]) / std::max(glm::dot(d, d), 1.0f);
+    };
+    std::ranges::nth_element(out.lamps, out.lamps.begin() + kMostLamps, std::greater(), brightness);
+    out.lamps.resize(kMostLamps);
+    std::ranges::sort(out.lamps);
 }
 
 // The distance that centres keep from each lamp. Shadows from another place than the lamp's are wrong by an

@@ -11,6 +11,7 @@
 namespace ag::gi {
 
 constexpr uint32_t kMostLampClusters = 256;
+constexpr uint32_t kMostLamps = 16384;  // in view; of more the brightest as seen from the camera are taken
 
 struct LightClusterSettings {
     float minDistance = 0.5f;  // m between centres at the camera
@@ -32,7 +33,8 @@ struct LightClusters {
     std::vector<uint32_t> lamps;      // indices into the scene's lights: those that may light what is seen
     std::vector<uint32_t> clusterOf;  // parallel to `lamps`; kNoCluster: casts no shadow
     std::vector<LightCluster> clusters;
-    float stretch = 1;  // what the distances were multiplied by to keep to the budget
+    float stretch = 1;     // what the distances were multiplied by to keep to the budget
+    uint32_t leftOut = 0;  // lamps in view beyond kMostLamps
     static constexpr uint32_t kNoCluster = ~0u;
 };
 

@@ -24,6 +24,10 @@ struct WorldTransform {         // derived by the transform systems
 template <>
 inline constexpr bool kTrackRows<WorldTransform> = true;
 
+struct Name {  // as in the file, cut to fit; ends with a zero
+    char text[64] = {};
+};
+
 struct Parent {
     Entity entity;
 };

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/core/log.h"
+#include "engine/scene/light_check.h"
+
 namespace ag {
 namespace {
 
@@ -71,7 +74,16 @@ void extractInstances(InstanceView& instances, ExtractState& state, RenderScene&
     refreshBounds(scene);
 }
 
-void extractLights(LightRows& lights, Lookup<const BounceLight>& bounces, RenderScene& scene) {
+// Once for each light, not every frame.
+void warnOf(Entity entity, const char* wrong, Lookup<const Name>& names, ExtractState& state) {
+    if (std::ranges::find(state.warned, entity) != state.warned.end()) return;
+    state.warned.push_back(entity);
+    const Name* name = names(entity);
+    spdlog::warn("light '{}' {}", name ? name->text : "without a name", wrong);
+}
+
+void extractLights(LightRows& lights, Lookup<const BounceLight>& bounces, Lookup<const Name>& names,
+                   ExtractState& state, RenderScene& scene) {
     size_t count = 0;
     bool changed = false;
     lights.each([&](Entity entity, const WorldTransform& world, const PunctualLight& light) {
@@ -89,6 +101,7 @@ void extractLights(LightRows& lights, Lookup<const BounceLight>& bounces, Render
             out.rsmResolution = bounce->rsmResolution;
             out.budgetShare = bounce->budgetShare;
         }
+        if (const char* wrong = mendLight(out)) warnOf(entity, wrong, names, state);
         if (count == scene.lights.size()) scene.lights.emplace_back();
         changed = changed || !(scene.lights[count] == out);
         scene.lights[count++] = out;
@@ -101,8 +114,8 @@ void extractLights(LightRows& lights, Lookup<const BounceLight>& bounces, Render
 }  // namespace
 
 void extractScene(InstanceView instances, ChangedInstances changed, LightRows lights,
-                  Lookup<const BounceLight> bounces, Res<const ActiveCamera> camera, Res<ExtractState> state,
-                  Res<RenderScene> scene) {
+                  Lookup<const BounceLight> bounces, Lookup<const Name> names, Res<const ActiveCamera> camera,
+                  Res<ExtractState> state, Res<RenderScene> scene) {
     scene->changedInstances.clear();
     scene->allInstancesChanged = false;
     const bool moved = followCamera(*scene, *state, camera->pose.position);
@@ -110,7 +123,7 @@ void extractScene(InstanceView instances, ChangedInstances changed, LightRows li
     if (moved || changed.count() > 0 || rows != state->entityCount)
         extractInstances(instances, *state, *scene, moved);
     state->entityCount = rows;
-    extractLights(lights, bounces, *scene);
+    extractLights(lights, bounces, names, *state, *scene);
     setCamera(*scene, camera->pose, camera->size);
 }
 

@@ -14,11 +14,12 @@ struct ActiveCamera {  // resource: what the player looks through
     glm::uvec2 size{640, 360};  // pixels
 };
 
-struct ExtractState {          // resource: which entity each row stands for
-    std::vector<Entity> rows;  // entity of each instance row
-    std::vector<Entity> seen;  // scratch
-    uint32_t entityCount = 0;  // instances at the last look
-    bool placed = false;       // the origin was chosen
+struct ExtractState {            // resource: which entity each row stands for
+    std::vector<Entity> rows;    // entity of each instance row
+    std::vector<Entity> seen;    // scratch
+    uint32_t entityCount = 0;    // instances at the last look
+    bool placed = false;         // the origin was chosen
+    std::vector<Entity> warned;  // lights that something is wrong with
 };
 
 using InstanceView = View<const WorldTransform, const MeshInstance>;
@@ -26,7 +27,7 @@ using ChangedInstances = View<Changed<const WorldTransform>, const MeshInstance>
 using LightRows = View<const WorldTransform, const PunctualLight>;
 
 void extractScene(InstanceView instances, ChangedInstances changed, LightRows lights,
-                  Lookup<const BounceLight> bounces, Res<const ActiveCamera> camera, Res<ExtractState> state,
-                  Res<RenderScene> scene);
+                  Lookup<const BounceLight> bounces, Lookup<const Name> names, Res<const ActiveCamera> camera,
+                  Res<ExtractState> state, Res<RenderScene> scene);
 
 }  // namespace ag

@@ -116,6 +116,9 @@ tinygltf::Node nodeOf(const SceneNode& n) {
     if (e.collider) extras["collider"] = tinygltf::Value(true);
     if (e.movePeriod > 0) extras["movePeriod"] = number(double(e.movePeriod));
     if (e.spinSpeed != 0) extras["spinSpeed"] = number(double(e.spinSpeed));
+    if (e.flickerDepth > 0) extras["flickerDepth"] = number(double(e.flickerDepth));
+    if (e.flickerPeriod > 0) extras["flickerPeriod"] = number(double(e.flickerPeriod));
+    if (e.flickerOff > 0) extras["flickerOff"] = number(double(e.flickerOff));
     if (e.moveExtent != glm::vec3(0)) {
         tinygltf::Value::Array extent;
         for (int i = 0; i < 3; ++i)

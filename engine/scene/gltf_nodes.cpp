@@ -53,6 +53,9 @@ NodeExtras extrasOf(const tinygltf::Value& extras) {
             out.moveExtent[i] = float(extras.Get("moveExtent").Get(i).GetNumberAsDouble());
     out.movePeriod = float(numberOf(extras, "movePeriod", 0));
     out.spinSpeed = float(numberOf(extras, "spinSpeed", 0));
+    out.flickerDepth = std::clamp(float(numberOf(extras, "flickerDepth", 0)), 0.0f, 1.0f);
+    out.flickerPeriod = std::max(float(numberOf(extras, "flickerPeriod", 0)), 0.0f);
+    out.flickerOff = std::clamp(float(numberOf(extras, "flickerOff", 0)), 0.0f, 1.0f);
     return out;
 }
 

@@ -24,6 +24,10 @@ struct NodeExtras {
     glm::vec3 moveExtent{0};  // m: slides to and fro by this much
     float movePeriod = 0;     // s, 0: stands still
     float spinSpeed = 0;      // rad/s about +Y
+    // Of a light
+    float flickerDepth = 0;   // part of it that comes and goes, 0 to 1
+    float flickerPeriod = 0;  // s between turns, 0: burns steadily
+    float flickerOff = 0;     // part of the turns in which it is off, 0 to 1
 };
 
 struct SceneNode {

@@ -6,6 +6,7 @@
 #include "engine/scene/extract_system.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/support/allocation_counter.h"
+#include "tools/scenegen/scenes.h"
 
 namespace ag::game {
 namespace {
@@ -131,6 +132,32 @@ TEST(Replay, SurvivesAFileAndRefusesABrokenOne) {
             EXPECT_NE(broken.error().message.find("a.replay"), std::string::npos);
         }
     }
+}
+
+// Thousands of lamps as entities: some flicker, some go off, some swing; the same on any number of threads.
+TEST(Game, LampsFlickerSwingAndGoOut) {
+    const SceneAsset hall = *scenegen::buildScene("lamps", 2048);
+    Game a(hall, 1), b(hall, 2);
+    a.tick({}, kSize);
+    b.tick({}, kSize);
+    const std::vector<RenderLight> before = a.scene().lights;
+    for (int i = 0; i < 240; ++i) {
+        a.tick({}, kSize);
+        b.tick({}, kSize);
+    }
+    const std::vector<RenderLight>& lights = a.scene().lights;
+    EXPECT_EQ(lights, b.scene().lights);
+    ASSERT_EQ(lights.size(), before.size());
+    size_t changed = 0, out = 0, moved = 0;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        out += lights[i].intensity == glm::vec3(0);
+        changed += lights[i].intensity != before[i].intensity;
+        moved += lights[i].position != before[i].position;
+    }
+    EXPECT_GT(changed, lights.size() / 4);
+    EXPECT_LT(changed, lights.size() / 2);
+    EXPECT_GT(out, lights.size() / 100);
+    EXPECT_GT(moved, lights.size() / 10);
 }
 
 }  // namespace

@@ -190,5 +190,29 @@ TEST(LightClusters, LampsThatMatterBecomeCentres) {
         EXPECT_TRUE(matter.contains(cluster.center)) << cluster.center;
 }
 
+TEST(LightClusters, AHundredThousandLampsAreLimitedToTheBrightest) {
+    RenderScene scene = sceneWithLamps(100'000);
+    LightClusterHistory history;
+    const LightClusters& c = clusterLamps(scene, {}, {}, history);
+    EXPECT_EQ(c.lamps.size(), kMostLamps);
+    EXPECT_GT(c.leftOut, 50'000u);
+    EXPECT_LE(c.clusters.size(), LightClusterSettings{}.most);
+    const auto brightness = [&](uint32_t i) {
+        const float d = glm::distance(scene.lights[i].position, scene.camera.position);
+        return scene.lights[i].intensity.x / std::max(d * d, 1.0f);
+    };
+    float least = 1e30f, mostLeftOut = 0;
+    std::set<uint32_t> taken(c.lamps.begin(), c.lamps.end());
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const bool seen =
+            sphereInView(scene.camera.clipFromWorld, scene.lights[i].position, scene.lights[i].range);
+        if (taken.contains(i))
+            least = std::min(least, brightness(i));
+        else if (seen)
+            mostLeftOut = std::max(mostLeftOut, brightness(i));
+    }
+    EXPECT_GE(least, mostLeftOut);
+}
+
 }  // namespace
 }  // namespace ag::gi

@@ -152,6 +152,7 @@ TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
     const auto b = directBench(s.finish(), {128, 128});
     b->settings.lightClusters.most = 1;
     b->settings.lampLighting.softTaps = 32;
+    b->settings.lampLighting.shadowReach = 0;
     const Image shadowed = directImage(*b);
     for (RenderLight& light : b->scene.lights)
         light.castsShadow = false;
@@ -177,6 +178,43 @@ TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
     }
     std::printf("penumbra: mean difference from the disk's share %.3f\n", sum / count);
     EXPECT_LT(sum / count, 0.05);
+}
+
+// Mean change of the lit image from frame to frame along a walk, relative to its mean.
+double changeAlongAWalk(const char* preset, uint32_t clusters) {
+    const auto b = directBench(*scenegen::buildScene("lamps", 80));
+    EXPECT_TRUE(applyPreset(preset, b->settings));
+    b->settings.lightClusters.most = clusters;
+    CameraPose pose = cameraOf(b->asset, 0);
+    const glm::dvec3 way(0.06, 0, -0.01);  // m a frame
+    Image before;
+    double change = 0, mean = 0;
+    for (int step = 0; step < 64; ++step) {
+        setCamera(b->scene, pose, b->size);
+        pose.position += way;
+        const Image now = directImage(*b);
+        if (step < 4) {  // the lamps are measured by then
+            before = now;
+            continue;
+        }
+        for (size_t i = 0; i < now.pixels.size(); ++i) {
+            change += double(glm::length(now.pixels[i] - before.pixels[i]));
+            mean += double(glm::length(now.pixels[i]));
+        }
+        before = now;
+    }
+    return change / mean;
+}
+
+TEST(LampLighting, ClustersDoNotPopAlongAWalk) {
+    const double reference = changeAlongAWalk("lights-reference", kMostLampClusters);
+    for (const uint32_t clusters : {10u, 26u}) {
+        const double ours = changeAlongAWalk("afterglow-lights", clusters);
+        const double published = changeAlongAWalk("lightcluster", clusters);
+        std::printf("%u clusters: change a frame %.4f, published %.4f, a map each %.4f\n", clusters, ours,
+                    published, reference);
+        EXPECT_LT(ours, 1.1 * reference);
+    }
 }
 
 TEST(LampLighting, WithoutLampsNoPassRuns) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "common/false_color.h"
 #include "engine/scene/gltf_import.h"
 #include "tools/scenegen/builder.h"
@@ -126,7 +128,8 @@ SceneAsset corridor(uint32_t) {
 }
 
 // A columned hall, 24 x 5 x 16 m, under `param` lamps (default 14): points of light in a jittered grid, each
-// with its own colour and a range that lets about ten of them reach any place. Boxes move among the columns.
+// with its own colour and a range that lets about ten of them reach any place. Boxes move among the columns;
+// some lamps flicker, go on and off or swing.
 SceneAsset lamps(uint32_t param) {
     const uint32_t count = param ? param : 14;
     SceneBuilder b("lamps");
@@ -154,7 +157,13 @@ SceneAsset lamps(uint32_t param) {
         const glm::vec3 place((2 * at.x - 1) * (half.x - 0.6f), 1.6f + 2.6f * r1,
                               (2 * at.y - 1) * (half.z - 0.6f));
         const glm::vec3 tint = glm::mix(glm::vec3(1), io::hueFromIndex(i), 0.6f);
-        b.point("lamp", place, tint * (0.35f + 0.5f * r2) * spacing * spacing, range);
+        const uint32_t lamp =
+            b.point(fmt::format("lamp {}", i), place, tint * (0.35f + 0.5f * r2) * spacing * spacing, range);
+        NodeExtras& extras = b.node(lamp).extras;
+        if (i % 4 == 1) extras = {.flickerDepth = 0.5f, .flickerPeriod = 0.15f};  // a flame
+        if (i % 8 == 3)
+            extras = {.flickerDepth = 0.1f, .flickerPeriod = 2 + r1, .flickerOff = 0.3f};     // on and off
+        if (i % 8 == 6) extras = {.moveExtent = {0.4f, 0, 0.3f * r2}, .movePeriod = 4 + r1};  // swings
     }
     b.camera("camera", {-11, 2.4f, 6.6f}, {4, 1.2f, -2}, 60);
     return b.finish();

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/core/log.h"
+#include "engine/scene/light_check.h"
 #include "tools/scenegen/scenes.h"
 #include "tools/workbench/hang_lamps.h"
 #include "tools/workbench/scene_library.h"
@@ -168,6 +169,9 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     for (const Status& added :
          {addSuns(options, loaded.scene), addPoints(options, loaded.scene), addSpots(options, loaded.scene)})
         if (!added) return added.error();
+    for (RenderLight& light : loaded.scene.lights)
+        if (const char* wrong = mendLight(light))
+            return Error{fmt::format("a light of {} {}", options.scene, wrong)};
     if (const uint32_t hung = hangLamps(loaded.scene, options.lamps); hung < options.lamps)
         spdlog::warn("{} has free space for {} of {} lamps", options.scene, hung, options.lamps);
     if (loaded.scene.lights.empty() && !options.noSceneLights) {
