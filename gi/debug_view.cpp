@@ -27,6 +27,7 @@ constexpr std::array<LayerInfo, size_t(Layer::kCount)> kLayers = {{{"final", Sho
                                                                    {"importance", Show::kDisplay},
                                                                    {"clusters", Show::kDisplay},
                                                                    {"vals", Show::kDisplay},
+                                                                   {"lamp_clusters", Show::kDisplay},
                                                                    {"ism", Show::kDistance}}};
 
 ImageHandle layerImage(FrameGraph& graph, glm::uvec2 size) {
@@ -70,6 +71,18 @@ ImageHandle addVals(FrameGraph& graph, const SceneView& scene, const GiFrame& f)
         .sample("normalMap", f.gbuffer.normal)
         .read("camera", scene.camera)
         .push(f.vals.count)
+        .colorClear(out, glm::vec4(0));
+    return out;
+}
+
+ImageHandle addLampClusters(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
+    const ImageHandle out = layerImage(graph, scene.size);
+    graph.fullscreen("debug_view.lamp_clusters", "debug_view/lamp_clusters.frag")
+        .read("lamps", f.lampLists.lamps)
+        .sample("depthMap", f.gbuffer.depth)
+        .sample("normalMap", f.gbuffer.normal)
+        .read("camera", scene.camera)
+        .push(f.lampLists.lampCount)
         .colorClear(out, glm::vec4(0));
     return out;
 }
@@ -149,6 +162,8 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
             return lit ? addClusters(graph, scene, f) : ImageHandle{};
         case Layer::kVals:
             return lit ? addVals(graph, scene, f) : ImageHandle{};
+        case Layer::kLampClusters:
+            return f.lampLists.lamps ? addLampClusters(graph, scene, f) : ImageHandle{};
         case Layer::kIsm:
             return f.isms.planes ? addIsmView(graph, f.isms) : ImageHandle{};
         case Layer::kCount:

@@ -21,9 +21,10 @@ enum class Layer : uint32_t {
     kDepth,  // m along the camera's axis
     kRsm,    // radiosity over the light maps, W/m²
     kImportance,
-    kClusters,  // Voronoi colours over the scene
-    kVals,      // area lights drawn as polygons over the scene
-    kIsm,       // imperfect shadow maps side by side, m
+    kClusters,      // Voronoi colours over the scene
+    kVals,          // area lights drawn as polygons over the scene
+    kLampClusters,  // lamps and what they light in the colours of shared shadow maps
+    kIsm,           // imperfect shadow maps side by side, m
     kCount
 };
 

@@ -17,7 +17,8 @@ struct GiHistory {
     ValClusteringHistory valClustering;
     LightClusterHistory lightClusters;
     LampShadowHistory lampShadows;
-    LampLightingHistory lampLighting;
+    LampListsHistory lampLists;
+    LampRelevance lampRelevance;
 };
 
 // Everything the frame made: for composition, debug views, tests and captures.
@@ -32,6 +33,7 @@ struct GiFrame {
     IsmAtlas isms;
     ShadowMaps shadows;
     LampShadows lampShadows;
+    LampLists lampLists;
     Irradiance direct, bounce1;
     GiOutputs outputs;
 };

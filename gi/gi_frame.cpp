@@ -35,10 +35,11 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);
     f.direct = addSunLighting(graph, scene, f.gbuffer, f.shadows);
     const LightClusters& lamps =
-        clusterLamps(*scene.scene, h.lampLighting.relevance, s.lightClusters, h.lightClusters);
+        clusterLamps(*scene.scene, h.lampRelevance, s.lightClusters, h.lightClusters);
     f.lampShadows = addLampShadows(graph, scene, lamps, s.lightClusters.most, s.lampShadows, h.lampShadows);
-    f.direct = addLampLighting(graph, scene, f.gbuffer, f.viewPoints, lamps, f.lampShadows, f.direct,
-                               s.lampLighting, h.lampLighting);
+    f.lampLists = addLampLists(graph, scene, f.gbuffer, lamps, s.lampLighting.tiles, h.lampLists);
+    f.direct = addLampLighting(graph, scene, f.gbuffer, f.lampLists, f.lampShadows, f.direct, s.lampLighting);
+    addLampRelevance(graph, f.viewPoints, f.lampLists, h.lampRelevance);
 
     // To the eye
     f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);

@@ -1,15 +1,13 @@
-// Irradiance straight from spots and points, however many: tiles of the screen list the lamps that reach
-// them, and a cluster's visibility is found once a pixel for all of its lamps (LightCluster). Differences: no
-// pixel meets lamps out of reach; instead of an image of each cluster's visibility two images for all keep
-// what arrives and what would without shadows, at a pixel of each 2 x 2; shadows come from the centre instead
-// of a disk (PCSS), and lamps far from it as seen from the receiver have less of them.
+// Irradiance straight from spots and points, however many: by tiles of the screen with lists of the lamps
+// that reach them, where a cluster's visibility is found once a pixel for all of its lamps (LightCluster).
+// Differences: no pixel meets lamps out of reach; instead of an image of each cluster's visibility two images
+// for all keep what arrives and what would without shadows, at a pixel of each 2 x 2; shadows come from the
+// centre instead of a disk (PCSS), and lamps far from it as seen from the receiver have less of them.
 #pragma once
 
-#include "gi/gbuffer.h"
-#include "gi/lamp_relevance.h"
+#include "gi/lamp_lists.h"
 #include "gi/lamp_shadows.h"
 #include "gi/val_shading.h"
-#include "shaders/direct_lighting/direct_lighting_io.h"
 
 namespace ag::gi {
 
@@ -22,17 +20,9 @@ struct LampLightingSettings {
     float shadowReach = 4;
 };
 
-struct LampLightingHistory {  // scratch, so that a steady frame allocates nothing
-    std::vector<io::Lamp> lamps;
-    std::vector<uint32_t> order;
-    LampRelevance relevance;  // outlives the frame
-};
-
-// Adds to `before`, or starts anew where that has no image. Measures the lamps at the view points for
-// clustering to come.
+// Adds to `before`, or starts anew where that has no image.
 Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                           BufferHandle viewPoints, const LightClusters& clusters, const LampShadows& shadows,
-                           Irradiance before, const LampLightingSettings& settings,
-                           LampLightingHistory& history);
+                           const LampLists& lists, const LampShadows& shadows, Irradiance before,
+                           const LampLightingSettings& settings);
 
 }  // namespace ag::gi

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "gi/lamp_lists.h"
+
 namespace ag::gi {
 
 std::optional<float> LampRelevance::of(uint64_t id) const {
@@ -25,16 +27,17 @@ void LampRelevance::set(std::span<const std::byte> rows) {
     std::ranges::sort(entries_, {}, &Entry::id);
 }
 
-void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, BufferHandle lamps, uint32_t lampCount,
+void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, const LampLists& lamps,
                       LampRelevance& known) {
-    const auto rows = uint32_t(graph.info(lamps).sizeBytes / sizeof(io::Lamp));
+    if (!lamps.lamps) return;
+    const auto rows = uint32_t(graph.info(lamps.lamps).sizeBytes / sizeof(io::Lamp));
     const BufferHandle relevance =
         graph.buffer("lamp_relevance.relevance", {.sizeBytes = rows * sizeof(io::LampRelevance)});
     graph.compute("lamp_relevance.measure", "direct_lighting/measure_lamps.comp")
-        .read("lamps", lamps)
+        .read("lamps", lamps.lamps)
         .read("viewPoints", viewPoints)
         .write("relevance", relevance)
-        .push(io::LampPush{.lampCount = lampCount})
+        .push(io::LampPush{.lampCount = lamps.lampCount})
         .dispatchGroups(rows);
     known.set(graph.readBack({"lamp_relevance.read0", "lamp_relevance.read1"}, relevance));
 }

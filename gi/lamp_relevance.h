@@ -11,6 +11,8 @@
 
 namespace ag::gi {
 
+struct LampLists;
+
 class LampRelevance {
   public:
     // Of a light by its id; none: it was not measured yet.
@@ -31,8 +33,8 @@ class LampRelevance {
     float mean_ = 0;
 };
 
-// Measures `lampCount` rows of `lamps` (io::Lamp) and updates `known` with what was measured earlier.
-void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, BufferHandle lamps, uint32_t lampCount,
+// Measures the lamps and updates `known` with what was measured two frames ago.
+void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, const LampLists& lamps,
                       LampRelevance& known);
 
 }  // namespace ag::gi
