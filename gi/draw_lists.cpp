@@ -24,13 +24,14 @@ Bounds transformed(const Bounds& local, const glm::mat4x3& m) {
     return {c - h, c + h};
 }
 
-// Left, right, bottom, top and near plane of a reversed-depth clip matrix; far is infinite or never decisive.
-std::array<glm::vec4, 5> frustumPlanes(const glm::mat4& m) {
+// Left, right, bottom, top, near and far plane of a reversed-depth clip matrix; with an infinite far plane nothing
+// is beyond it.
+std::array<glm::vec4, 6> frustumPlanes(const glm::mat4& m) {
     const glm::mat4 t = glm::transpose(m);
-    return {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2]};
+    return {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2], t[2]};
 }
 
-bool outside(const Bounds& b, const std::array<glm::vec4, 5>& planes) {
+bool outside(const Bounds& b, const std::array<glm::vec4, 6>& planes) {
     for (const glm::vec4& p : planes) {
         const glm::vec3 far = {p.x > 0 ? b.max.x : b.min.x, p.y > 0 ? b.max.y : b.min.y,
                                p.z > 0 ? b.max.z : b.min.z};

@@ -43,7 +43,7 @@ LampQuads addLampQuads(FrameGraph& graph, const SceneView& scene, const GBuffer&
     bindShadows(pass, shadows, settings);
     pass.write("shadowed", quads.shadowed)
         .write("unshadowed", quads.unshadowed)
-        .dispatchGroups(l.tiles.x, l.tiles.y);
+        .dispatchGroups(l.tiles.x * l.tiles.y);
     return quads;
 }
 
@@ -67,12 +67,8 @@ Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuf
                                                 : "direct_lighting/shade_lamps_unshadowed.comp",
                                      scene, gbuffer, lists);
     shade.spec(0, !before.image);
-    if (quads)
-        shade.sample("shadowed", from.shadowed)
-            .sample("unshadowed", from.unshadowed)
-            .dispatchGroups(lists.tiles.x * lists.tiles.y);
-    else
-        shade.dispatchGroups(lists.tiles.x, lists.tiles.y);
+    shade.dispatchGroups(lists.tiles.x * lists.tiles.y);
+    if (quads) shade.sample("shadowed", from.shadowed).sample("unshadowed", from.unshadowed);
     if (shadowed && !quads) bindShadows(shade, shadows, settings);
     if (before.image)
         shade.readWrite("irradiance", result.image);

@@ -1,9 +1,11 @@
 #include "gi/lamp_relevance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "gi/lamp_lists.h"
+#include "shaders/gbuffer/view_points_io.h"
 
 namespace ag::gi {
 
@@ -27,6 +29,15 @@ void LampRelevance::set(std::span<const std::byte> rows) {
     std::ranges::sort(entries_, {}, &Entry::id);
 }
 
+namespace {
+
+// Half a million pairs of lamp and point at most, so that thousands of lamps cost what hundreds do.
+uint32_t pointsFor(uint32_t lampCount) {
+    return std::clamp((1u << 19) / std::bit_ceil(std::max(lampCount, 1u)), 64u, io::kViewPointCount);
+}
+
+}  // namespace
+
 void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, const LampLists& lamps,
                       LampRelevance& known) {
     if (!lamps.lamps) return;
@@ -37,7 +48,7 @@ void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, const LampList
         .read("lamps", lamps.lamps)
         .read("viewPoints", viewPoints)
         .write("relevance", relevance)
-        .push(io::LampPush{.lampCount = lamps.lampCount})
+        .push(io::MeasurePush{.lampCount = lamps.lampCount, .pointCount = pointsFor(lamps.lampCount)})
         .dispatchGroups(rows);
     known.set(graph.readBack({"lamp_relevance.read0", "lamp_relevance.read1"}, relevance));
 }

@@ -58,9 +58,9 @@ io::LampCluster rowOf(const RenderScene& scene, const LightCluster& cluster, con
                       uint32_t place, const LampShadowSettings& s) {
     const RenderLight& light = scene.lights[cluster.center];
     const bool spot = isSpotCluster(scene, cluster);
-    // All of the cluster's lamps see by this map, so it reaches as far as any of them may.
+    // All of the cluster's lamps see by this map.
     RenderLight farthest = light;
-    if (cluster.lampCount > 1) farthest.range = 0;
+    farthest.range = cluster.reach;
     return {.center = light.position,
             .radius = cluster.radius,
             .direction = spot ? light.direction : glm::vec3(0),

@@ -139,6 +139,8 @@ void assignLamps(const RenderScene& scene, LightClusters& c) {
         if (c.clusterOf[i] == LightClusters::kNoCluster) continue;
         LightCluster& cluster = c.clusters[c.clusterOf[i]];
         cluster.radius = std::max(cluster.radius, best);
+        const bool limited = light.range > 0 && (cluster.reach > 0 || cluster.lampCount == 0);
+        cluster.reach = limited ? std::max(cluster.reach, best + light.range) : 0;
         ++cluster.lampCount;
     }
 }

@@ -26,6 +26,7 @@ struct LightClusterSettings {
 struct LightCluster {
     uint32_t center = 0;  // index into the scene's lights
     float radius = 0;     // m: of its farthest lamp from the centre, the size of the light its shadows have
+    float reach = 0;  // m from the centre, that light of its lamps may go; 0: without limit
     uint32_t lampCount = 0;
 };
 

@@ -54,6 +54,10 @@ struct LampPush {
     uint lampCount;
 };
 
+struct MeasurePush {
+    uint lampCount, pointCount;  // of the view's points, the first so many
+};
+
 #ifdef __cplusplus
 }  // namespace ag::io
 #endif

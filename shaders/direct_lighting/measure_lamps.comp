@@ -8,7 +8,7 @@
 #include "gbuffer/view_points_io.h"
 
 layout(local_size_x_id = 100) in;
-layout(push_constant, scalar) uniform Push { LampPush p; } push;
+layout(push_constant, scalar) uniform Push { MeasurePush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer lamps;
 #include "direct_lighting/lamp.glsl"
@@ -20,7 +20,7 @@ void main() {
     bool isLamp = index < push.p.lampCount;
     Lamp lamp = lampAt(isLamp ? index : 0);
     float sum = 0.0;
-    uint count = isLamp ? kViewPointCount : 0;
+    uint count = isLamp ? push.p.pointCount : 0;
     for (uint i = gl_SubgroupInvocationID; i < count; i += kSubgroupSize) {
         vec4 place = texelFetch(viewPoints, int(2 * i)), normal = texelFetch(viewPoints, int(2 * i + 1));
         float distance2;

@@ -1,5 +1,6 @@
 // Irradiance straight from a tile's lamps. They come sorted by cluster, so that each cluster's visibility is found once a
-// pixel for all of its lamps. AG_QUADS: for one pixel in each 2 x 2, and beside it what arrived if nothing cast shadows.
+// pixel for all of its lamps. Four pixels an invocation share the loads. AG_QUADS: for one pixel in each 2 x 2, and
+// beside it what arrived if nothing cast shadows.
 #include "gbuffer/gbuffer.glsl"
 
 layout(constant_id = 0) const bool kFirst = true;  // starts from zero instead of adding
@@ -13,12 +14,12 @@ layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants ca
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
 #ifdef AG_QUADS
 const uint kStep = 2;
-layout(local_size_x = 8, local_size_y = 8) in;  // one tile
+layout(local_size_x = 16) in;  // one tile
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D shadowed;
 layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D unshadowed;
 #else
 const uint kStep = 1;
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 64) in;
 layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
 #endif
 #ifdef AG_SHADOW
@@ -27,40 +28,81 @@ layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
 #include "direct_lighting/lamp_shadow.glsl"
 #endif
 
-void main() {
+const int kPixels = 4;
+
+struct Receiver {
+    vec3 position, normal;
+    float depth;
+};
+
+Receiver receiverAt(uvec2 at) {
     uvec2 size = camera.camera.size;
-    ivec2 pixel = min(ivec2(gl_GlobalInvocationID.xy * kStep), ivec2(size) - 1);
-    uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    float depth = texelFetch(depthMap, pixel, 0).x;
-    vec3 position = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
-    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
-    vec3 e = vec3(0.0), all = vec3(0.0);
+    ivec2 pixel = ivec2(min(at, size - 1));
+    Receiver r;
+    r.depth = texelFetch(depthMap, pixel, 0).x;
+    r.position = worldFromPixel(camera.camera.worldFromClip, size, pixel, r.depth);
+    r.normal = texelFetch(normalMap, pixel, 0).xyz;
+    return r;
+}
+
+uint lampIndex(uint entry) { return texelFetch(lists, int(entry)).x; }
+
+// Of a cluster, for each pixel. A loop, so that what is long is there once.
+vec4 clusterShares(uint cluster, Receiver r[kPixels]) {
+    vec4 shares = vec4(1.0);
+#ifdef AG_SHADOW
+    bool casts = cluster != kNoLampCluster;
+    int count = casts ? kPixels : 0;
+    [[dont_unroll]] for (int p = 0; p < count; ++p) {
+        vec3 position = r[0].position, normal = r[0].normal;
+        [[unroll]] for (int q = 1; q < kPixels; ++q) {
+            position = p == q ? r[q].position : position;
+            normal = p == q ? r[q].normal : normal;
+        }
+        float share = clusterShare(casts ? cluster : 0u, position, normal);
+        [[unroll]] for (int q = 0; q < kPixels; ++q) shares[q] = casts && p == q ? share : shares[q];
+    }
+#endif
+    return shares;
+}
+
+void main() {
+    uvec2 size = camera.camera.size, tiles = (size + kLampTileSize - 1) / kLampTileSize;
+    uint tile = gl_WorkGroupID.x, block = gl_LocalInvocationID.x;
+    const uint kSide = kLampTileSize / kStep / 2;  // blocks of 2 x 2 along a tile
+    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * (kLampTileSize / kStep) + 2 * uvec2(block % kSide, block / kSide);
+    Receiver r[kPixels];
+    vec3 e[kPixels], all[kPixels];
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        r[p] = receiverAt((origin + uvec2(p & 1, p >> 1)) * kStep);
+        e[p] = all[p] = vec3(0.0);
+    }
     uint first = tile * kMaxLampsPerTile, end = first + counts.items[tile];
     for (uint i = first; i < end;) {
-        uint cluster = lampAt(texelFetch(lists, int(i)).x).cluster;
-        float share = 1.0;
-#ifdef AG_SHADOW
-        bool casts = cluster != kNoLampCluster;
-        share = clusterShare(casts ? cluster : 0u, position, normal);
-        share = casts ? share : 1.0;
-#endif
+        uint cluster = lampAt(lampIndex(i)).cluster;
+        vec4 shares = clusterShares(cluster, r);
         for (; i < end; ++i) {
-            Lamp lamp = lampAt(texelFetch(lists, int(i)).x);
+            Lamp lamp = lampAt(lampIndex(i));
             if (lamp.cluster != cluster) break;
-            float distance2;
-            vec3 from = irradianceFrom(lamp, position, normal, distance2);
-            all += from;
-            e += (1.0 - (1.0 - share) * shadowWeight(lamp, distance2, kShadowReach)) * from;
+            [[unroll]] for (int p = 0; p < kPixels; ++p) {
+                float distance2;
+                vec3 from = irradianceFrom(lamp, r[p].position, r[p].normal, distance2);
+                all[p] += from;
+                e[p] += (1.0 - (1.0 - shares[p]) * shadowWeight(lamp, distance2, kShadowReach)) * from;
+            }
         }
     }
-    if (depth <= 0.0) e = all = vec3(0.0);
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 at = ivec2(origin + uvec2(p & 1, p >> 1));
+        if (any(greaterThanEqual(at * int(kStep), ivec2(size)))) continue;
+        bool there = r[p].depth > 0.0;
 #ifdef AG_QUADS
-    if (any(greaterThanEqual(gl_GlobalInvocationID.xy * kStep, size))) return;
-    imageStore(shadowed, ivec2(gl_GlobalInvocationID.xy), vec4(e, 1.0));
-    imageStore(unshadowed, ivec2(gl_GlobalInvocationID.xy), vec4(all, 1.0));
+        imageStore(shadowed, at, vec4(there ? e[p] : vec3(0.0), 1.0));
+        imageStore(unshadowed, at, vec4(there ? all[p] : vec3(0.0), 1.0));
 #else
-    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, size))) return;
-    if (!kFirst) e += imageLoad(irradiance, pixel).rgb;
-    imageStore(irradiance, pixel, vec4(e, 1.0));
+        vec3 sum = there ? e[p] : vec3(0.0);
+        if (!kFirst) sum += imageLoad(irradiance, at).rgb;
+        imageStore(irradiance, at, vec4(sum, 1.0));
 #endif
+    }
 }
