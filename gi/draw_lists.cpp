@@ -24,8 +24,8 @@ Bounds transformed(const Bounds& local, const glm::mat4x3& m) {
     return {c - h, c + h};
 }
 
-// Left, right, bottom, top, near and far plane of a reversed-depth clip matrix; with an infinite far plane nothing
-// is beyond it.
+// Left, right, bottom, top, near and far plane of a reversed-depth clip matrix; with an infinite far plane
+// nothing is beyond it.
 std::array<glm::vec4, 6> frustumPlanes(const glm::mat4& m) {
     const glm::mat4 t = glm::transpose(m);
     return {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2], t[2]};

@@ -83,14 +83,16 @@ void setLightsReference(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kNone;
     gi.lightClusters = {
         .minDistance = 0, .growth = 0, .most = kMostLampClusters, .strongFirst = false, .hysteresis = 1};
-    gi.lampLighting = {.tiles = false, .quads = false, .softTaps = 12, .shadowReach = 0};
+    gi.lampLighting = {.tiles = false, .quads = false, .shadowReach = 0};
 }
 
 void setLightCluster(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kNone;
     gi.lightClusters.strongFirst = false;
     gi.lightClusters.hysteresis = 1;
-    gi.lampLighting = {.tiles = false, .quads = false, .softTaps = 12, .shadowReach = 0};
+    gi.lightClusters.shareWithin = 0;
+    gi.lampShadows.softTaps = 12;
+    gi.lampLighting = {.tiles = false, .quads = false, .shadowReach = 0};
 }
 
 void setAfterglowLights(GiSettings& gi) {
@@ -235,21 +237,24 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.lightClusters.strongFirst);
     s.add({"light_clusters", "hysteresis", 0, 1, "", "part of the distance that a centre of before needs"},
           &gi.lightClusters.hysteresis);
+    s.add({"light_clusters", "share_within", 0, 100, "",
+           "part of its range that a lamp may be from the centre whose shadow it shares; 0: no limit"},
+          &gi.lightClusters.shareWithin);
     s.add({"lamp_shadows", "face_resolution", 16, 2048, "texels",
            "side of a cube's face, at most; a spot's map has twice"},
           &gi.lampShadows.faceResolution);
     s.add({"lamp_shadows", "atlas_size", 256, 16384, "texels", "side of the atlas"},
           &gi.lampShadows.atlasSize);
     s.add({"lamp_shadows", "near", 0.001, 1, "m", "near plane of the views"}, &gi.lampShadows.nearDistance);
+    s.add({"lamp_shadows", "soft_taps", 0, 64, "taps",
+           "of a disk as large as a cluster, for its shadow; 0: from its centre"},
+          &gi.lampShadows.softTaps);
     s.add({"lamp_lighting", "tiles", 0, 0, "", "pixels meet only lamps that reach their tile"},
           &gi.lampLighting.tiles);
     s.add({"lamp_lighting", "shadow_reach", 0, 100, "",
            "times a lamp's distance from its cluster's centre, from where on it has all of its shadow"},
           &gi.lampLighting.shadowReach);
     s.add({"lamp_lighting", "quads", 0, 0, "", "shadows at one pixel of each 2 x 2"}, &gi.lampLighting.quads);
-    s.add({"lamp_lighting", "soft_taps", 0, 64, "taps",
-           "of a disk as large as a cluster, for its shadow; 0: from its centre"},
-          &gi.lampLighting.softTaps);
     s.add({"composite", "exposure", -20, 20, "stops", "of the display image"}, &gi.composite.exposure);
     s.add({"composite", "tonemap", 0, 0, "", "curve of the display image", {"none", "reinhard", "aces"}},
           &gi.composite.tonemap);

@@ -25,7 +25,7 @@ PassBuilder beginShading(FrameGraph& graph, std::string_view name, std::string_v
 void bindShadows(PassBuilder& pass, const LampShadows& shadows, const LampLightingSettings& settings) {
     pass.read("clusters", shadows.clusters)
         .sample("shadowAtlas", shadows.atlas)
-        .spec(1, settings.softTaps)
+        .spec(1, shadows.softTaps)
         .spec(2, std::bit_cast<uint32_t>(settings.shadowReach));
 }
 

@@ -12,9 +12,8 @@
 namespace ag::gi {
 
 struct LampLightingSettings {
-    bool tiles = true;      // off: every pixel meets all lamps in view
-    bool quads = true;      // shadows at one pixel of each 2 x 2, the others take their neighbours' share
-    uint32_t softTaps = 0;  // of the disk that a cluster's shadow comes from; 0: from the centre
+    bool tiles = true;  // off: every pixel meets all lamps in view
+    bool quads = true;  // shadows at one pixel of each 2 x 2, the others take their neighbours' share
     // A lamp has all of its cluster's shadow where it is so many times farther off than from the centre,
     // nearer by in proportion less. 0: everywhere, as published.
     float shadowReach = 4;

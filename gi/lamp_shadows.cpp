@@ -71,14 +71,20 @@ io::LampCluster rowOf(const RenderScene& scene, const LightCluster& cluster, con
             .farDistance = farDistanceOf(farthest, scene.bounds)};
 }
 
+// What the camera sees of the scene; its frustum has no end.
+Frustum seenPart(const RenderScene& scene) {
+    const glm::vec3 far = glm::max(glm::abs(scene.bounds.min - scene.camera.position),
+                                   glm::abs(scene.bounds.max - scene.camera.position));
+    return frustumOf(scene.camera.clipFromWorld, scene.camera.near / std::max(glm::length(far), 1.0f));
+}
+
 PassBuilder beginFaces(FrameGraph& graph, const SceneView& scene, ImageHandle atlas) {
     // Masked surfaces need their textures, and then all are drawn with them.
     const bool masked = hasMasked(scene);
-    PassBuilder pass =
-        masked
-            ? graph.raster("lamp_shadows.faces", "shadow_maps/masked.vert", "shadow_maps/masked.frag",
-                           gpu::VertexLayout::kPositionsAndAttributes)
-            : graph.raster("lamp_shadows.faces", "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
+    PassBuilder pass = masked ? graph.raster("lamp_shadows.faces", "shadow_maps/masked.vert",
+                                             "shadow_maps/masked.frag", gpu::VertexLayout::kPositionsAndUvs)
+                              : graph.raster("lamp_shadows.faces", "shadow_maps/depth.vert", "",
+                                             gpu::VertexLayout::kPositions);
     pass.depthPatches(atlas).geometry(scene.geometry).read("instances", scene.instances);
     if (masked) bindMaterials(pass, scene);
     return pass;
@@ -102,9 +108,14 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
     assignPlaces(s, clusters, places.count, history);
     LampShadows shadows{
         .atlas = graph.image("lamp_shadows.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()}),
+        .softTaps = settings.softTaps,
         .places = places.count};
     history.rows.clear();
     PassBuilder pass = beginFaces(graph, scene, shadows.atlas);
+    // A point's shadow at what the camera sees is in faces whose view meets the camera's; a disk's taps may
+    // leave them.
+    const bool onlySeen = settings.softTaps == 0;
+    const Frustum seen = seenPart(s);
     const DrawFilter filter = hasMasked(scene) ? DrawFilter::kAll : DrawFilter::kOpaqueOnly;
     for (size_t i = 0; i < clusters.clusters.size(); ++i) {
         const uint32_t place = history.places[i];
@@ -116,6 +127,7 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
                 (spot ? spotView(s.lights[clusters.clusters[i].center], row.nearDistance, row.farDistance)
                       : cubeFaceView(row.center, face, row.nearDistance, row.farDistance))
                     .clipFromWorld;
+            if (onlySeen && !mayMeet(seen, frustumOf(clipFromWorld))) continue;
             const glm::uvec4 rect(row.origin + glm::uvec2(face % 3, face / 3) * row.size, row.size, row.size);
             pass.patch(rect);
             drawView(pass, scene, scene.draws->cull(s, firstSlot + place * kFaces + face, clipFromWorld),

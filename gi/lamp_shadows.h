@@ -13,6 +13,7 @@ struct LampShadowSettings {
     uint32_t faceResolution = 512;  // texels along a cube face's side, at most; smaller for many clusters
     uint32_t atlasSize = 4096;      // texels along the atlas's side
     float nearDistance = 0.02f;     // m
+    uint32_t softTaps = 0;  // of the disk as large as a cluster that its shadow comes from; 0: its centre
 };
 
 struct LampShadowHistory {
@@ -24,7 +25,8 @@ struct LampShadowHistory {
 struct LampShadows {
     ImageHandle atlas;      // D32; invalid: no lamp casts shadows
     BufferHandle clusters;  // io::LampCluster; also a texel buffer of vec4
-    uint32_t places = 0;    // of clusters that may come to need one; steadier than how many do
+    uint32_t softTaps = 0;
+    uint32_t places = 0;  // of clusters that may come to need one; steadier than how many do
 };
 
 LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const LightClusters& clusters,

@@ -14,6 +14,7 @@ namespace ag::gi {
 namespace {
 
 constexpr int kBudgetRounds = 24;
+constexpr float kLeastWeight = 1e-3f;  // of the mean: lamps that add less need no shadow
 
 float strengthOf(const RenderLight& light) {
     return (light.intensity.x + light.intensity.y + light.intensity.z) / 3;
@@ -85,6 +86,11 @@ void orderLamps(const RenderScene& scene, const LightClusterSettings& s, LightCl
     std::ranges::sort(h.order, {}, rank);
 }
 
+// Whether a lamp takes part in clusters at all: those that add next to nothing would make one large.
+bool takesPart(const RenderLight& light, float weight) {
+    return light.castsShadow && weight >= kLeastWeight;
+}
+
 // First pass: in order, every lamp that is far enough from all centres becomes one. Returns false as soon as
 // there are more than the budget.
 bool chooseCenters(const RenderScene& scene, const LightClusterSettings& s, float stretch,
@@ -93,7 +99,7 @@ bool chooseCenters(const RenderScene& scene, const LightClusterSettings& s, floa
     c.clusters.clear();
     for (const uint32_t i : h.order) {
         const RenderLight& light = scene.lights[c.lamps[i]];
-        if (!light.castsShadow) continue;
+        if (!takesPart(light, h.weights[i])) continue;
         const float apart = stretch * h.distances[i];
         const bool alone = std::ranges::none_of(c.clusters, [&](const LightCluster& other) {
             return glm::distance(scene.lights[other.center].position, light.position) < apart;
@@ -124,20 +130,24 @@ void fitBudget(const RenderScene& scene, const LightClusterSettings& s, LightClu
 }
 
 // Second pass: to the nearest centre; the lowest index settles ties.
-void assignLamps(const RenderScene& scene, LightClusters& c) {
+void assignLamps(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
+    LightClusters& c = h.clusters;
     c.clusterOf.assign(c.lamps.size(), LightClusters::kNoCluster);
     for (size_t i = 0; i < c.lamps.size(); ++i) {
         const RenderLight& light = scene.lights[c.lamps[i]];
-        if (!light.castsShadow) continue;
+        if (!takesPart(light, h.weights[i])) continue;
         float best = std::numeric_limits<float>::max();
+        uint32_t nearest = LightClusters::kNoCluster;
         for (uint32_t k = 0; k < c.clusters.size(); ++k) {
             const float distance = glm::distance(scene.lights[c.clusters[k].center].position, light.position);
             if (distance >= best) continue;
             best = distance;
-            c.clusterOf[i] = k;
+            nearest = k;
         }
-        if (c.clusterOf[i] == LightClusters::kNoCluster) continue;
-        LightCluster& cluster = c.clusters[c.clusterOf[i]];
+        const bool tooFar = s.shareWithin > 0 && light.range > 0 && best > s.shareWithin * light.range;
+        if (nearest == LightClusters::kNoCluster || tooFar) continue;
+        c.clusterOf[i] = nearest;
+        LightCluster& cluster = c.clusters[nearest];
         cluster.radius = std::max(cluster.radius, best);
         const bool limited = light.range > 0 && (cluster.reach > 0 || cluster.lampCount == 0);
         cluster.reach = limited ? std::max(cluster.reach, best + light.range) : 0;
@@ -178,7 +188,7 @@ const LightClusters& clusterLamps(const RenderScene& scene, const LampRelevance&
     keepDistances(scene, settings, history);
     orderLamps(scene, settings, history);
     fitBudget(scene, settings, history);
-    assignLamps(scene, history.clusters);
+    assignLamps(scene, settings, history);
     history.centers.clear();
     for (const LightCluster& cluster : history.clusters.clusters)
         history.centers.push_back(scene.lights[cluster.center].id);

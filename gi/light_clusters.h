@@ -20,13 +20,17 @@ struct LightClusterSettings {
     bool strongFirst = true;   // strong lamps keep a map of their own longer; off: as published, in order
     float hysteresis = 0.75f;  // a centre of the frame before needs this part of the distance; 1: none
 
+    // Farther from the nearest centre than this part of its range a lamp goes without shadow: the centre's
+    // says nothing of what is so near to the lamp. 0: no limit, as published.
+    float shareWithin = 0.5f;
+
     bool operator==(const LightClusterSettings&) const = default;
 };
 
 struct LightCluster {
     uint32_t center = 0;  // index into the scene's lights
     float radius = 0;     // m: of its farthest lamp from the centre, the size of the light its shadows have
-    float reach = 0;  // m from the centre, that light of its lamps may go; 0: without limit
+    float reach = 0;      // m from the centre, that light of its lamps may go; 0: without limit
     uint32_t lampCount = 0;
 };
 

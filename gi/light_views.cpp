@@ -83,6 +83,28 @@ LightView sunView(glm::vec3 direction, const Bounds& bounds, float margin) {
             0.5f * std::sqrt(side.x * side.y)};
 }
 
+Frustum frustumOf(const glm::mat4& clipFromWorld, float leastDepth) {
+    const glm::mat4 t = glm::transpose(clipFromWorld), worldFromClip = glm::inverse(clipFromWorld);
+    Frustum f;
+    f.planes = {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2], t[2] - leastDepth * t[3]};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec4 h = worldFromClip * glm::vec4(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1,
+                                                      corner & 4 ? 1.0f : leastDepth, 1);
+        f.corners[size_t(corner)] = glm::vec3(h) / h.w;
+    }
+    return f;
+}
+
+bool mayMeet(const Frustum& a, const Frustum& b) {
+    const auto apart = [](const Frustum& f, const Frustum& other) {
+        return std::ranges::any_of(f.planes, [&](const glm::vec4& plane) {
+            return std::ranges::all_of(
+                other.corners, [&](glm::vec3 c) { return glm::dot(glm::vec3(plane), c) + plane.w < 0; });
+        });
+    };
+    return !apart(a, b) && !apart(b, a);
+}
+
 float farDistanceOf(const RenderLight& light, const Bounds& bounds) {
     if (light.range > 0) return light.range;
     const glm::vec3 far =

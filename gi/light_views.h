@@ -34,6 +34,16 @@ struct SunRectangle {
 SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds, float askew);
 // That rectangle as a map, grown by `margin` of its sides.
 LightView sunView(glm::vec3 direction, const Bounds& bounds, float margin);
+// The part of space a view sees, its far side at a finite distance.
+struct Frustum {
+    std::array<glm::vec4, 6> planes;   // inside is positive; not normalised
+    std::array<glm::vec3, 8> corners;  // m
+};
+// Of a reversed-depth clip matrix. `leastDepth`: where it ends, for those that go on for ever.
+Frustum frustumOf(const glm::mat4& clipFromWorld, float leastDepth = 0);
+// False only if two frusta have nothing in common; true for a few that just miss each other.
+bool mayMeet(const Frustum& a, const Frustum& b);
+
 // How far a light's views must reach: its range, or the scene's far side.
 float farDistanceOf(const RenderLight& light, const Bounds& bounds);
 

@@ -79,7 +79,7 @@ void addMasked(FrameGraph& graph, const SceneView& scene, ImageHandle image,
                std::span<const io::ShadowView> views, uint32_t firstSlot) {
     if (!hasMasked(scene)) return;
     PassBuilder masked = graph.raster("shadow_maps.cascades_masked", "shadow_maps/masked.vert",
-                                      "shadow_maps/masked.frag", gpu::VertexLayout::kPositionsAndAttributes);
+                                      "shadow_maps/masked.frag", gpu::VertexLayout::kPositionsAndUvs);
     masked.depth(image).geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(masked, scene);
     for (uint32_t v = 0; v < views.size(); ++v)

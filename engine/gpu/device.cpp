@@ -292,7 +292,8 @@ void Device::waitIdle() {
 }
 
 void Device::retire(std::function<void()> destroy) {
-    impl_->retired.push_back({impl_->submitted, std::move(destroy)});
+    // What is being recorded now may use it too: it goes once that is done.
+    impl_->retired.push_back({impl_->submitted + 1, std::move(destroy)});
 }
 
 void Device::collect() {

@@ -64,7 +64,8 @@ class Device {
     void waitFor(uint64_t timelineValue);  // fatal on device loss
     void waitIdle();
 
-    // Runs `destroy` once all work submitted so far has finished (checked in collect()).
+    // Runs `destroy` once all work submitted so far, and what is being recorded, has finished (checked in
+    // collect()).
     void retire(std::function<void()> destroy);
     void collect();
 

@@ -44,16 +44,18 @@ struct VertexInput {
 
 VertexInput vertexInput(VertexLayout layout) {
     VertexInput in;
-    if (layout == VertexLayout::kPositions || layout == VertexLayout::kPositionsAndAttributes) {
+    const bool whole = layout == VertexLayout::kPositionsAndAttributes;
+    const bool uvs = whole || layout == VertexLayout::kPositionsAndUvs;
+    if (uvs || layout == VertexLayout::kPositions) {
         in.bindings[in.bindingCount++] = {0, 12, VK_VERTEX_INPUT_RATE_VERTEX};
         in.attributes[in.attributeCount++] = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
     }
-    if (layout == VertexLayout::kPositionsAndAttributes) {
-        in.bindings[in.bindingCount++] = {1, 36, VK_VERTEX_INPUT_RATE_VERTEX};
+    if (uvs) in.bindings[in.bindingCount++] = {1, 36, VK_VERTEX_INPUT_RATE_VERTEX};
+    if (whole) {
         in.attributes[in.attributeCount++] = {1, 1, VK_FORMAT_R32G32B32_SFLOAT, 0};
         in.attributes[in.attributeCount++] = {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 12};
-        in.attributes[in.attributeCount++] = {3, 1, VK_FORMAT_R32G32_SFLOAT, 28};
     }
+    if (uvs) in.attributes[in.attributeCount++] = {3, 1, VK_FORMAT_R32G32_SFLOAT, 28};
     if (layout == VertexLayout::kImGui) {
         in.bindings[in.bindingCount++] = {0, 20, VK_VERTEX_INPUT_RATE_VERTEX};
         in.attributes[in.attributeCount++] = {0, 0, VK_FORMAT_R32G32_SFLOAT, 0};

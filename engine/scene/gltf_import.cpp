@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "engine/scene/gltf_internal.h"
+#include "engine/scene/split_primitives.h"
 
 namespace ag {
 namespace {
@@ -134,6 +135,7 @@ Result<SceneAsset> importGltf(const std::string& path, const ImportLimits& limit
     gltf::importMaterials(model, asset);
     if (const gltf::Fault f = gltf::importTextures(model, asset)) return fail(f);
     if (const gltf::Fault f = gltf::importMeshes(model, asset, limits)) return fail(f);
+    splitLargePrimitives(asset);
     if (const gltf::Fault f = gltf::importNodes(model, asset, limits)) return fail(f);
     if (!model.animations.empty()) asset.warnings.push_back("its animations are not played");
     return asset;

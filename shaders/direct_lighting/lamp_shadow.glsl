@@ -60,9 +60,9 @@ float firstHit(LampCluster cluster, vec3 receiver, vec3 normal, vec3 along, floa
     vec2 ndc = vec2(dot(p, view.right), -dot(p, view.top)) / (w * cluster.tanHalf), size = vec2(float(cluster.size));
     ivec2 at = ivec2(clamp((ndc * 0.5 + 0.5) * size, vec2(0.0), size - 1.0));
     float stored = texelFetch(shadowAtlas, ivec2(view.origin) + at, 0).x;
-    // Reversed depth back to the distance along the view's axis.
+    // Reversed depth back to the distance along the view's axis; where nothing is, nothing is in the way.
     float near = cluster.nearDistance, far = cluster.farDistance;
-    return (near * far / (stored * (far - near) + near) + slack) / w;
+    return stored > 0.0 ? (near * far / (stored * (far - near) + near) + slack) / w : 2.0;
 }
 
 // Not asked for, it costs two of its rounds: CPU devices skip rounds of loops but not branches.

@@ -26,7 +26,12 @@ RenderScene sceneWithLamps(uint32_t count) {
 }
 
 LightClusterSettings published() {
-    return {.minDistance = 1, .growth = 0.1f, .most = 256, .strongFirst = false, .hysteresis = 1};
+    return {.minDistance = 1,
+            .growth = 0.1f,
+            .most = 256,
+            .strongFirst = false,
+            .hysteresis = 1,
+            .shareWithin = 0};
 }
 
 TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
@@ -161,9 +166,18 @@ TEST(LightClusters, LampsWithoutShadowHaveNoCluster) {
     for (RenderLight& light : scene.lights)
         light.castsShadow = light.id % 2 == 0;
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, {}, history);
+    const LightClusters& c = clusterLamps(scene, {}, {.shareWithin = 0}, history);
     for (size_t i = 0; i < c.lamps.size(); ++i)
         EXPECT_EQ(c.clusterOf[i] == LightClusters::kNoCluster, !scene.lights[c.lamps[i]].castsShadow);
+    // Nor do those far from the centre they would share with, measured by their range.
+    const LightClusters& few = clusterLamps(scene, {}, {.most = 3, .shareWithin = 1}, history);
+    for (size_t i = 0; i < few.lamps.size(); ++i) {
+        const RenderLight& light = scene.lights[few.lamps[i]];
+        float nearest = 1e30f;
+        for (const LightCluster& cluster : few.clusters)
+            nearest = std::min(nearest, glm::distance(scene.lights[cluster.center].position, light.position));
+        EXPECT_EQ(few.clusterOf[i] != LightClusters::kNoCluster, light.castsShadow && nearest <= light.range);
+    }
 }
 
 // Lamps that light nothing seen get no map, however strong they are.
@@ -193,7 +207,7 @@ TEST(LightClusters, LampsThatMatterBecomeCentres) {
 TEST(LightClusters, AHundredThousandLampsAreLimitedToTheBrightest) {
     RenderScene scene = sceneWithLamps(100'000);
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, {}, history);
+    const LightClusters& c = clusterLamps(scene, {}, {.shareWithin = 0}, history);
     EXPECT_EQ(c.lamps.size(), kMostLamps);
     EXPECT_GT(c.leftOut, 50'000u);
     EXPECT_LE(c.clusters.size(), LightClusterSettings{}.most);

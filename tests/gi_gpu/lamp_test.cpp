@@ -151,7 +151,8 @@ TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
     s.camera("camera", {0, 0.9f, 0}, {0.001f, 0, 0}, 80);
     const auto b = directBench(s.finish(), {128, 128});
     b->settings.lightClusters.most = 1;
-    b->settings.lampLighting.softTaps = 32;
+    b->settings.lightClusters.strongFirst = false;  // the weak ones at the rim count
+    b->settings.lampShadows.softTaps = 32;
     b->settings.lampLighting.shadowReach = 0;
     const Image shadowed = directImage(*b);
     for (RenderLight& light : b->scene.lights)
@@ -178,6 +179,44 @@ TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
     }
     std::printf("penumbra: mean difference from the disk's share %.3f\n", sum / count);
     EXPECT_LT(sum / count, 0.05);
+}
+
+// Light falls through what a masked surface's texture cuts out.
+TEST(LampShadows, CutOutPartsLetLightThrough) {
+    scenegen::SceneBuilder s("screen");
+    const uint32_t white = s.material("white", glm::vec3(0.5f)),
+                   screen = s.material("screen", glm::vec3(0.5f));
+    s.quad("floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, white);
+    s.quad("screen", {-4, 1, -4}, {0, 0, 8}, {8, 0, 0}, screen);
+    s.point("lamp", {0, 3, 0}, glm::vec3(20));
+    s.camera("camera", {0, 0.8f, 0}, {0.001f, 0, 0}, 80);
+    SceneAsset asset = s.finish();
+    Material& m = asset.geometry.materials[screen];
+    m.alphaMode = AlphaMode::kMask;
+    m.textureClass = TextureClass::k256;
+    m.baseColorLayer = 0;
+    auto& texels =
+        asset.geometry.textures[size_t(TextureClass::k256)].srgb.emplace_back(256 * 256 * 4, uint8_t(255));
+    for (size_t i = 0; i < 256 * 256; ++i)
+        texels[i * 4 + 3] = i % 256 < 128 ? 0 : 255;  // u < 1/2 is cut out
+    for (size_t i = 0; i < asset.geometry.positions.size(); ++i)
+        asset.geometry.attributes[i].uv = {asset.geometry.positions[i].x / 8 + 0.5f, 0.5f};
+    const auto b = directBench(std::move(asset), {64, 64});
+    const Image lit = directImage(*b);
+    int open = 0, shut = 0;
+    for (int i = 4; i < 60; ++i) {
+        const glm::vec4 h =
+            b->scene.camera.worldFromClip * glm::vec4((float(i) + 0.5f) / 32 - 1, 0, 0.05f / 0.8f, 1);
+        const glm::vec4 v =
+            b->scene.camera.worldFromClip * glm::vec4(0, (float(i) + 0.5f) / 32 - 1, 0.05f / 0.8f, 1);
+        const bool alongX = std::abs(h.x / h.w) > std::abs(v.x / v.w);
+        const float x = alongX ? h.x / h.w : v.x / v.w, e = alongX ? lit.at(i, 32).x : lit.at(32, i).x;
+        if (std::abs(x) < 0.1f) continue;
+        (x < 0 ? open : shut) += 1;
+        EXPECT_NEAR(e, x < 0 ? 20.0f / 9 : 0.0f, 0.25f) << "at " << x;
+    }
+    EXPECT_GT(open, 20);
+    EXPECT_GT(shut, 20);
 }
 
 // Mean change of the lit image from frame to frame along a walk, relative to its mean.
