@@ -15,6 +15,8 @@ namespace ag::gi {
 // State that outlives a frame; one per view of the scene.
 struct GiHistory {
     ValClusteringHistory valClustering;
+    Settling stochasticRsm;
+    DenoiserHistory denoiser;
     LightClusterHistory lightClusters;
     LampShadowHistory lampShadows;
     LampListsHistory lampLists;

@@ -29,7 +29,10 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     else if (s.firstBounce == FirstBounce::kTexels)
         f.bounce1 = addTexelShading(graph, scene, f.gbuffer, f.rsm);
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
-        f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, s.stochasticRsm);
+        f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, s.stochasticRsm, h.stochasticRsm);
+    const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step;
+    f.bounce1 =
+        addDenoiser(graph, scene, f.gbuffer, {f.bounce1, f.rsm.inputsVersion, steps}, s.denoiser, h.denoiser);
 
     // Direct light
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);

@@ -22,6 +22,18 @@ void setRsm400(GiSettings& gi) {
     gi.stochasticRsm = {.samples = 400, .radius = 0.3f};
 }
 
+// Eight samples and the article's denoiser; ours.
+void setIrsm(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kStochasticRsm;
+    gi.stochasticRsm = {.samples = 8, .radius = 0.3f, .random = true};
+    gi.denoiser = {.enabled = true, .rounds = 5, .adaptive = false, .lightTolerance = 0};
+}
+
+void setStochastic(GiSettings& gi) {
+    setIrsm(gi);
+    gi.denoiser = {.enabled = true};
+}
+
 // Point lights with hard shadows out of uniform points; distances in paraboloids of the atlas's full size.
 void setIsm(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kPointLights;
@@ -104,9 +116,11 @@ struct Preset {
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 14> kPresets = {{{"none", setNone},
+constexpr std::array<Preset, 16> kPresets = {{{"none", setNone},
                                               {"rsm-brute", setRsmBrute},
                                               {"rsm-400", setRsm400},
+                                              {"irsm", setIrsm},
+                                              {"stochastic", setStochastic},
                                               {"ism", setIsm},
                                               {"rsmc", setRsmc},
                                               {"acrsm", setAcrsm},
@@ -220,6 +234,25 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"stochastic_rsm", "interpolate", 0, 0, "",
            "gather a 16th of the pixels, blend where surfaces are alike"},
           &gi.stochasticRsm.interpolate);
+    s.add({"stochastic_rsm", "random", 0, 0, "", "other samples in each pixel and frame, for the denoiser"},
+          &gi.stochasticRsm.random);
+    s.add({"stochastic_rsm", "settle_frames", 0, 1000000, "frames",
+           "with new samples after anything last changed"},
+          &gi.stochasticRsm.settleFrames);
+    s.add({"denoiser", "enabled", 0, 0, "", "steady and smooth indirect light over frames and screen"},
+          &gi.denoiser.enabled);
+    s.add({"denoiser", "least_share", 0.001, 1, "", "of a new frame in the mean"}, &gi.denoiser.leastShare);
+    s.add({"denoiser", "most_length", 1, 2048, "frames", "a history stands for"}, &gi.denoiser.mostLength);
+    s.add({"denoiser", "rounds", 0, 5, "rounds", "of the filter, each twice as wide"}, &gi.denoiser.rounds);
+    s.add({"denoiser", "separable", 0, 0, "", "filter along two lines instead of over a square"},
+          &gi.denoiser.separable);
+    s.add({"denoiser", "recurrent", 0, 0, "", "the filter's first round goes into the history"},
+          &gi.denoiser.recurrent);
+    s.add({"denoiser", "adaptive", 0, 0, "", "changing light takes over, bright samples are spread"},
+          &gi.denoiser.adaptive);
+    s.add({"denoiser", "light_tolerance", 0, 1000, "deviations",
+           "by which the light of taps may differ; 0: any"},
+          &gi.denoiser.lightTolerance);
     s.add({"shadow_maps", "resolution", 64, 4096, "texels", "side of a sun's cascade"},
           &gi.shadowMaps.resolution);
     s.add({"shadow_maps", "cascades", 1, 4, "", "cascades of a sun"}, &gi.shadowMaps.cascades);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "gi/composite.h"
+#include "gi/denoiser.h"
 #include "gi/importance.h"
 #include "gi/ism_atlas.h"
 #include "gi/lamp_lighting.h"
@@ -38,6 +39,7 @@ struct GiSettings {
     IsmAtlasSettings ismAtlas;
     ValShadingSettings valShading;
     StochasticRsmSettings stochasticRsm;
+    DenoiserSettings denoiser;
     ShadowMapSettings shadowMaps;
     LightClusterSettings lightClusters;
     LampShadowSettings lampShadows;
@@ -46,11 +48,11 @@ struct GiSettings {
 };
 
 // Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
-// "rsm-400" (Dachsbacher & Stamminger 2005), "ism" (Ritschel et al. 2008), "rsmc" (RSM clustering) and
-// "acrsm" (with adaption and shadows) as published, "afterglow" (the default), and that by budget: "low",
-// "medium" (the same), "high", "ultra". For the direct light of lamps, without bounces: "lights-reference" (a
-// shadow map each), "lightcluster" as published, "afterglow-lights" (the default's).
-// False if there is no such preset.
+// "rsm-400" (Dachsbacher & Stamminger 2005), "irsm" (few samples and a denoiser, as published), "stochastic"
+// (that, ours), "ism" (Ritschel et al. 2008), "rsmc" (RSM clustering) and "acrsm" (with adaption and shadows)
+// as published, "afterglow" (the default), and that by budget: "low", "medium" (the same), "high", "ultra".
+// For the direct light of lamps, without bounces: "lights-reference" (a shadow map each), "lightcluster" as
+// published, "afterglow-lights" (the default's). False if there is no such preset.
 bool applyPreset(std::string_view name, GiSettings& gi);
 std::span<const std::string_view> presetNames();
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "common/sampling.h"
+#include "engine/core/hash.h"
+#include "gi/blue_noise.h"
 
 namespace ag::gi {
 namespace {
@@ -26,7 +28,7 @@ BufferHandle addPattern(FrameGraph& graph, uint32_t samples) {
     for (uint32_t i = 0; i < samples; ++i) {
         const glm::vec2 xi = io::hammersley(i, samples);
         const float angle = 2 * std::numbers::pi_v<float> * xi.y;
-        points[i] = {xi.x * std::cos(angle), xi.x * std::sin(angle), xi.x, 0};
+        points[i] = {xi.x * std::cos(angle), xi.x * std::sin(angle), xi.x, xi.y};
     }
     const auto bytes = std::as_bytes(std::span(points.data(), samples));
     const BufferHandle buffer = graph.buffer(
@@ -35,11 +37,17 @@ BufferHandle addPattern(FrameGraph& graph, uint32_t samples) {
     return buffer;
 }
 
+// Frames are spread evenly as well: multiples of the plastic number's inverse powers (Roberts 2018).
+glm::vec2 shiftOf(uint32_t step) {
+    return glm::vec2(glm::fract(double(step) * glm::dvec2(0.7548776662466927, 0.5698402909980532)));
+}
+
 struct Inputs {
     const SceneView& scene;
     const GBuffer& gbuffer;
     const RsmSet& rsm;
-    BufferHandle pattern, list;
+    BufferHandle pattern, list, noise;
+    glm::vec2 shift{0};
     const StochasticRsmSettings& settings;
 };
 
@@ -55,6 +63,8 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
         .read("maps", in.rsm.maps)
         .read("pattern", in.pattern)
         .read("list", in.list)
+        .read("noise", in.noise)
+        .spec(3, in.settings.random)
         .spec(0, in.rsm.mapInfo[map].kind)
         .spec(1, listed)
         .spec(2, !add)
@@ -62,7 +72,8 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
                                     .sampleCount = in.settings.samples,
                                     .radius = in.settings.radius,
                                     .step = step,
-                                    .atlasWidth = in.rsm.atlas.size.x});
+                                    .atlasWidth = in.rsm.atlas.size.x,
+                                    .shift = in.shift});
     if (add)
         pass.readWrite("irradiance", image);
     else
@@ -93,7 +104,7 @@ BufferHandle addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle c
 }  // namespace
 
 Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                            const RsmSet& rsm, const StochasticRsmSettings& settings) {
+                            const RsmSet& rsm, const StochasticRsmSettings& settings, Settling& settling) {
     if (rsm.empty()) return {};
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
     const Irradiance result{
@@ -102,7 +113,17 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
     const BufferHandle list =
         graph.buffer("stochastic_rsm.list", {.sizeBytes = (1 + listed) * sizeof(uint32_t)});
     graph.fill("stochastic_rsm.empty_list", list, 0);
-    const Inputs in{scene, gbuffer, rsm, addPattern(graph, settings.samples), list, settings};
+    const uint64_t seen = combineHash(rsm.inputsVersion,
+                                      combineHash(scene.scene->cameraVersion, scene.scene->instancesVersion));
+    const uint32_t step = settings.random ? settling.advance(seen, settings.settleFrames) : 0;
+    const Inputs in{.scene = scene,
+                    .gbuffer = gbuffer,
+                    .rsm = rsm,
+                    .pattern = addPattern(graph, settings.samples),
+                    .list = list,
+                    .noise = addBlueNoise(graph),
+                    .shift = shiftOf(step),
+                    .settings = settings};
 
     if (!settings.interpolate) {
         for (uint32_t m = 0; m < rsm.atlas.mapCount; ++m)

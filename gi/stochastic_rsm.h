@@ -1,22 +1,26 @@
 // First-bounce irradiance from samples of the light maps about each pixel's projection, unshadowed:
 // reflective shadow maps as Dachsbacher & Stamminger (2005) gather them, with one fixed pattern for all
-// pixels and, if asked for, their interpolation in screen space.
+// pixels and, if asked for, their interpolation in screen space; or few samples, others in each pixel and
+// frame (improved reflective shadow maps), for the denoiser.
 #pragma once
 
 #include "gi/gbuffer.h"
 #include "gi/rsm.h"
+#include "gi/settling.h"
 #include "gi/val_shading.h"
 #include "shaders/stochastic_rsm/stochastic_rsm_io.h"
 
 namespace ag::gi {
 
 struct StochasticRsmSettings {
-    uint32_t samples = 400;    // of each light map, a pixel
-    float radius = 0.3f;       // of the disk they lie in, in widths of the map: light beyond it is lost
-    bool interpolate = false;  // gather every fourth pixel both ways and blend where surfaces are alike
+    uint32_t samples = 400;      // of each light map, a pixel
+    float radius = 0.3f;         // of the disk they lie in, in widths of the map: light beyond it is lost
+    bool interpolate = false;    // gather every fourth pixel both ways and blend where surfaces are alike
+    bool random = false;         // others in each pixel and frame
+    uint32_t settleFrames = 64;  // frames with new samples after anything last changed
 };
 
 Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                            const RsmSet& rsm, const StochasticRsmSettings& settings);
+                            const RsmSet& rsm, const StochasticRsmSettings& settings, Settling& settling);
 
 }  // namespace ag::gi

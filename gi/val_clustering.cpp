@@ -9,20 +9,6 @@ constexpr VkFormat kVec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 constexpr uint32_t kSumGroups = 4;  // workgroups sharing a tile's candidates
 
-// Steps on while the inputs change and for a while after, so that k-means settles; then the clusters rest and
-// everything behind them is skipped.
-uint32_t advance(ValClusteringHistory& history, uint64_t inputsVersion, uint32_t settleFrames) {
-    if (history.inputsVersion != inputsVersion) {
-        history.inputsVersion = inputsVersion;
-        history.sinceChange = 0;
-        ++history.step;
-    } else if (history.sinceChange < settleFrames) {
-        ++history.sinceChange;
-        ++history.step;
-    }
-    return history.step;
-}
-
 // Steps from one look of adaption at a cluster to the next (ACRSM: 3). While only the camera moves, clusters
 // follow it slowly, so that most of them and of their shadow maps stay as they are.
 uint32_t lookPeriod(ValClusteringHistory& history, uint64_t lightVersion, uint32_t settleFrames) {
@@ -150,7 +136,8 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
         .mapCount = rsm.atlas.mapCount,
         .viewWeight = importance.viewWeight,
         .lookPeriod = lookPeriod(history, light, settings.settleFrames),
-        .step = advance(history, inputs, settings.settleFrames)};
+        // Then the clusters rest, and everything behind them is skipped.
+        .step = history.settling.advance(inputs, settings.settleFrames)};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
     const State state{

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "gi/importance.h"
+#include "gi/settling.h"
 #include "shaders/val_clustering/val_clustering_io.h"
 
 namespace ag::gi {
@@ -20,9 +21,9 @@ struct ValClusteringSettings {
 
 // The part of clustering's state that lives on the CPU: when it may rest.
 struct ValClusteringHistory {
-    uint64_t inputsVersion = 0, lightVersion = 0;  // of all inputs, of those that are not the view
-    uint32_t sinceChange = 0, sinceLightChange = 0;
-    uint32_t step = 0;
+    Settling settling;
+    uint64_t lightVersion = 0;  // of the inputs that are not the view
+    uint32_t sinceLightChange = 0;
 };
 
 struct Clusters {

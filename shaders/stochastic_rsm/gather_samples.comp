@@ -24,7 +24,9 @@ layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants ca
 layout(set = 0, binding = 3) uniform samplerBuffer texels;
 layout(set = 0, binding = 4, scalar) readonly buffer Faces { RsmFace items[]; } faces;
 layout(set = 0, binding = 5, scalar) readonly buffer Maps { RsmMap items[]; } maps;
-layout(set = 0, binding = 6) uniform samplerBuffer pattern;  // x, y in the unit disk; xi
+layout(constant_id = 3) const bool kRandom = false;  // the pattern is shifted in each pixel and frame
+layout(set = 0, binding = 6) uniform samplerBuffer pattern;  // x, y in the unit disk; xi; share of the full angle
+layout(set = 0, binding = 9) uniform samplerBuffer noise;
 layout(set = 0, binding = 7, scalar) readonly buffer List { uint count; uint pixels[]; } list;
 layout(set = 0, binding = 8, rgba16f) uniform image2D irradiance;
 
@@ -65,7 +67,14 @@ Tap flatTap(RsmFace face, vec2 center, vec3 unit) {
     return tapOf(face, center + unit.xy * r, 2.0 * kPi * r * r * unit.z * float(face.size * face.size));
 }
 
-vec3 gather(vec3 x, vec3 n) {
+// Cranley & Patterson 1976: the same pattern on a torus, shifted.
+vec3 shifted(vec4 unit, vec2 by) {
+    vec2 xi = fract(unit.zw + by);
+    float angle = 2.0 * kPi * xi.y;
+    return vec3(xi.x * cos(angle), xi.x * sin(angle), xi.x);
+}
+
+vec3 gather(vec3 x, vec3 n, vec2 by) {
     RsmMap map = maps.items[push.p.map];
     RsmFace face = faces.items[map.firstFace];
     bool ahead = true;
@@ -76,7 +85,8 @@ vec3 gather(vec3 x, vec3 n) {
     orthonormalBasis(toPixel, t, b);
     vec3 e = vec3(0.0);
     for (uint i = 0; i < push.p.sampleCount; ++i) {
-        vec3 unit = texelFetch(pattern, int(i)).xyz;
+        vec4 point = texelFetch(pattern, int(i));
+        vec3 unit = kRandom ? shifted(point, by) : point.xyz;
         Tap tap = kKind == kLightPoint ? pointTap(map, toPixel, t, b, unit) : flatTap(face, center, unit);
         RsmSurface s = AG_RSM_FETCH(texels, tap.texel);
         e += s.flux * (tap.weight * vplTerm(x, n, s.position, s.normal));
@@ -93,7 +103,8 @@ void main() {
     ivec2 pixel = ivec2(min(cell * push.p.step + push.p.step / 2, size - 1));
     float depth = texelFetch(depthMap, pixel, 0).x;
     vec3 x = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
-    vec3 e = depth > 0.0 ? gather(x, texelFetch(normalMap, pixel, 0).xyz) : vec3(0.0);
+    vec2 by = kRandom ? texelFetch(noise, (pixel.y & 63) * 64 + (pixel.x & 63)).xy + push.p.shift : vec2(0.0);
+    vec3 e = depth > 0.0 ? gather(x, texelFetch(normalMap, pixel, 0).xyz, by) : vec3(0.0);
     if (!there) return;
     if (!kFirst) e += imageLoad(irradiance, ivec2(cell)).rgb;
     imageStore(irradiance, ivec2(cell), vec4(e, 1.0));

@@ -14,6 +14,7 @@ struct StochasticRsmPush {
     float radius;      // of the disk about the projection, in widths of the map
     uint step;         // pixels from one gathered pixel to the next
     uint atlasWidth;   // texels
+    vec2 shift;        // of the pattern in this frame, where it differs from pixel to pixel
 };
 
 struct RsmInterpolationPush {

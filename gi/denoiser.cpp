@@ -1,0 +1,133 @@
+#include "gi/denoiser.h"
+
+#include <array>
+
+#include "shaders/denoiser/denoiser_io.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr uint32_t kMostRounds = 5;
+constexpr uint32_t kFramesOfChange = 8;  // after the light's last change in which histories may be cut short
+
+// Names are literals, because the graph keeps views of them.
+constexpr std::array<std::string_view, kMostRounds> kRoundNames = {
+    "denoiser.filter0", "denoiser.filter1", "denoiser.filter2", "denoiser.filter3", "denoiser.filter4"};
+constexpr std::array<std::string_view, kMostRounds> kLineNames = {
+    "denoiser.lines0", "denoiser.lines1", "denoiser.lines2", "denoiser.lines3", "denoiser.lines4"};
+
+// Rays through pixels' centres, one metre along the camera's axis.
+io::PixelRays raysOf(const RenderCamera& camera, glm::vec2 size) {
+    const auto rayAt = [&](glm::vec2 pixel) {
+        const glm::vec2 ndc = (pixel + 0.5f) / size * 2.0f - 1.0f;
+        const glm::vec4 h = camera.worldFromClip * glm::vec4(ndc, 1, 1);
+        const glm::vec3 ray = glm::vec3(h) / h.w - camera.position;
+        return ray / glm::dot(ray, camera.forward);
+    };
+    const glm::vec3 corner = rayAt({0, 0});
+    return {.eye = camera.position,
+            .corner = corner,
+            .right = (rayAt({size.x - 1, 0}) - corner) / std::max(size.x - 1, 1.0f),
+            .down = (rayAt({0, size.y - 1}) - corner) / std::max(size.y - 1, 1.0f)};
+}
+
+struct Images {
+    HistoryImage light;    // rgb: mean; a: frames it stands for
+    HistoryImage surface;  // xyz: normal; w: m along the axis, 0: sky
+    ImageHandle tiles;
+    BufferHandle cameras;
+};
+
+void addFilter(FrameGraph& graph, std::string_view name, const Images& images, ImageHandle from,
+               ImageHandle to, glm::ivec2 stride, uint32_t seed, const DenoiserSettings& s) {
+    graph.compute(name, "denoiser/filter.comp")
+        .sample("light", from)
+        .sample("surface", images.surface.current)
+        .sample("tiles", images.tiles)
+        .read("cameras", images.cameras)
+        .write("result", to)
+        .spec(0, !s.separable)
+        .push(io::FilterPush{stride.x, stride.y, s.lightTolerance, seed})
+        .dispatchThreads(graph.info(to).size.x, graph.info(to).size.y);
+}
+
+}  // namespace
+
+Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+                       const NoisyLight& noisy, const DenoiserSettings& s, DenoiserHistory& history) {
+    if (!s.enabled || !noisy.irradiance.image) return noisy.irradiance;
+    const glm::uvec2 size = gbuffer.size, tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
+    const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size};
+    const ImageInfo tileInfo{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = tileCount};
+    const RenderCamera& camera = scene.scene->camera;
+    const bool known = history.originVersion == scene.scene->originVersion;
+    const RenderCamera before = known ? history.camera : camera;
+    history = {camera, scene.scene->originVersion, noisy.lightVersion,
+               history.lightVersion == noisy.lightVersion ? history.sinceLightChange + 1 : 0};
+    const bool changing = s.adaptive && history.sinceLightChange < kFramesOfChange;
+
+    Images images{.light = graph.historyImage("denoiser.light", info),
+                  .surface = graph.historyImage("denoiser.surface", info),
+                  .tiles = graph.image("denoiser.tiles", tileInfo)};
+    const io::PixelRays rays = raysOf(camera, size);
+    const io::DenoiserCameras cameras{.previousClipFromWorld = before.clipFromWorld,
+                                      .now = rays,
+                                      .before = raysOf(before, size),
+                                      .pixelSize = glm::length(rays.down)};
+    images.cameras = graph.buffer("denoiser.cameras", {.sizeBytes = sizeof cameras});
+    graph.upload("denoiser.cameras", images.cameras, std::as_bytes(std::span(&cameras, 1)));
+
+    const ImageHandle reprojected = graph.image("denoiser.reprojected", info);
+    struct Push {
+        float near;
+        uint32_t valid, seed;
+    };
+    graph.compute("denoiser.reproject", "denoiser/reproject.comp")
+        .sample("normalMap", gbuffer.normal)
+        .sample("depthMap", gbuffer.depth)
+        .samplePrevious("previousLight", images.light, Sampler::kNearestClamp)
+        .samplePrevious("previousSurface", images.surface, Sampler::kNearestClamp)
+        .read("cameras", images.cameras)
+        .write("surface", images.surface.current)
+        .write("history", reprojected)
+        .push(Push{camera.near, known && images.light.valid, noisy.step})
+        .dispatchThreads(size.x, size.y);
+    const ImageHandle excess = graph.image("denoiser.excess", tileInfo);
+    graph.compute("denoiser.measure_tiles", "denoiser/measure_tiles.comp")
+        .sample("samples", noisy.irradiance.image)
+        .sample("history", reprojected)
+        .write("tiles", images.tiles)
+        .write("excess", excess)
+        .dispatchGroups(tileCount.x * tileCount.y);
+    const uint32_t rounds = std::min(s.rounds, kMostRounds);
+    const bool recurrent = s.recurrent && rounds > 0;
+    const ImageHandle mean = recurrent ? graph.image("denoiser.mean", info) : images.light.current;
+    graph.compute("denoiser.accumulate", "denoiser/accumulate.comp")
+        .sample("samples", noisy.irradiance.image)
+        .sample("history", reprojected)
+        .sample("tiles", images.tiles, Sampler::kLinearClamp)
+        .sample("excess", excess)
+        .write("light", mean)
+        .push(io::AccumulatePush{s.leastShare, float(s.mostLength), s.adaptive, changing, noisy.step})
+        .dispatchThreads(size.x, size.y);
+
+    // Two images take turns; lines go through a third.
+    const std::array<ImageHandle, 2> turns = {graph.image("denoiser.even", info),
+                                              graph.image("denoiser.odd", info)};
+    const ImageHandle lines = graph.image("denoiser.lines", info);
+    ImageHandle from = mean;
+    for (uint32_t r = 0; r < rounds; ++r) {
+        const ImageHandle to = r == 0 && recurrent ? images.light.current : turns[r % 2];
+        const int stride = 1 << r;
+        if (s.separable) {
+            addFilter(graph, kLineNames[r], images, from, lines, {stride, 0}, noisy.step, s);
+            addFilter(graph, kRoundNames[r], images, lines, to, {0, stride}, noisy.step, s);
+        } else {
+            addFilter(graph, kRoundNames[r], images, from, to, {stride, stride}, noisy.step, s);
+        }
+        from = to;
+    }
+    return {from};
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,41 @@
+// Irradiance from few samples a pixel made steady and smooth: over frames by reprojection, over the screen by
+// an edge-avoiding à-trous filter whose first round feeds the next frame (after the article on improved
+// reflective shadow maps and its sources). Any technique can put its image through. Ours besides: light that
+// changes beyond noise takes over at once, single bright samples are spread over their tile instead of being
+// cut off, and the filter is narrow where the mean is certain.
+#pragma once
+
+#include "gi/gbuffer.h"
+#include "gi/val_shading.h"
+
+namespace ag::gi {
+
+struct DenoiserSettings {
+    bool enabled = false;
+    float leastShare = 0.05f;   // of a new frame in the mean
+    uint32_t mostLength = 255;  // frames a history stands for
+    uint32_t rounds = 4;        // of the filter; each doubles the distance of its taps. 0: none
+    bool separable = true;      // two lines of five taps a round instead of a square of 25
+    bool recurrent = true;      // the first round goes into the history
+    bool adaptive = true;       // ours; off: as published
+    float lightTolerance =
+        4;  // standard deviations by which the light of taps may differ; 0: any, as published
+};
+
+struct DenoiserHistory {
+    RenderCamera camera;
+    uint64_t originVersion = 0, lightVersion = 0;
+    uint32_t sinceLightChange = 0;  // frames
+};
+
+struct NoisyLight {
+    Irradiance irradiance;
+    uint64_t lightVersion =
+        0;  // changes when what the light comes from does; while it does not, differences are noise
+    uint32_t step = 0;  // another number for new samples; while it stays and nothing moves, nothing runs
+};
+
+Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+                       const NoisyLight& noisy, const DenoiserSettings& settings, DenoiserHistory& history);
+
+}  // namespace ag::gi

@@ -1,0 +1,44 @@
+// The denoiser's view of cameras and its settings.
+#ifndef AG_DENOISER_IO_H
+#define AG_DENOISER_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+const uint kDenoiserTile = 8;  // pixels along the side of a tile of statistics
+
+struct PixelRays {  // a pixel's surface lies at eye + depth x (corner + x right + y down), depth in m along
+                    // the axis
+    vec3 eye;
+    vec3 corner;  // through the centre of pixel 0, 0
+    vec3 right;   // a pixel on
+    vec3 down;
+};
+
+struct DenoiserCameras {
+    mat4 previousClipFromWorld;
+    PixelRays now, before;
+    float pixelSize;  // m at 1 m depth
+};
+
+struct AccumulatePush {
+    float leastShare;  // of a new sample, once the history is long
+    float mostLength;  // frames
+    uint spread;       // 1: what stands out of a tile's samples is shared out among its pixels
+    uint changing;     // 1: where light changes beyond noise the history counts for less
+    uint seed;         // another in each frame
+};
+
+struct FilterPush {
+    int strideX, strideY;  // pixels from tap to tap; one of them 0: a line of five, else a square of 25
+    float lightTolerance;  // standard deviations by which taps may differ; 0: any
+    uint seed;             // another in each frame
+};
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif

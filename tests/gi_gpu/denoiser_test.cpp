@@ -1,0 +1,180 @@
+// Few samples a pixel and the denoiser: the mean stays true, surfaces keep their light, light that changes
+// arrives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/gi_gpu/bench.h"
+#include "tools/scenegen/builder.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::gi {
+namespace {
+
+std::unique_ptr<Bench> stochasticBench(SceneAsset asset, glm::uvec2 size, const char* preset = "stochastic") {
+    auto b = std::make_unique<Bench>(std::move(asset), size);
+    EXPECT_TRUE(applyPreset(preset, b->settings));
+    b->settings.rsm.resolution = 64;
+    b->settings.stochasticRsm.settleFrames = 1'000'000;
+    b->output = [](FrameGraph& graph, const GiFrame& f) {
+        if (f.bounce1.image) graph.output(f.bounce1.image);
+    };
+    return b;
+}
+
+Image bounceImage(Bench& b) {
+    b.frame();
+    return b.last.bounce1.image ? readImage(b.renderer, b.last.bounce1.image)
+                                : Image(int(b.size.x), int(b.size.y));
+}
+
+double meanOf(const Image& image) {
+    double sum = 0;
+    for (const glm::vec3& p : image.pixels)
+        sum += double(p.x + p.y + p.z) / 3;
+    return sum / double(image.pixels.size());
+}
+
+double meanOverFrames(Bench& b, int frames) {
+    double sum = 0;
+    for (int i = 0; i < frames; ++i)
+        sum += meanOf(bounceImage(b)) / frames;
+    return sum;
+}
+
+// What a surface's own constant light is, the denoiser gives back: nothing crosses edges. The normals stand
+// for it.
+TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
+    Bench b(*scenegen::buildScene("cornell", 0), {160, 96});
+    b.settings.firstBounce = FirstBounce::kNone;
+    DenoiserSettings s{.enabled = true};
+    DenoiserHistory history;
+    CameraPose pose = cameraOf(b.asset, 0);
+    for (const bool separable : {true, false}) {
+        s.separable = separable;
+        Image normals, result;
+        for (uint32_t step = 0; step < 12; ++step) {
+            pose.position.x += 0.02;
+            setCamera(b.scene, pose, b.size);
+            Irradiance out;
+            ImageHandle normal;
+            b.renderer.render(b.scene, b.size, b.settings, b.options,
+                              [&](FrameGraph& graph, const SceneView& view, const GiFrame& f) {
+                                  normal = f.gbuffer.normal;
+                                  out = addDenoiser(graph, view, f.gbuffer, {{normal}, 1, step}, s, history);
+                                  graph.output(normal);
+                                  graph.output(out.image);
+                              });
+            normals = readImage(b.renderer, normal);
+            result = readImage(b.renderer, out.image);
+        }
+        size_t off = 0;
+        for (size_t i = 0; i < result.pixels.size(); ++i) {
+            const glm::vec3 in = glm::max(normals.pixels[i], glm::vec3(0));
+            off += glm::length(result.pixels[i] - in) > 0.02f;
+        }
+        EXPECT_LT(off, result.pixels.size() / 500) << "separable " << separable;
+    }
+}
+
+// The mean over many frames does not depend on radius or samples but for the light beyond the disk, and with
+// the disk over all of the map it is that of every texel.
+TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
+    const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {48, 32});
+    b->settings.denoiser.enabled = false;
+    for (const float radius : {0.05f, 0.2f}) {
+        b->settings.stochasticRsm = {.samples = 4096, .radius = radius};  // fixed, dense: the integral
+        const double integral = meanOf(bounceImage(*b));
+        for (const uint32_t samples : {1u, 8u}) {
+            b->settings.stochasticRsm = {
+                .samples = samples, .radius = radius, .random = true, .settleFrames = 1'000'000};
+            const double mean = meanOverFrames(*b, 1024);
+            std::printf("radius %.2f, %u samples: mean over 1,024 frames / integral over the disk %.4f\n",
+                        double(radius), samples, mean / integral);
+            EXPECT_NEAR(mean / integral, 1, 0.005);
+        }
+    }
+}
+
+TEST(Denoiser, LightThatChangesArrivesAndGoes) {
+    scenegen::SceneBuilder s("two lamps");
+    const uint32_t white = s.material("white", glm::vec3(0.7f));
+    s.room("room", {-2, 0, -2}, {2, 3, 2}, {white, white, white, white, white, white});
+    s.spot("steady", {0, 2.5f, 0}, {0.3f, -1, 0.1f}, glm::vec3(10), 30, 40);
+    s.spot("switched", {1, 1.5f, 1}, {-1, -0.1f, -0.2f}, glm::vec3(30), 30, 40);
+    s.camera("camera", {1.8f, 1.5f, 1.8f}, {-1, 1, -1}, 70);
+    const auto b = stochasticBench(s.finish(), {96, 64});
+    b->settings.stochasticRsm.radius = 1;
+    const auto strengthen = [&](float factor) {
+        b->scene.lights[1].intensity = glm::vec3(30 * factor);
+        ++b->scene.lightsVersion;
+    };
+    const double both = (meanOverFrames(*b, 64), meanOverFrames(*b, 32));
+    strengthen(0.01f);
+    const double after64 = (meanOverFrames(*b, 64), meanOf(bounceImage(*b)));
+    const double one = meanOverFrames(*b, 64);
+    strengthen(1);
+    for (int i = 0; i < 7; ++i)
+        b->frame();
+    const double after8 = meanOf(bounceImage(*b));
+    std::printf(
+        "two lamps %.3f; 64 frames after one goes %.3f of %.3f; 8 frames after it comes %.3f of the rise\n",
+        both, after64, one, (after8 - one) / (both - one));
+    EXPECT_LT(one, 0.7 * both);
+    EXPECT_NEAR(after64, one, 0.01 * both);
+    EXPECT_GT((after8 - one) / (both - one), 0.9);
+    b->scene.lights.clear();
+    ++b->scene.lightsVersion;
+    EXPECT_EQ(meanOf(bounceImage(*b)), 0);
+}
+
+// Less noise by far, the same light on average; and no trace of what was before a cut, a change of size or of
+// histories.
+TEST(Denoiser, SmoothsAndForgetsWhatIsGone) {
+    const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {160, 96});
+    b->settings.denoiser.enabled = false;
+    b->settings.stochasticRsm.samples = 4096;
+    b->settings.stochasticRsm.random = false;
+    const Image truth = bounceImage(*b);
+    b->settings.stochasticRsm.samples = 8;
+    b->settings.stochasticRsm.random = true;
+    const auto errorOf = [&](const Image& image) {
+        double off = 0;
+        for (size_t i = 0; i < image.pixels.size(); ++i) {
+            EXPECT_TRUE(std::isfinite(image.pixels[i].x + image.pixels[i].y + image.pixels[i].z));
+            off += double(glm::length(image.pixels[i] - truth.pixels[i]));
+        }
+        return off / double(image.pixels.size()) / std::sqrt(3.0) / meanOf(truth);
+    };
+    const double raw = errorOf(bounceImage(*b));
+    b->settings.denoiser.enabled = true;
+    for (int i = 0; i < 32; ++i)
+        b->frame();
+    const double smooth = errorOf(bounceImage(*b));
+    std::printf("relative mean difference: 8 samples %.3f, denoised %.3f\n", raw, smooth);
+    EXPECT_LT(smooth, 0.4 * raw);
+    const CameraPose pose = cameraOf(b->asset, 0);
+    CameraPose elsewhere = pose;
+    elsewhere.position += glm::dvec3(0.5, 0.3, -1.0);
+    elsewhere.forward = glm::normalize(glm::vec3(-0.8f, 0.1f, -0.6f));
+    setCamera(b->scene, elsewhere, b->size);
+    b->frame();
+    setCamera(b->scene, pose, b->size);
+    const double cut = errorOf(bounceImage(*b));
+    EXPECT_LT(cut, 0.8 * raw) << "the first frame after a cut is filtered over the screen alone";
+    b->size = {80, 48};
+    setCamera(b->scene, pose, b->size);
+    for (const glm::vec3& p : bounceImage(*b).pixels)
+        ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+}
+
+TEST(Denoiser, RestsWhenNothingChanges) {
+    const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {64, 48});
+    b->settings.stochasticRsm.settleFrames = 4;
+    for (int i = 0; i < 40; ++i)  // clusters rest after 32
+        b->frame();
+    EXPECT_EQ(b->passesRun(), 0);
+}
+
+}  // namespace
+}  // namespace ag::gi
