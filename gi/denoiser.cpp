@@ -43,7 +43,7 @@ void addFilter(FrameGraph& graph, std::string_view name, const Images& images, I
     graph.compute(name, "denoiser/filter.comp")
         .sample("light", from)
         .sample("surface", images.surface.current)
-        .sample("tiles", images.tiles)
+        .sample("tiles", images.tiles, Sampler::kLinearClamp)
         .read("cameras", images.cameras)
         .write("result", to)
         .spec(0, !s.separable)
@@ -58,7 +58,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
     if (!s.enabled || !noisy.irradiance.image) return noisy.irradiance;
     const glm::uvec2 size = gbuffer.size, tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size};
-    const ImageInfo tileInfo{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = tileCount};
+    const ImageInfo tileInfo{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = tileCount};
     const RenderCamera& camera = scene.scene->camera;
     const bool known = history.originVersion == scene.scene->originVersion;
     const RenderCamera before = known ? history.camera : camera;

@@ -10,16 +10,15 @@
 
 namespace ag::gi {
 
-struct DenoiserSettings {
+struct DenoiserSettings {  // ours
     bool enabled = false;
-    float leastShare = 0.05f;   // of a new frame in the mean
+    float leastShare = 0.01f;   // of a new frame in the mean
     uint32_t mostLength = 255;  // frames a history stands for
-    uint32_t rounds = 4;        // of the filter; each doubles the distance of its taps. 0: none
+    uint32_t rounds = 3;        // of the filter; each doubles the distance of its taps. 0: none
     bool separable = true;      // two lines of five taps a round instead of a square of 25
-    bool recurrent = true;      // the first round goes into the history
-    bool adaptive = true;       // ours; off: as published
-    float lightTolerance =
-        4;  // standard deviations by which the light of taps may differ; 0: any, as published
+    bool recurrent = false;     // the first round goes into the history, which it blurs more with every frame
+    bool adaptive = true;       // light that changes takes over, bright samples are spread
+    float lightTolerance = 4;   // standard deviations by which the light of taps may differ; 0: any
 };
 
 struct DenoiserHistory {

@@ -26,7 +26,12 @@ void setRsm400(GiSettings& gi) {
 void setIrsm(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 8, .radius = 0.3f, .random = true};
-    gi.denoiser = {.enabled = true, .rounds = 5, .adaptive = false, .lightTolerance = 0};
+    gi.denoiser = {.enabled = true,
+                   .leastShare = 0.05f,
+                   .rounds = 5,
+                   .recurrent = true,
+                   .adaptive = false,
+                   .lightTolerance = 0};
 }
 
 void setStochastic(GiSettings& gi) {

@@ -24,8 +24,9 @@ void main() {
     vec4 s = texelFetch(surface, at, 0), here = texelFetch(light, at, 0);
     vec3 place = placeOf(rays, vec2(at), s.w);
     float footprint = cameras.c.pixelSize * max(s.w, 1e-3) * 2.0;
-    float variance = texelFetch(tiles, at / int(kDenoiserTile), 0).x / max(here.a, 1.0), l = luminance(here.rgb);
-    float tolerance = push.p.lightTolerance > 0.0 ? push.p.lightTolerance * sqrt(variance) + 0.02 * l + 1e-9 : 3.0e38;
+    vec2 where = (vec2(at) + 0.5) / float(kDenoiserTile) / vec2(textureSize(tiles, 0));
+    float l = luminance(here.rgb), noise = textureLod(tiles, where, 0.0).x * inversesqrt(max(here.a, 1.0));
+    float tolerance = push.p.lightTolerance > 0.0 ? push.p.lightTolerance * noise + 0.01 * l + 1e-9 : 3.0e38;
     vec4 sum = here * (kSquare ? kSpline[0] * kSpline[0] : kSpline[0]);
     float total = kSquare ? kSpline[0] * kSpline[0] : kSpline[0];
     [[unroll]] for (int y = kSquare ? -2 : 0; y <= (kSquare ? 2 : 0); ++y)

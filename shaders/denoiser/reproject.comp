@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 // What the frame before knew of each pixel's surface: of the four pixels about where it was those on the same surface, else
-// of the sixteen about, else nothing. Writes the surfaces for the frame to come.
+// of the nine about, else nothing. Writes the surfaces for the frame to come.
 #include "denoiser/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -24,22 +24,22 @@ void main() {
     vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
     vec3 place = placeOf(c.now, vec2(pixel), depth) + c.now.eye;
     vec4 clip = c.previousClipFromWorld * vec4(place, 1.0);
-    vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, corner = floor(at), f = at - corner;
+    vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, nearest = floor(at + 0.5);
     float footprint = 2.0 * c.pixelSize * max(depth, 1e-3);
     bool known = push.valid == 1 && depth > 0.0 && clip.w > 0.0;
     vec4 close = vec4(0.0), wide = vec4(0.0);
     float closeWeight = 0.0, wideWeight = 0.0;
-    [[unroll]] for (int y = -1; y <= 2; ++y)
-        [[unroll]] for (int x = -1; x <= 2; ++x) {
-            ivec2 tap = ivec2(corner) + ivec2(x, y);
+    [[unroll]] for (int y = -1; y <= 1; ++y)
+        [[unroll]] for (int x = -1; x <= 1; ++x) {
+            ivec2 tap = ivec2(nearest) + ivec2(x, y);
             bool inside = all(greaterThanEqual(tap, ivec2(0))) && all(lessThan(tap, size));
             ivec2 there = clamp(tap, ivec2(0), size - 1);
             vec4 s = texelFetch(previousSurface, there, 0), light = texelFetch(previousLight, there, 0);
             vec3 apart = placeOf(c.before, vec2(there), s.w) + c.before.eye - place;
             float like = inside && s.w > 0.0 && light.a > 0.0 ? likeness(normal, apart, footprint, s.xyz) : 0.0;
             like = like > 0.25 ? like : 0.0;
-            bool inner = x >= 0 && x <= 1 && y >= 0 && y <= 1;
-            float weight = inner ? (x == 1 ? f.x : 1.0 - f.x) * (y == 1 ? f.y : 1.0 - f.y) : 0.0;
+            vec2 f = max(1.0 - abs(vec2(tap) - at), 0.0);  // bilinear: 0 for all but four
+            float weight = f.x * f.y;
             close += like * weight * light;
             closeWeight += like * weight;
             wide += like * light;
