@@ -29,7 +29,8 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     else if (s.firstBounce == FirstBounce::kTexels)
         f.bounce1 = addTexelShading(graph, scene, f.gbuffer, f.rsm);
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
-        f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, s.stochasticRsm, h.stochasticRsm);
+        f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, {f.clusters, f.vals, f.isms},
+                                     s.stochasticRsm, h.stochasticRsm);
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step;
     f.bounce1 =
         addDenoiser(graph, scene, f.gbuffer, {f.bounce1, f.rsm.inputsVersion, steps}, s.denoiser, h.denoiser);

@@ -35,7 +35,8 @@ void setIrsm(GiSettings& gi) {
 }
 
 void setStochastic(GiSettings& gi) {
-    setIrsm(gi);
+    gi.firstBounce = FirstBounce::kStochasticRsm;
+    gi.stochasticRsm = {.samples = 8, .random = true, .whole = true, .visible = true};
     gi.denoiser = {.enabled = true};
 }
 
@@ -241,6 +242,12 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.stochasticRsm.interpolate);
     s.add({"stochastic_rsm", "random", 0, 0, "", "other samples in each pixel and frame, for the denoiser"},
           &gi.stochasticRsm.random);
+    s.add({"stochastic_rsm", "whole", 0, 0, "",
+           "every other sample from all of the map, so that no light is lost"},
+          &gi.stochasticRsm.whole);
+    s.add({"stochastic_rsm", "visible", 0, 0, "",
+           "samples as far as their cluster's imperfect shadow map lets them be seen"},
+          &gi.stochasticRsm.visible);
     s.add({"stochastic_rsm", "settle_frames", 0, 1000000, "frames",
            "with new samples after anything last changed"},
           &gi.stochasticRsm.settleFrames);

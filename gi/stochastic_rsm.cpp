@@ -46,6 +46,7 @@ struct Inputs {
     const SceneView& scene;
     const GBuffer& gbuffer;
     const RsmSet& rsm;
+    const SampleVisibility& visibility;
     BufferHandle pattern, list, noise;
     glm::vec2 shift{0};
     const StochasticRsmSettings& settings;
@@ -54,7 +55,16 @@ struct Inputs {
 // One pass a map; `add`: on top of what the image holds.
 PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in, uint32_t map,
                       ImageHandle image, uint32_t step, bool listed, bool add) {
-    PassBuilder pass = graph.compute(name, "stochastic_rsm/gather_samples.comp");
+    const IsmAtlas& isms = in.visibility.isms;
+    const bool visible = in.settings.visible && bool(isms.planes);
+    PassBuilder pass = graph.compute(
+        name, visible ? "stochastic_rsm/gather_visible_samples.comp" : "stochastic_rsm/gather_samples.comp");
+    if (visible)
+        pass.read("slotOfTexel", in.visibility.clusters.slotOfTexel)
+            .read("candidates", in.visibility.clusters.candidates)
+            .read("vals", in.visibility.vals.vals)
+            .read("isms", isms.planes)
+            .spec(3, isms.mapping == IsmMapping::kParaboloid);
     pass.sample("normalMap", in.gbuffer.normal)
         .sample("depthMap", in.gbuffer.depth)
         .read("camera", in.scene.camera)
@@ -64,7 +74,8 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
         .read("pattern", in.pattern)
         .read("list", in.list)
         .read("noise", in.noise)
-        .spec(3, in.settings.random)
+        .spec(4, in.settings.random)
+        .spec(5, in.settings.whole)
         .spec(0, in.rsm.mapInfo[map].kind)
         .spec(1, listed)
         .spec(2, !add)
@@ -73,7 +84,8 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
                                     .radius = in.settings.radius,
                                     .step = step,
                                     .atlasWidth = in.rsm.atlas.size.x,
-                                    .shift = in.shift});
+                                    .shift = in.shift,
+                                    .ismTileSize = isms.tileSize});
     if (add)
         pass.readWrite("irradiance", image);
     else
@@ -104,7 +116,8 @@ BufferHandle addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle c
 }  // namespace
 
 Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                            const RsmSet& rsm, const StochasticRsmSettings& settings, Settling& settling) {
+                            const RsmSet& rsm, const SampleVisibility& visibility,
+                            const StochasticRsmSettings& settings, Settling& settling) {
     if (rsm.empty()) return {};
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
     const Irradiance result{
@@ -119,6 +132,7 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
     const Inputs in{.scene = scene,
                     .gbuffer = gbuffer,
                     .rsm = rsm,
+                    .visibility = visibility,
                     .pattern = addPattern(graph, settings.samples),
                     .list = list,
                     .noise = addBlueNoise(graph),

@@ -1,26 +1,38 @@
-// First-bounce irradiance from samples of the light maps about each pixel's projection, unshadowed:
+// First-bounce irradiance from samples of the light maps about each pixel's projection:
 // reflective shadow maps as Dachsbacher & Stamminger (2005) gather them, with one fixed pattern for all
 // pixels and, if asked for, their interpolation in screen space; or few samples, others in each pixel and
 // frame (improved reflective shadow maps), for the denoiser.
 #pragma once
 
 #include "gi/gbuffer.h"
+#include "gi/ism_atlas.h"
 #include "gi/rsm.h"
 #include "gi/settling.h"
+#include "gi/val_clustering.h"
+#include "gi/val_fit.h"
 #include "gi/val_shading.h"
 #include "shaders/stochastic_rsm/stochastic_rsm_io.h"
 
 namespace ag::gi {
 
 struct StochasticRsmSettings {
-    uint32_t samples = 400;      // of each light map, a pixel
-    float radius = 0.3f;         // of the disk they lie in, in widths of the map: light beyond it is lost
-    bool interpolate = false;    // gather every fourth pixel both ways and blend where surfaces are alike
-    bool random = false;         // others in each pixel and frame
+    uint32_t samples = 400;    // of each light map, a pixel
+    float radius = 0.3f;       // of the disk they lie in, in widths of the map: light beyond it is lost
+    bool interpolate = false;  // gather every fourth pixel both ways and blend where surfaces are alike
+    bool random = false;       // others in each pixel and frame
+    bool whole = false;    // every other sample from all of the map, so that no light is lost; not of points
+    bool visible = false;  // samples as far as their cluster's imperfect shadow map lets them be seen
     uint32_t settleFrames = 64;  // frames with new samples after anything last changed
 };
 
+struct SampleVisibility {  // clusters of texels, and the map of what each sees
+    const Clusters& clusters;
+    const Vals& vals;
+    const IsmAtlas& isms;
+};
+
 Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                            const RsmSet& rsm, const StochasticRsmSettings& settings, Settling& settling);
+                            const RsmSet& rsm, const SampleVisibility& visibility,
+                            const StochasticRsmSettings& settings, Settling& settling);
 
 }  // namespace ag::gi

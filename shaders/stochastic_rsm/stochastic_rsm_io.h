@@ -15,6 +15,7 @@ struct StochasticRsmPush {
     uint step;         // pixels from one gathered pixel to the next
     uint atlasWidth;   // texels
     vec2 shift;        // of the pattern in this frame, where it differs from pixel to pixel
+    uint ismTileSize;  // texels along a shadow map's side
 };
 
 struct RsmInterpolationPush {

@@ -82,6 +82,7 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
 TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
     const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {48, 32});
     b->settings.denoiser.enabled = false;
+    b->settings.stochasticRsm.visible = false;
     for (const float radius : {0.05f, 0.2f}) {
         b->settings.stochasticRsm = {.samples = 4096, .radius = radius};  // fixed, dense: the integral
         const double integral = meanOf(bounceImage(*b));
@@ -94,6 +95,35 @@ TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
             EXPECT_NEAR(mean / integral, 1, 0.005);
         }
     }
+    b->settings.stochasticRsm = {.samples = 8, .random = true, .whole = true, .settleFrames = 1'000'000};
+    const double whole = meanOverFrames(*b, 1024);
+    b->settings.firstBounce = FirstBounce::kTexels;
+    const double brute = meanOf(bounceImage(*b));
+    std::printf("half of 8 samples from all of the map: mean over 1,024 frames / every texel %.4f\n",
+                whole / brute);
+    EXPECT_NEAR(whole / brute, 1, 0.005);
+}
+
+// What stands between, by the clusters' shadow maps: about as much light as the area lights' shadows leave.
+TEST(StochasticRsm, SamplesBehindAnObstacleDoNotArrive) {
+    const auto b = stochasticBench(*scenegen::buildScene("occluder", 0), {96, 64});
+    b->settings.rsm.resolution = 128;
+    const auto settled = [&] {
+        for (int i = 0; i < 40; ++i)
+            b->frame();
+        return meanOf(bounceImage(*b));
+    };
+    const double visible = settled();
+    b->settings.stochasticRsm.visible = false;
+    const double open = settled();
+    ASSERT_TRUE(applyPreset("afterglow", b->settings));
+    b->settings.rsm.resolution = 128;
+    b->settings.denoiser.enabled = false;
+    const double areaLights = settled();
+    std::printf("occluder, mean irradiance: samples seen %.4f, all %.4f, area lights %.4f\n", visible, open,
+                areaLights);
+    EXPECT_NEAR(visible / areaLights, 1, 0.05);
+    EXPECT_GT(open / areaLights, 1.2);
 }
 
 TEST(Denoiser, LightThatChangesArrivesAndGoes) {
@@ -133,11 +163,10 @@ TEST(Denoiser, LightThatChangesArrivesAndGoes) {
 TEST(Denoiser, SmoothsAndForgetsWhatIsGone) {
     const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {160, 96});
     b->settings.denoiser.enabled = false;
+    b->settings.stochasticRsm.visible = false;  // its maps would settle meanwhile
     b->settings.stochasticRsm.samples = 4096;
-    b->settings.stochasticRsm.random = false;
     const Image truth = bounceImage(*b);
     b->settings.stochasticRsm.samples = 8;
-    b->settings.stochasticRsm.random = true;
     const auto errorOf = [&](const Image& image) {
         double off = 0;
         for (size_t i = 0; i < image.pixels.size(); ++i) {
