@@ -106,20 +106,16 @@ TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
 
 // What stands between, by the clusters' shadow maps: about as much light as the area lights' shadows leave.
 TEST(StochasticRsm, SamplesBehindAnObstacleDoNotArrive) {
-    const auto b = stochasticBench(*scenegen::buildScene("occluder", 0), {96, 64});
-    b->settings.rsm.resolution = 128;
-    const auto settled = [&] {
+    const auto settled = [](const char* preset, bool visible) {
+        const auto b = stochasticBench(*scenegen::buildScene("occluder", 0), {96, 64}, preset);
+        b->settings.rsm.resolution = 128;
+        b->settings.stochasticRsm.visible = visible;
         for (int i = 0; i < 40; ++i)
             b->frame();
         return meanOf(bounceImage(*b));
     };
-    const double visible = settled();
-    b->settings.stochasticRsm.visible = false;
-    const double open = settled();
-    ASSERT_TRUE(applyPreset("afterglow", b->settings));
-    b->settings.rsm.resolution = 128;
-    b->settings.denoiser.enabled = false;
-    const double areaLights = settled();
+    const double visible = settled("stochastic", true), open = settled("stochastic", false),
+                 areaLights = settled("afterglow", true);
     std::printf("occluder, mean irradiance: samples seen %.4f, all %.4f, area lights %.4f\n", visible, open,
                 areaLights);
     EXPECT_NEAR(visible / areaLights, 1, 0.05);
