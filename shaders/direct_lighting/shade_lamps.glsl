@@ -12,6 +12,7 @@ layout(set = 0, binding = 7) uniform usamplerBuffer lists;
 #include "direct_lighting/lamp.glsl"
 layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
+#include "direct_lighting/receiver.glsl"
 #ifdef AG_QUADS
 const uint kStep = 2;
 layout(local_size_x = 16) in;  // one tile
@@ -27,23 +28,6 @@ layout(set = 0, binding = 4) uniform samplerBuffer clusters;
 layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
 #include "direct_lighting/lamp_shadow.glsl"
 #endif
-
-const int kPixels = 4;
-
-struct Receiver {
-    vec3 position, normal;
-    float depth;
-};
-
-Receiver receiverAt(uvec2 at) {
-    uvec2 size = camera.camera.size;
-    ivec2 pixel = ivec2(min(at, size - 1));
-    Receiver r;
-    r.depth = texelFetch(depthMap, pixel, 0).x;
-    r.position = worldFromPixel(camera.camera.worldFromClip, size, pixel, r.depth);
-    r.normal = texelFetch(normalMap, pixel, 0).xyz;
-    return r;
-}
 
 uint lampIndex(uint entry) { return texelFetch(lists, int(entry)).x; }
 

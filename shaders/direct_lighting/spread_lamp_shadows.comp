@@ -16,17 +16,11 @@ layout(set = 0, binding = 3) uniform samplerBuffer lamps;
 layout(set = 0, binding = 7) uniform usamplerBuffer lists;
 #include "direct_lighting/lamp.glsl"
 layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+#include "direct_lighting/receiver.glsl"
 layout(set = 0, binding = 4) uniform sampler2D shadowed;
 layout(set = 0, binding = 5) uniform sampler2D unshadowed;
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
 layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
-
-const int kPixels = 4;
-
-struct Receiver {
-    vec3 position, normal;
-    float depth;
-};
 
 Lamp lampOfLane(Lamp mine, uint lane) {
     Lamp lamp;
@@ -36,16 +30,6 @@ Lamp lampOfLane(Lamp mine, uint lane) {
     lamp.axis = subgroupShuffle(mine.axis, lane);
     lamp.coneOffset = subgroupShuffle(mine.coneOffset, lane);
     return lamp;
-}
-
-Receiver receiverAt(uvec2 pixel) {
-    uvec2 size = camera.camera.size;
-    ivec2 at = ivec2(min(pixel, size - 1));
-    Receiver r;
-    r.depth = texelFetch(depthMap, at, 0).x;
-    r.position = worldFromPixel(camera.camera.worldFromClip, size, at, r.depth);
-    r.normal = texelFetch(normalMap, at, 0).xyz;
-    return r;
 }
 
 // 1 on the same plane, facing the same way. `pixel`: m at the receiver. Never quite 0, so that something is taken.

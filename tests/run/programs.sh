@@ -33,6 +33,8 @@ expect 2 "16..1024" "$bin/afterglow" render cornell -o "$work/a.png" --set val_c
 expect 2 "a size is WxH" "$bin/afterglow" render cornell -o "$work/a.png" --size 10
 expect 2 "--sun takes" "$bin/afterglow" render cornell -o "$work/a.png" --sun 1,2
 expect 2 "no camera 'nose'" "$bin/afterglow" render cornell -o "$work/a.png" --camera nose
+expect 2 "negative intensity" "$bin/afterglow" render cornell -o "$work/a.png" --point 0,0,0,-3
+expect 2 "100000" "$bin/afterglow" render cornell -o "$work/a.png" --lamps 100001
 expect 2 "there is no preset 'best' (there are: none, rsm-brute" "$bin/afterglow" render cornell -o "$work/a.png" --preset best
 expect 2 "there is no built-in scene" "$bin/afterglow" scene nowhere -o "$work/a.glb"
 expect 2 "not a replay" "$bin/afterglow-demo" --headless --replay "$0"
@@ -58,6 +60,12 @@ echo "hello" >"$work/text.exr"
 expect 2 "not a readable EXR" "$bin/afterglow" compare "$work/text.exr" "$work/a.pfm"
 expect 2 "neither .exr nor .pfm" "$bin/afterglow" compare "$0" "$work/a.pfm"
 expect 2 "cannot write" "$bin/afterglow" compare "$work/a.pfm" "$work/a.pfm" --heatmap "$work/none/heat.png"
+
+# Lamps hung in a scene: the same ones for the renderer and the reference, and none where there is no room.
+render gallery -o "$work/lamps.pfm" --layer direct --lamps 30 --no-scene-lights --preset lights-reference
+expect 0 "30" "$bin/afterglow" reference gallery -o "$work/lamps.exr" --layer direct --bounces 0 --lamps 30 \
+  --no-scene-lights --size 160x90
+expect 0 '"rel_rmse"' "$bin/afterglow" compare "$work/lamps.exr" "$work/lamps.pfm" --max-rel-rmse 0.1
 
 # The reference: noise in the file, and what cannot be asked of it.
 expect 0 "noise" "$bin/afterglow" reference cornell -o "$work/truth.exr" --layer bounce1 --size 32x18 --spp 64
