@@ -34,6 +34,7 @@ expect 2 "a size is WxH" "$bin/afterglow" render cornell -o "$work/a.png" --size
 expect 2 "--sun takes" "$bin/afterglow" render cornell -o "$work/a.png" --sun 1,2
 expect 2 "no camera 'nose'" "$bin/afterglow" render cornell -o "$work/a.png" --camera nose
 expect 2 "negative intensity" "$bin/afterglow" render cornell -o "$work/a.png" --point 0,0,0,-3
+expect 2 "--walk takes DX,DY,DZ" "$bin/afterglow" render cornell -o "$work/a.png" --times --walk 1,2
 expect 2 "100000" "$bin/afterglow" render cornell -o "$work/a.png" --lamps 100001
 expect 2 "there is no preset 'best' (there are: none, rsm-brute" "$bin/afterglow" render cornell -o "$work/a.png" --preset best
 expect 2 "there is no built-in scene" "$bin/afterglow" scene nowhere -o "$work/a.glb"
@@ -44,6 +45,7 @@ render() { "$bin/afterglow" render "$@" --size 160x90 --frames 12 --validate 2>"
 render cornell -o "$work/a.png"
 render cornell -o "$work/b.png"
 cmp "$work/a.png" "$work/b.png" || fail "the same command twice gave two pictures"
+expect 0 "frames of a walk" "$bin/afterglow" render cornell -o "$work/walk.png" --size 64x36 --frames 2 --times --walk 0.01,0,0
 render cornell -o "$work/a.exr"
 render cornell -o "$work/a.pfm"
 expect 0 '"rel_rmse": 0.0' "$bin/afterglow" compare "$work/a.exr" "$work/a.pfm" --max-rel-rmse 1e-6

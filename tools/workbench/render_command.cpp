@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
+#include <map>
 
 #include "engine/core/log.h"
 #include "engine/core/settings.h"
@@ -22,6 +24,7 @@ struct RenderOptions {
     std::vector<std::string> assignments;
     bool listSettings = false;
     bool times = false;
+    std::string walk;  // DX,DY,DZ
     bool validate = false;
 };
 
@@ -72,6 +75,40 @@ void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSetti
                              double(renderer.deviceBytes()) / 1048576.0);
 }
 
+// The same while the camera walks: passes are skipped as ever, each has its mean over the frames.
+void printTimesOfWalk(gi::GiRenderer& renderer, LoadedScene& loaded, RenderSettings& settings,
+                      glm::vec3 step) {
+    FrameGraphOptions options = settings.graph;
+    options.timing = TimingMode::kProcessCpu;
+    constexpr int kFrames = 40;
+    std::vector<std::string> names;
+    std::map<std::string, double> sums;
+    for (int i = 0; i < kFrames; ++i) {
+        RenderCamera& camera = loaded.scene.camera;
+        camera.position += step;
+        camera.clipFromWorld = glm::translate(camera.clipFromWorld, -step);
+        camera.worldFromClip = glm::inverse(camera.clipFromWorld);
+        ++loaded.scene.cameraVersion;
+        renderer.render(loaded.scene, loaded.size, settings.gi, options,
+                        [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
+                            graph.output(frame.outputs.display);
+                        });
+        for (const PassReport& pass : renderer.graph().report()) {
+            const auto [entry, added] = sums.try_emplace(std::string(pass.name), 0.0);
+            if (added) names.push_back(entry->first);
+            if (pass.outcome == PassOutcome::kRan) entry->second += pass.cpuMs / kFrames;
+        }
+    }
+    double total = 0;
+    std::cout << fmt::format("{}: {}x{}, process CPU ms per pass, mean of {} frames of a walk\n",
+                             renderer.device().info().name, loaded.size.x, loaded.size.y, kFrames);
+    for (const std::string& name : names) {
+        if (sums[name] > 0) std::cout << fmt::format("{:<36} {:8.2f}\n", name, sums[name]);
+        total += sums[name];
+    }
+    std::cout << fmt::format("{:<36} {:8.2f}\n", "sum", total);
+}
+
 int runRender(const RenderOptions& options) {
     RenderSettings settings;
     if (!gi::applyPreset(options.preset, settings.gi))
@@ -90,6 +127,8 @@ int runRender(const RenderOptions& options) {
     const std::string extension = std::filesystem::path(options.output).extension();
     if (extension != ".png" && extension != ".exr" && extension != ".pfm")
         return refuse(fmt::format("{} must end in .exr, .pfm or .png", options.output));
+    const auto walk = parseStep(options.walk);
+    if (!walk) return refuse(walk.error().message);
     auto loaded = loadScene(options.scene);
     if (!loaded) return refuse(loaded.error().message);
     auto device = gpu::Device::create({.validation = options.validate});
@@ -118,7 +157,10 @@ int runRender(const RenderOptions& options) {
     const Image image =
         shown ? gi::readImage(renderer, shown) : Image(int(loaded->size.x), int(loaded->size.y));
     if (const Status saved = saveImage(image, options.output); !saved) return refuse(saved.error().message);
-    if (options.times) printTimes(renderer, *loaded, settings);
+    if (options.times && *walk != glm::vec3(0))
+        printTimesOfWalk(renderer, *loaded, settings, *walk);
+    else if (options.times)
+        printTimes(renderer, *loaded, settings);
     return (*device)->validationMessageCount() == 0 ? 0 : 1;
 }
 
@@ -140,6 +182,8 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
     command->add_flag("--list-settings", options->listSettings,
                       "every setting with default, range, unit, help");
+    command->add_option("--walk", options->walk,
+                        "with --times: DX,DY,DZ, m the camera moves in each frame measured");
     command->add_flag("--times", options->times, "print each pass's process CPU time and the memory used");
     command->add_flag("--validate", options->validate, "with Vulkan validation; any message exits with 1");
     command->callback([options, &exitCode] { exitCode = runRender(*options); });

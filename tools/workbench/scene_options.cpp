@@ -125,6 +125,13 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
     command.add_flag("--no-scene-lights", o.noSceneLights, "drop the file's own lights");
 }
 
+Result<glm::vec3> parseStep(const std::string& text) {
+    if (text.empty()) return glm::vec3(0);
+    const auto n = parseNumbers(text, 3, 3);
+    if (!n) return Error{fmt::format("--walk takes DX,DY,DZ, not '{}'", text)};
+    return glm::vec3((*n)[0], (*n)[1], (*n)[2]);
+}
+
 Result<glm::uvec2> parseSize(const std::string& text) {
     glm::uvec2 size(0);
     const char* end = text.data() + text.size();

@@ -35,6 +35,9 @@ struct LoadedScene {
 // Everything the options say, ready to render; warnings are logged.
 Result<LoadedScene> loadScene(const SceneOptions& options);
 
+// "0.1,0,0" in m; nothing for an empty text
+Result<glm::vec3> parseStep(const std::string& text);
+
 // "640x360"
 Result<glm::uvec2> parseSize(const std::string& text);
 
