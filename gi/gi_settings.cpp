@@ -278,7 +278,8 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.lightClusters.minDistance);
     s.add({"light_clusters", "growth", 0, 10, "", "of that distance, for each m from the camera"},
           &gi.lightClusters.growth);
-    s.add({"light_clusters", "strong_first", 0, 0, "", "strong lamps keep a shadow map of their own longer"},
+    s.add({"light_clusters", "strong_first", 0, 0, "",
+           "lamps that matter keep a shadow map of their own longer"},
           &gi.lightClusters.strongFirst);
     s.add({"light_clusters", "hysteresis", 0, 1, "", "part of the distance that a centre of before needs"},
           &gi.lightClusters.hysteresis);
