@@ -105,7 +105,9 @@ TEST(LampRelevance, IsTheLightAtTheViewsPoints) {
             const float e = cosine / (distance * distance) * io::rangeWindow(distance, light.range);
             sum += double(p.weight * e * (light.intensity.x + light.intensity.y + light.intensity.z));
         }
-        if (const auto of = relevance.of(light.id)) EXPECT_NEAR(*of, sum, 1e-3 * sum + 1e-4);
+        if (const auto of = relevance.of(light.id)) {
+            EXPECT_NEAR(*of, sum, 1e-3 * sum + 1e-4);
+        }
         measured += relevance.of(light.id).has_value();
     }
     EXPECT_GT(measured, 20u);
@@ -175,7 +177,9 @@ TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
         const double lit = double(shadowed.at(pixel.x, pixel.y).x / open.at(pixel.x, pixel.y).x);
         sum += std::abs(lit - truth);
         ++count;
-        if (std::abs(x) > 1.3f * radius) EXPECT_NEAR(lit, truth, 0.02) << "at " << x;
+        if (std::abs(x) > 1.3f * radius) {
+            EXPECT_NEAR(lit, truth, 0.02) << "at " << x;
+        }
     }
     std::printf("penumbra: mean difference from the disk's share %.3f\n", sum / count);
     EXPECT_LT(sum / count, 0.05);
@@ -285,9 +289,9 @@ TEST(LampLighting, LampsMayChangeEveryFrame) {
         }
         ++b->scene.lightsVersion;
         b->frame();
-        if (step % 100 == 0)
-            for (const glm::vec3& p : readImage(b->renderer, b->last.direct.image).pixels)
-                ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+        if (step % 100 != 0) continue;
+        for (const glm::vec3& p : readImage(b->renderer, b->last.direct.image).pixels)
+            ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
     }
 }
 
