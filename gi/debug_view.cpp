@@ -47,16 +47,23 @@ ImageHandle addCopy(FrameGraph& graph, const SceneView& scene, ImageHandle first
     return out;
 }
 
+// A view that draws over the camera's surfaces.
+PassBuilder beginSurfaceView(FrameGraph& graph, std::string_view name, std::string_view shader,
+                             const SceneView& scene, const GiFrame& f) {
+    PassBuilder pass = graph.fullscreen(name, shader);
+    pass.sample("depthMap", f.gbuffer.depth)
+        .sample("normalMap", f.gbuffer.normal)
+        .read("camera", scene.camera);
+    return pass;
+}
+
 ImageHandle addClusters(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
     const ImageHandle out = layerImage(graph, scene.size);
-    graph.fullscreen("debug_view.clusters", "debug_view/clusters.frag")
+    beginSurfaceView(graph, "debug_view.clusters", "debug_view/clusters.frag", scene, f)
         .read("texels", f.rsm.texels)
         .read("faces", f.rsm.faces)
         .read("slotOfTexel", f.clusters.slotOfTexel)
         .read("candidates", f.clusters.candidates)
-        .sample("depthMap", f.gbuffer.depth)
-        .sample("normalMap", f.gbuffer.normal)
-        .read("camera", scene.camera)
         .push(f.rsm.atlas)
         .colorClear(out, glm::vec4(0));
     return out;
@@ -64,12 +71,9 @@ ImageHandle addClusters(FrameGraph& graph, const SceneView& scene, const GiFrame
 
 ImageHandle addVals(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
     const ImageHandle out = layerImage(graph, scene.size);
-    graph.fullscreen("debug_view.vals", "debug_view/vals.frag")
+    beginSurfaceView(graph, "debug_view.vals", "debug_view/vals.frag", scene, f)
         .read("vals", f.vals.vals)
         .read("shapes", f.vals.shapes)
-        .sample("depthMap", f.gbuffer.depth)
-        .sample("normalMap", f.gbuffer.normal)
-        .read("camera", scene.camera)
         .push(f.vals.count)
         .colorClear(out, glm::vec4(0));
     return out;
@@ -77,11 +81,8 @@ ImageHandle addVals(FrameGraph& graph, const SceneView& scene, const GiFrame& f)
 
 ImageHandle addLampClusters(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
     const ImageHandle out = layerImage(graph, scene.size);
-    graph.fullscreen("debug_view.lamp_clusters", "debug_view/lamp_clusters.frag")
+    beginSurfaceView(graph, "debug_view.lamp_clusters", "debug_view/lamp_clusters.frag", scene, f)
         .read("lamps", f.lampLists.lamps)
-        .sample("depthMap", f.gbuffer.depth)
-        .sample("normalMap", f.gbuffer.normal)
-        .read("camera", scene.camera)
         .push(f.lampLists.lampCount)
         .colorClear(out, glm::vec4(0));
     return out;

@@ -43,7 +43,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.lampShadows = addLampShadows(graph, scene, lamps, s.lightClusters.most, s.lampShadows, h.lampShadows);
     f.lampLists = addLampLists(graph, scene, f.gbuffer, lamps, s.lampLighting.tiles, h.lampLists);
     f.direct = addLampLighting(graph, scene, f.gbuffer, f.lampLists, f.lampShadows, f.direct, s.lampLighting);
-    addLampRelevance(graph, f.viewPoints, f.lampLists, h.lampRelevance);
+    if (s.lightClusters.strongFirst) addLampRelevance(graph, f.viewPoints, f.lampLists, h.lampRelevance);
 
     // To the eye
     f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);

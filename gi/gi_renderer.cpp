@@ -29,6 +29,8 @@ GiRenderer::~GiRenderer() {
 void GiRenderer::load(const GeometryArrays& geometry) {
     scene_.load(geometry);
     graph_.resetHistory("val_clustering.clusters");
+    for (const std::string_view copy : kLampRelevanceCopies)  // of lamps that are gone
+        graph_.resetHistory(copy);
     history_ = {};
 }
 

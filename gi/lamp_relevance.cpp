@@ -50,7 +50,7 @@ void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, const LampList
         .write("relevance", relevance)
         .push(io::MeasurePush{.lampCount = lamps.lampCount, .pointCount = pointsFor(lamps.lampCount)})
         .dispatchGroups(rows);
-    known.set(graph.readBack({"lamp_relevance.read0", "lamp_relevance.read1"}, relevance));
+    known.set(graph.readBack(kLampRelevanceCopies, relevance));
 }
 
 }  // namespace ag::gi

@@ -13,6 +13,10 @@ namespace ag::gi {
 
 struct LampLists;
 
+// Names of the copies that are read back.
+constexpr std::array<std::string_view, kFramesInFlight> kLampRelevanceCopies = {"lamp_relevance.read0",
+                                                                                "lamp_relevance.read1"};
+
 class LampRelevance {
   public:
     // Of a light by its id; none: it was not measured yet.

@@ -17,7 +17,7 @@ struct LightClusterSettings {
     float minDistance = 0.5f;  // m between centres at the camera
     float growth = 0.1f;       // m more for each m between lamp and camera; the error seen stays the same
     uint32_t most = 32;        // clusters; the distances are stretched until so many do
-    bool strongFirst = true;   // lamps that matter keep a map of their own longer; off: as published, in order
+    bool strongFirst = true;  // lamps that matter keep a map of their own longer; off: as published, in order
     float hysteresis = 0.75f;  // a centre of the frame before needs this part of the distance; 1: none
 
     // Farther from the nearest centre than this part of its range a lamp goes without shadow: the centre's

@@ -76,8 +76,7 @@ void extractInstances(InstanceView& instances, ExtractState& state, RenderScene&
 
 // Once for each light, not every frame.
 void warnOf(Entity entity, const char* wrong, Lookup<const Name>& names, ExtractState& state) {
-    if (std::ranges::find(state.warned, entity) != state.warned.end()) return;
-    state.warned.push_back(entity);
+    if (!state.warned.insert(entity.bits()).second) return;
     const Name* name = names(entity);
     spdlog::warn("light '{}' {}", name ? name->text : "without a name", wrong);
 }

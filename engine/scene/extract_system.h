@@ -3,6 +3,8 @@
 // near.
 #pragma once
 
+#include <unordered_set>
+
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
 #include "engine/scene/static_scene.h"
@@ -14,12 +16,12 @@ struct ActiveCamera {  // resource: what the player looks through
     glm::uvec2 size{640, 360};  // pixels
 };
 
-struct ExtractState {            // resource: which entity each row stands for
-    std::vector<Entity> rows;    // entity of each instance row
-    std::vector<Entity> seen;    // scratch
-    uint32_t entityCount = 0;    // instances at the last look
-    bool placed = false;         // the origin was chosen
-    std::vector<Entity> warned;  // lights that something is wrong with
+struct ExtractState {                     // resource: which entity each row stands for
+    std::vector<Entity> rows;             // entity of each instance row
+    std::vector<Entity> seen;             // scratch
+    uint32_t entityCount = 0;             // instances at the last look
+    bool placed = false;                  // the origin was chosen
+    std::unordered_set<uint64_t> warned;  // bits of lights that something is wrong with
 };
 
 using InstanceView = View<const WorldTransform, const MeshInstance>;
