@@ -34,7 +34,7 @@ io::PixelRays raysOf(const RenderCamera& camera, glm::vec2 size) {
 struct Images {
     HistoryImage light;    // rgb: mean; a: frames it stands for
     HistoryImage surface;  // xyz: normal; w: m along the axis, 0: sky
-    ImageHandle tiles;
+    HistoryImage tiles;    // noise, change, lasting difference of 8 x 8 pixels
     BufferHandle cameras;
 };
 
@@ -43,7 +43,7 @@ void addFilter(FrameGraph& graph, std::string_view name, const Images& images, I
     graph.compute(name, "denoiser/filter.comp")
         .sample("light", from)
         .sample("surface", images.surface.current)
-        .sample("tiles", images.tiles, Sampler::kLinearClamp)
+        .sample("tiles", images.tiles.current, Sampler::kLinearClamp)
         .read("cameras", images.cameras)
         .write("result", to)
         .spec(0, !s.separable)
@@ -68,7 +68,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
 
     Images images{.light = graph.historyImage("denoiser.light", info),
                   .surface = graph.historyImage("denoiser.surface", info),
-                  .tiles = graph.image("denoiser.tiles", tileInfo)};
+                  .tiles = graph.historyImage("denoiser.tiles", tileInfo)};
     const io::PixelRays rays = raysOf(camera, size);
     const io::DenoiserCameras cameras{.previousClipFromWorld = before.clipFromWorld,
                                       .now = rays,
@@ -90,14 +90,18 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         .read("cameras", images.cameras)
         .write("surface", images.surface.current)
         .write("history", reprojected)
+        .sample("motionMap", gbuffer.motion ? gbuffer.motion : gbuffer.normal)
+        .spec(0, bool(gbuffer.motion))
         .push(Push{camera.near, known && images.light.valid, noisy.step})
         .dispatchThreads(size.x, size.y);
     const ImageHandle excess = graph.image("denoiser.excess", tileInfo);
     graph.compute("denoiser.measure_tiles", "denoiser/measure_tiles.comp")
         .sample("samples", noisy.irradiance.image)
         .sample("history", reprojected)
-        .write("tiles", images.tiles)
+        .samplePrevious("previousTiles", images.tiles, Sampler::kNearestClamp)
+        .write("tiles", images.tiles.current)
         .write("excess", excess)
+        .push(uint32_t(known && images.tiles.valid))
         .dispatchGroups(tileCount.x * tileCount.y);
     const uint32_t rounds = std::min(s.rounds, kMostRounds);
     const bool recurrent = s.recurrent && rounds > 0;
@@ -105,7 +109,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
     graph.compute("denoiser.accumulate", "denoiser/accumulate.comp")
         .sample("samples", noisy.irradiance.image)
         .sample("history", reprojected)
-        .sample("tiles", images.tiles, Sampler::kLinearClamp)
+        .sample("tiles", images.tiles.current, Sampler::kLinearClamp)
         .sample("excess", excess)
         .write("light", mean)
         .push(io::AccumulatePush{s.leastShare, float(s.mostLength), s.adaptive, changing, noisy.step})

@@ -18,6 +18,7 @@ struct DenoiserSettings {  // ours
     bool separable = true;      // two lines of five taps a round instead of a square of 25
     bool recurrent = false;     // the first round goes into the history, which it blurs more with every frame
     bool adaptive = true;       // light that changes takes over, bright samples are spread
+    bool motion = true;         // histories follow surfaces that move
     float lightTolerance = 4;   // standard deviations by which the light of taps may differ; 0: any
 };
 

@@ -137,6 +137,31 @@ const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const 
     return view.draws;
 }
 
+const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
+                                 std::span<const RenderScene::Range> rows) {
+    ensureView(slot);
+    View& view = views_[slot];
+    view.draws.version = combineHash(from.version, instancesVersion_);
+    view.draws.instanceCount = 0;
+    for (size_t b = 0; b < buckets_.size(); ++b) {
+        BucketRange& range = view.draws.buckets[b];
+        range = {slot * commandsPerView() + bucketFirst_[b], 0};
+        auto row = rows.begin();  // commands of a bucket ascend too
+        for (uint32_t c = 0; c < from.buckets[b].commandCount; ++c) {
+            const VkDrawIndexedIndirectCommand& command = commands_[from.buckets[b].firstCommand + c];
+            while (row != rows.end() && row->end <= command.firstInstance)
+                ++row;
+            if (row == rows.end()) break;
+            if (command.firstInstance >= row->begin)
+                commands_[range.firstCommand + range.commandCount++] = command;
+        }
+        view.draws.instanceCount += range.commandCount;
+    }
+    view.generation = 0;  // not a frustum's: culled anew if the slot becomes one
+    view.dirty = true;
+    return view.draws;
+}
+
 bool DrawLists::takeDirty(uint32_t view) {
     return std::exchange(views_[view].dirty, false);
 }

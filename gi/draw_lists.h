@@ -46,6 +46,9 @@ class DrawLists {
     // array. The result stays in place and is valid until the next cull of that slot.
     const ViewDraws& cull(const RenderScene& scene, uint32_t view, const glm::mat4& clipFromWorld);
 
+    // Into slot `view` of what `from` draws the instances in `rows` (ascending) alone.
+    const ViewDraws& pick(uint32_t view, const ViewDraws& from, std::span<const RenderScene::Range> rows);
+
     std::span<const DrawBucket> buckets() const { return buckets_; }
     // All commands, a fixed region a view; changes are marked per view for the upload.
     std::span<const VkDrawIndexedIndirectCommand> commands() const { return commands_; }

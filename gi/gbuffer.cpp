@@ -26,7 +26,23 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     pass.depthClear(g.depth).geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
     drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, Viewer::kCamera);
+    g.draws = &draws;
     return g;
+}
+
+ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {
+    const uint32_t slot = scene.claimView();
+    if (scene.moved.empty()) return {};
+    const ViewDraws& moved = scene.draws->pick(slot, *gbuffer.draws, scene.moved);
+    if (moved.instanceCount == 0) return {};
+    scene.readsPrevious = true;
+    const ImageHandle motion = graph.image("gbuffer.motion", graph.info(gbuffer.normal));
+    PassBuilder pass = graph.raster("gbuffer.motion", "gbuffer/motion.vert", "gbuffer/motion.frag",
+                                    gpu::VertexLayout::kPositions);
+    pass.colorClear(motion, glm::vec4(0)).depthEqual(gbuffer.depth).geometry(scene.geometry);
+    pass.read("instances", scene.instances).read("previousInstances", scene.previousInstances);
+    drawView(pass, scene, moved, scene.scene->camera.clipFromWorld, {}, DrawFilter::kShapes, Viewer::kLight);
+    return motion;
 }
 
 BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {

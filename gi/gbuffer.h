@@ -11,10 +11,15 @@ struct GBuffer {
     ImageHandle normal;    // rgba16f: unit normal; roughness
     ImageHandle albedo;    // rgba16f: diffuse albedo; metallic
     ImageHandle emissive;  // rgba16f, W/(m² sr); invalid when no material emits
+    ImageHandle motion;    // rgba16f: m to where the surface was a frame ago; invalid when nothing moved
+    const ViewDraws* draws = nullptr;
     glm::uvec2 size{0};
 };
 
 GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene);
+
+// Where the surfaces that moved since the frame before were then; only what moved is drawn. None: invalid.
+ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer);
 
 // io::kViewPointCount surface points that stand for the view: io::ViewPoint, also a texel buffer of vec4.
 BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer);

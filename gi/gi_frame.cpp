@@ -2,6 +2,8 @@
 // frame graph finds order, barriers and what can be skipped.
 #include "gi/gi.h"
 
+#include "engine/core/hash.h"
+
 namespace ag::gi {
 
 GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& s, GiHistory& h) {
@@ -32,8 +34,10 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
         f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, {f.clusters, f.vals, f.isms},
                                      s.stochasticRsm, h.stochasticRsm);
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step;
-    f.bounce1 =
-        addDenoiser(graph, scene, f.gbuffer, {f.bounce1, f.rsm.inputsVersion, steps}, s.denoiser, h.denoiser);
+    if (s.denoiser.enabled && s.denoiser.motion && f.bounce1.image)
+        f.gbuffer.motion = addMotion(graph, scene, f.gbuffer);
+    const uint64_t light = combineHash(f.rsm.inputsVersion, scene.scene->instancesVersion);
+    f.bounce1 = addDenoiser(graph, scene, f.gbuffer, {f.bounce1, light, steps}, s.denoiser, h.denoiser);
 
     // Direct light
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);

@@ -53,7 +53,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     AG_VK(vkBeginCommandBuffer(slot.commands, &begin));
-    scene_.upload(slot.commands, scene, index);
+    scene_.upload(slot.commands, view, index);
     if (options.timing == TimingMode::kProcessCpu) {
         // The graph submits by itself, so the uploads must be on their way before it.
         AG_VK(vkEndCommandBuffer(slot.commands));

@@ -262,6 +262,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.denoiser.recurrent);
     s.add({"denoiser", "adaptive", 0, 0, "", "changing light takes over, bright samples are spread"},
           &gi.denoiser.adaptive);
+    s.add({"denoiser", "motion", 0, 0, "", "histories follow what moves"}, &gi.denoiser.motion);
     s.add({"denoiser", "light_tolerance", 0, 1000, "deviations",
            "by which the light of taps may differ; 0: any"},
           &gi.denoiser.lightTolerance);

@@ -8,14 +8,15 @@ namespace ag::gi {
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
               const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer) {
     const bool camera = viewer == Viewer::kCamera;
+    const bool shapes = filter == DrawFilter::kShapes || filter == DrawFilter::kOpaqueOnly;
     const std::span<const DrawBucket> buckets = scene.draws->buckets();
     for (size_t b = 0; b < buckets.size(); ++b) {
         const DrawBucket& bucket = buckets[b];
-        const bool wanted =
-            filter == DrawFilter::kAll || bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
+        const bool wanted = filter == DrawFilter::kAll || filter == DrawFilter::kShapes ||
+                            bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
         if (!wanted || view.buckets[b].commandCount == 0) continue;
         RasterDraw draw;
-        if (filter != DrawFilter::kOpaqueOnly) {  // depth-only variants know no materials
+        if (!shapes) {
             draw.spec[draw.specCount++] = {0, uint32_t(bucket.textureClass)};
             draw.spec[draw.specCount++] = {1, bucket.alphaMask};
             if (camera) draw.spec[draw.specCount++] = {2, bucket.normalMap};

@@ -5,7 +5,8 @@
 
 namespace ag::gi {
 
-enum class DrawFilter { kAll, kOpaqueOnly, kMaskedOnly };
+// kShapes: all too, but without their materials, as kOpaqueOnly.
+enum class DrawFilter { kAll, kShapes, kOpaqueOnly, kMaskedOnly };
 
 // Normal maps bend what the camera sees, and it does not see single-sided surfaces from behind (glTF). Light
 // meets the surface itself and does not pass it either way.

@@ -37,9 +37,9 @@ io::Material materialRow(const Material& m) {
             .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], 0.0f}};
 }
 
-// The camera, and for each light at most a cube of RSM faces and one of shadow views.
+// The camera, what moved in it, and for each light at most a cube of RSM faces and one of shadow views.
 uint64_t viewsNeeded(const RenderScene& scene) {
-    uint64_t views = 1 + 6 * uint64_t(mostClustersNeeded(scene, kMostLampClusters));
+    uint64_t views = 2 + 6 * uint64_t(mostClustersNeeded(scene, kMostLampClusters));
     for (const RenderLight& light : scene.lights) {
         if (light.bounces) views += light.kind == LightKind::kPoint ? 6 : 1;
         if (light.kind == LightKind::kDirectional) views += io::kMaxCascades;
@@ -88,12 +88,15 @@ uint64_t instanceSet(const RenderScene& scene) {
     return hash;
 }
 
-void transferBarrier(VkCommandBuffer commands, bool before) {
+enum class Transfer { kBefore, kBetweenCopies, kAfter };
+
+void transferBarrier(VkCommandBuffer commands, Transfer when) {
     VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    const bool before = when == Transfer::kBefore, after = when == Transfer::kAfter;
     barrier.srcStageMask = before ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_2_COPY_BIT;
     barrier.srcAccessMask = before ? VK_ACCESS_2_NONE : VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    barrier.dstStageMask = before ? VK_PIPELINE_STAGE_2_COPY_BIT : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.dstAccessMask = before ? VK_ACCESS_2_TRANSFER_WRITE_BIT : VK_ACCESS_2_MEMORY_READ_BIT;
+    barrier.dstStageMask = after ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_2_COPY_BIT;
+    barrier.dstAccessMask = after ? VK_ACCESS_2_MEMORY_READ_BIT : VK_ACCESS_2_TRANSFER_WRITE_BIT;
     const VkDependencyInfo info{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
     vkCmdPipelineBarrier2(commands, &info);
@@ -151,6 +154,8 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
     const gpu::Buffer* before = instances_.get();
     instances_ = grown(std::move(instances_), "scene.instances", rowBytes, kVec4Texels, false);
     if (instances_.get() != before) instancesVersion_ = 0;
+    previousInstances_ =
+        grown(std::move(previousInstances_), "scene.previous_instances", rowBytes, kVec4Texels, false);
     const uint64_t commandBytes =
         std::max<uint64_t>(viewsNeeded(scene) * std::max<uint64_t>(scene.instances.size(), 1) *
                                sizeof(VkDrawIndexedIndirectCommand),
@@ -199,6 +204,10 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
     // Constant versions: what a view draws of them is in its draws' versions.
     view.instances = graph.importBuffer("scene.instances", *instances_, 1);
+    view.previousInstances = graph.importBuffer("scene.previous_instances", *previousInstances_, 1);
+    const bool follows = !scene.allInstancesChanged && instancesVersion_ != 0 &&
+                         instancesVersion_ + 1 == scene.instancesVersion;
+    if (follows) view.moved = scene.changedInstances;
     view.commands = graph.importBuffer("scene.commands", *commands_, 1);
     view.materials = graph.importBuffer("scene.materials", *materials_, geometryVersion_);
     static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024",
@@ -243,11 +252,26 @@ void SceneGpu::stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<con
         staging.used = 0;
     }
     std::memcpy(staging.buffer->mapped() + staging.used, bytes.data(), bytes.size());
-    if (uploadedBytes_ == 0) transferBarrier(commands, true);
+    if (uploadedBytes_ == 0) transferBarrier(commands, Transfer::kBefore);
     const VkBufferCopy region{.srcOffset = staging.used, .dstOffset = offset, .size = bytes.size()};
     vkCmdCopyBuffer(commands, staging.buffer->handle(), to.handle(), 1, &region);
     staging.used += bytes.size();
     uploadedBytes_ += bytes.size();
+}
+
+// On the device, before new rows take their place.
+void SceneGpu::keepPrevious(VkCommandBuffer commands, std::span<const RenderScene::Range> rows) {
+    std::vector<VkBufferCopy> regions;
+    for (const RenderScene::Range& range : rows) {
+        const uint64_t offset = range.begin * sizeof(io::Instance);
+        regions.push_back({offset, offset, (range.end - range.begin) * sizeof(io::Instance)});
+        uploadedBytes_ += regions.back().size;
+    }
+    if (regions.empty()) return;
+    transferBarrier(commands, Transfer::kBefore);
+    vkCmdCopyBuffer(commands, instances_->handle(), previousInstances_->handle(), uint32_t(regions.size()),
+                    regions.data());
+    transferBarrier(commands, Transfer::kBetweenCopies);
 }
 
 void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot) {
@@ -268,25 +292,27 @@ void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scen
     instancesVersion_ = scene.instancesVersion;
 }
 
-void SceneGpu::upload(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot) {
+void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, uint32_t frameSlot) {
+    const RenderScene& scene = *view.scene;
     uploadedBytes_ = 0;
     staging_[frameSlot].used = 0;
+    if (view.readsPrevious) keepPrevious(commands, view.moved);
     uploadInstances(commands, scene, frameSlot);
     const uint64_t stride = draws_.commandsPerView() * sizeof(VkDrawIndexedIndirectCommand);
     AG_CHECK_MSG(draws_.viewCount() * stride <= commands_->sizeBytes(), "a view was added after import()");
-    for (uint32_t view = 0; view < draws_.viewCount(); ++view)
-        if (draws_.takeDirty(view))
+    for (uint32_t slot = 0; slot < draws_.viewCount(); ++slot)
+        if (draws_.takeDirty(slot))
             stage(commands, frameSlot,
                   std::as_bytes(
-                      draws_.commands().subspan(view * draws_.commandsPerView(), draws_.commandsPerView())),
-                  *commands_, view * stride);
-    if (uploadedBytes_ > 0) transferBarrier(commands, false);
+                      draws_.commands().subspan(slot * draws_.commandsPerView(), draws_.commandsPerView())),
+                  *commands_, slot * stride);
+    if (uploadedBytes_ > 0) transferBarrier(commands, Transfer::kAfter);
 }
 
 uint64_t SceneGpu::deviceBytes() const {
     uint64_t bytes = 0;
     for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(),
-                               instances_.get(), commands_.get(), samples_.get()})
+                               instances_.get(), previousInstances_.get(), commands_.get(), samples_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes;
 }

@@ -20,7 +20,10 @@ struct SceneView {
     const RenderScene* scene = nullptr;
     DrawLists* draws = nullptr;
     Geometry geometry;
-    BufferHandle instances;  // io::Instance rows; versions are the draws' (see DrawLists)
+    BufferHandle instances;          // io::Instance rows; versions are the draws' (see DrawLists)
+    BufferHandle previousInstances;  // the rows of `moved` as they were in the frame before
+    std::span<const RenderScene::Range>
+        moved;  // rows that stood elsewhere then; others are new or did not move
     BufferHandle materials;
     BufferHandle camera;                                      // io::CameraConstants
     BufferHandle commands;                                    // indirect draws of all views
@@ -33,6 +36,7 @@ struct SceneView {
     float stillArea = 0, movableArea = 0;  // m²
     uint64_t stillVersion = 0;             // changes when an instance that is not movable may have moved
     mutable uint32_t viewsClaimed = 0;
+    mutable bool readsPrevious = false;  // a pass does, so that previousInstances must be kept
     // The next free slot of DrawLists; claimed in the same order every frame.
     uint32_t claimView() const { return viewsClaimed++; }
 };
@@ -51,7 +55,7 @@ class SceneGpu {
     void beginFrame(const RenderScene& scene) { draws_.beginFrame(scene); }
     SceneView import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size);
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
-    void upload(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
+    void upload(VkCommandBuffer commands, const SceneView& view, uint32_t frameSlot);
 
     DrawLists& draws() { return draws_; }
     uint64_t uploadedBytes() const { return uploadedBytes_; }  // in the last frame
@@ -65,6 +69,7 @@ class SceneGpu {
     void loadTextures(const GeometryArrays& geometry);
     void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
                const gpu::Buffer& to, uint64_t offset);
+    void keepPrevious(VkCommandBuffer commands, std::span<const RenderScene::Range> rows);
     void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
     void sampleSurfacesAnew(const RenderScene& scene);
@@ -76,7 +81,8 @@ class SceneGpu {
     DrawLists draws_;
     uint64_t geometryVersion_ = 0;
     bool hasEmissive_ = false;
-    std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_, commands_;
+    std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
+        previousInstances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
     std::unique_ptr<gpu::Buffer> samples_;
     uint32_t sampleCount_ = 0;

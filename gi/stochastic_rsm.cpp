@@ -22,11 +22,13 @@ constexpr std::array<std::string_view, io::kMaxBounceLights> kListedNames = {
     "stochastic_rsm.listed0", "stochastic_rsm.listed1", "stochastic_rsm.listed2", "stochastic_rsm.listed3",
     "stochastic_rsm.listed4", "stochastic_rsm.listed5", "stochastic_rsm.listed6", "stochastic_rsm.listed7"};
 
-// x, y in the unit disk, dense in its middle, and the weight xi that makes up for it.
-BufferHandle addPattern(FrameGraph& graph, uint32_t samples) {
+// x, y in the unit disk, dense in its middle, and the weight xi that makes up for it. Samples that take turns
+// between disk and whole map are two patterns.
+BufferHandle addPattern(FrameGraph& graph, uint32_t samples, bool takeTurns) {
     std::array<glm::vec4, kMostSamples> points;  // 64 KiB
     for (uint32_t i = 0; i < samples; ++i) {
-        const glm::vec2 xi = io::hammersley(i, samples);
+        const glm::vec2 xi =
+            takeTurns ? io::hammersley(i / 2, (samples + 1) / 2) : io::hammersley(i, samples);
         const float angle = 2 * std::numbers::pi_v<float> * xi.y;
         points[i] = {xi.x * std::cos(angle), xi.x * std::sin(angle), xi.x, xi.y};
     }
@@ -133,7 +135,7 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
                     .gbuffer = gbuffer,
                     .rsm = rsm,
                     .visibility = visibility,
-                    .pattern = addPattern(graph, settings.samples),
+                    .pattern = addPattern(graph, settings.samples, settings.whole),
                     .list = list,
                     .noise = addBlueNoise(graph),
                     .shift = shiftOf(step),

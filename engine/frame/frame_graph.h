@@ -128,7 +128,8 @@ class PassBuilder {
     PassBuilder& colorClear(ImageHandle image, glm::vec4 clear);
     PassBuilder& depth(ImageHandle image);
     PassBuilder& depthClear(ImageHandle image, float clear = 0.0f);  // reversed depth: far is 0
-    PassBuilder& depthTestOnly(ImageHandle image);
+    // Only what was drawn into it at the very same depth, by a shader whose position is as invariant.
+    PassBuilder& depthEqual(ImageHandle image);
     // An atlas of which each rectangle lasts by itself: only those whose draws changed are cleared and drawn
     // again. Every draw belongs to the patch begun last; patches do not overlap.
     PassBuilder& depthPatches(ImageHandle image, float clear = 0.0f);

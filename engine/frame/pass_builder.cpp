@@ -124,10 +124,10 @@ PassBuilder& PassBuilder::patch(glm::uvec4 rect) {
     return *this;
 }
 
-PassBuilder& PassBuilder::depthTestOnly(ImageHandle image) {
+PassBuilder& PassBuilder::depthEqual(ImageHandle image) {
     gpu::RasterState& raster = AG_PASS.raster;
     raster.depthFormat = graph_->info(image).format;
-    raster.depthTest = true;
+    raster.depthTest = raster.depthEqual = true;
     graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kDepthTest});
     return *this;
 }

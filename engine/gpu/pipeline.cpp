@@ -25,7 +25,7 @@ uint64_t requestHash(const PipelineRequest& r) {
     const RasterState& s = r.raster;
     for (uint64_t field :
          {uint64_t(s.vertexLayout), uint64_t(s.cull), uint64_t(s.blend), uint64_t(s.depthTest),
-          uint64_t(s.depthWrite), uint64_t(s.colorCount), uint64_t(s.depthFormat)})
+          uint64_t(s.depthWrite), uint64_t(s.depthEqual), uint64_t(s.colorCount), uint64_t(s.depthFormat)})
         hash = combineHash(hash, field);
     hash = hashValue(s.depthBiasSlope, hash);
     for (uint32_t i = 0; i < s.colorCount; ++i)
@@ -274,7 +274,7 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
         .depthTestEnable = state.depthTest,
         .depthWriteEnable = state.depthWrite,
-        .depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL};
+        .depthCompareOp = state.depthEqual ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER_OR_EQUAL};
     std::array<VkPipelineColorBlendAttachmentState, kMaxColorTargets> attachments{};
     for (VkPipelineColorBlendAttachmentState& a : attachments)
         a = {.blendEnable = state.blend == BlendMode::kAlpha,

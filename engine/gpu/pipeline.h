@@ -45,6 +45,7 @@ struct RasterState {
     BlendMode blend = BlendMode::kNone;
     bool depthTest = false;  // reversed depth: nearer is greater
     bool depthWrite = false;
+    bool depthEqual = false;   // passes only what was drawn before at this depth
     float depthBiasSlope = 0;  // for shadow maps; reversed depth, so negative pushes away
     std::array<VkFormat, kMaxColorTargets> colorFormats{};
     uint32_t colorCount = 0;

@@ -20,9 +20,9 @@ void main() {
     vec4 old = texelFetch(history, at, 0);
     vec2 where = (vec2(at) + 0.5) / float(kDenoiserTile) / vec2(textureSize(tiles, 0));
     ivec2 tile = at / int(kDenoiserTile);
-    float limit = texelFetch(tiles, tile, 0).z, l = luminance(fresh);
     float change = push.p.changing == 1 ? textureLod(tiles, where, 0.0).y : 0.0;
-    if (push.p.spread == 1) fresh = fresh * (l > limit ? limit / l : 1.0) + texelFetch(excess, tile, 0).rgb;
+    if (push.p.spread == 1) 
+        fresh = fresh * keptShare(luminance(fresh), old, texelFetch(tiles, tile, 0).x) + texelFetch(excess, tile, 0).rgb * luminance(old.rgb);
     float length_ = min(old.a, push.p.mostLength - 1.0) * (1.0 - change) + 1.0;
     float share = max(old.a > 0.0 ? push.p.leastShare : 1.0, 1.0 / length_);
     vec3 mean = mix(old.rgb, fresh, share);

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// Of each tile of 8 x 8 pixels: the deviation of a new sample's luminance, what of the new samples stands out above six of
-// the samples' deviations, and by how much new samples and history disagree beyond what noise explains, 0 to 1. One
-// subgroup a tile. Noise is what differs from the history, where there is one: light that falls off within a tile is none.
+// Of each tile of 8 x 8 pixels: the deviation of a new sample's luminance over some frames; what of the new samples stands
+// out of it; by how much new samples and history disagree beyond what noise explains, 0 to 1. One subgroup a tile. Noise
+// is what differs from the history, where there is one: light that falls off within a tile is none.
 #include "common/lane_loop.glsl"
 #include "denoiser/surface.glsl"
 
@@ -12,10 +12,13 @@ layout(local_size_x_id = 100) in;
 
 layout(set = 0, binding = 0) uniform sampler2D samples;
 layout(set = 0, binding = 1) uniform sampler2D history;
-layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D tiles;   // deviation, change, most luminance, 0
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D excess;  // W/m² that each of its pixels gets
+layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D tiles;   // noise, change, lasting difference, 0
+layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D excess;  // what stands out, as a share of the light known there
+layout(set = 0, binding = 4) uniform sampler2D previousTiles;
+layout(push_constant) uniform Push { uint valid; } push;
 
-const float kStandsOut = 6.0;
+const float kNoiseShare = 0.125;   // of a frame in the noise
+const float kLastingShare = 0.25;  // of a frame in the mean difference
 
 void main() {
     ivec2 tileCount = imageSize(tiles), size = textureSize(samples, 0);
@@ -41,23 +44,26 @@ void main() {
     both = subgroupAdd(both);
     bool hasHistory = both > 0.5 * count;
     both = max(both, 1.0);
-    float deviation = sqrt(hasHistory ? subgroupAdd(off) / both : variance);
+    float deviation2 = hasHistory ? subgroupAdd(off) / both : variance;
     fresh = subgroupAdd(fresh) / both;
     old = subgroupAdd(old) / both;
-    // From one standard deviation of the means' difference on, all from three on.
-    float uncertain = sqrt(variance / both) + 0.02 * max(fresh, old);
-    float change = clamp(0.5 * abs(fresh - old) / max(uncertain, 1e-20) - 0.5, 0.0, 1.0);
-    change = old > 0.0 && fresh == 0.0 ? 1.0 : change;
-    float limit = mean + kStandsOut * sqrt(variance);
+    // From two standard deviations of the means' difference on, all from four on: of this frame's and of a mean over some,
+    // which finds what changes slowly.
+    vec4 before = push.valid == 1 ? texelFetch(previousTiles, tile, 0) : vec4(sqrt(deviation2), vec3(0.0));
+    float noise = sqrt(mix(before.x * before.x, deviation2, kNoiseShare));
+    float uncertain = noise / sqrt(both) + 0.02 * max(fresh, old), differs = fresh - old;
+    float lasting = mix(before.z, differs, kLastingShare);
+    const float kLastingDeviation = sqrt(kLastingShare / (2.0 - kLastingShare));
+    float deviations = max(abs(differs), abs(lasting) / kLastingDeviation) / max(uncertain, 1e-20);
+    float change = old > 0.0 && fresh == 0.0 ? 1.0 : clamp(0.5 * deviations - 1.0, 0.0, 1.0);
     vec3 over = vec3(0.0);
     for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
-        ivec2 pixel = tile * int(kDenoiserTile) + ivec2(i % kDenoiserTile, i / kDenoiserTile);
-        vec3 s = all(lessThan(pixel, size)) ? texelFetch(samples, min(pixel, size - 1), 0).rgb : vec3(0.0);
-        float l = luminance(s);
-        over += l > limit ? s * (1.0 - limit / l) : vec3(0.0);
+        ivec2 pixel = tile * int(kDenoiserTile) + ivec2(i % kDenoiserTile, i / kDenoiserTile), at = min(pixel, size - 1);
+        vec3 s = all(lessThan(pixel, size)) ? texelFetch(samples, at, 0).rgb : vec3(0.0);
+        over += s - s * keptShare(luminance(s), texelFetch(history, at, 0), noise);
     }
-    over = subgroupAdd(over) / count;
+    over = subgroupAdd(over) / max(old * both, 1e-20);  // old: mean of the known
     if (gl_SubgroupInvocationID != 0) return;
-    imageStore(tiles, tile, vec4(min(deviation, 6e4), change, min(limit, 6e4), 0.0));
+    imageStore(tiles, tile, vec4(min(noise, 6e4), change, clamp(lasting, -6e4, 6e4), 0.0));
     imageStore(excess, tile, vec4(over, 0.0));
 }

@@ -15,6 +15,9 @@ layout(set = 0, binding = 3) uniform sampler2D previousSurface;
 layout(set = 0, binding = 4, scalar) readonly buffer Cameras { DenoiserCameras c; } cameras;
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D surface;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D history;  // a: frames it stands for, 0: none
+layout(set = 0, binding = 7) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
+layout(constant_id = 0) const bool kMotion = false;
+const float kMostMovedLength = 4.0;  // frames: what moves comes into other light
 layout(push_constant) uniform Push { float near; uint valid; uint seed; } push;
 
 void main() {
@@ -23,6 +26,8 @@ void main() {
     float reversed = texelFetch(depthMap, pixel, 0).x, depth = reversed > 0.0 ? push.near / reversed : 0.0;
     vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
     vec3 place = placeOf(c.now, vec2(pixel), depth) + c.now.eye;
+    vec4 motion = kMotion ? texelFetch(motionMap, pixel, 0) : vec4(0.0);
+    place += motion.xyz;
     vec4 clip = c.previousClipFromWorld * vec4(place, 1.0);
     vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, nearest = floor(at + 0.5);
     float footprint = 2.0 * c.pixelSize * max(depth, 1e-3);
@@ -46,6 +51,7 @@ void main() {
             wideWeight += like;
         }
     vec4 result = closeWeight > 0.01 ? close / closeWeight : wideWeight > 0.25 ? wide / wideWeight : vec4(0.0);
+    result.a = motion.w > 0.0 ? min(result.a, kMostMovedLength) : result.a;
     if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), size))) return;
     imageStore(surface, pixel, vec4(normal, depth));
     imageStore(history, pixel, known ? vec4(roundedByChance(result.rgb, pixel, push.seed + 7u), result.a) : vec4(0.0));

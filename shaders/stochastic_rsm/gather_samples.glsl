@@ -94,12 +94,25 @@ vec3 shifted(vec4 unit, vec2 by) {
     return vec3(xi.x * cos(angle), xi.x * sin(angle), xi.x);
 }
 
+// Squared radius, in widths of the map, of a disk as large as the pixel is away from what the map sees of it: light from
+// closer by has no peak.
+float core2Of(RsmFace face, vec2 center, vec3 x) {
+    mat4 m = transpose(face.clipFromWorld);
+    RsmSurface seen = AG_RSM_FETCH(texels, tapOf(face, center, 1.0).texel);
+    vec3 apart = 0.5 * (seen.position - x) / max(dot(m[3], vec4(x, 1.0)), 1e-3);
+    float texel = 1.0 / float(face.size), most = push.p.radius * push.p.radius;
+    return clamp(dot(apart, apart) * dot(m[0].xyz, m[0].xyz), texel * texel, most);
+}
+
 // Half of the samples from the disk, half from the whole map, each weighed by how likely either was to choose it (balance
-// heuristic, Veach & Guibas 1995). Where the light looks the other way there is no disk.
-Tap mixedTap(RsmFace face, vec2 center, bool ahead, vec3 unit, vec2 anywhere, bool fromDisk) {
-    float r = push.p.radius;
-    vec2 uv = fromDisk && ahead ? center + unit.xy * r : anywhere;
-    float apart = max(distance(uv, center), 1e-6), disk = apart < r ? 1.0 / (2.0 * kPi * r * apart) : 0.0;
+// heuristic, Veach & Guibas 1995). The disk's are as dense as 1 / (r² + core²), since light falls off so with distance.
+// Where the light looks the other way there is no disk.
+Tap mixedTap(RsmFace face, vec2 center, bool ahead, vec2 xi, float core2, bool fromDisk) {
+    float r2 = push.p.radius * push.p.radius, scale = log2(1.0 + r2 / core2);
+    float angle = 2.0 * kPi * xi.y, r = sqrt(core2 * (exp2(xi.x * scale) - 1.0));
+    vec2 uv = fromDisk && ahead ? center + r * vec2(cos(angle), sin(angle)) : xi;
+    vec2 apart = uv - center;
+    float apart2 = dot(apart, apart), disk = apart2 < r2 ? 1.0 / (kPi * log(2.0) * scale * (apart2 + core2)) : 0.0;
     return tapOf(face, uv, float(face.size * face.size) / (ahead ? 0.5 * (1.0 + disk) : 1.0));
 }
 
@@ -112,12 +125,13 @@ vec3 gather(vec3 x, vec3 n, vec2 by) {
     if (kKind == kLightPoint) toPixel = normalize(x - map.position);
     else center = uvOf(face, x, ahead);
     orthonormalBasis(toPixel, t, b);
+    float core2 = kWhole && kKind != kLightPoint ? core2Of(face, center, x) : 0.0;
     vec3 e = vec3(0.0);
     for (uint i = 0; i < push.p.sampleCount; ++i) {
         vec4 point = texelFetch(pattern, int(i));
         vec3 unit = kRandom ? shifted(point, by) : point.xyz;
         Tap tap = kKind == kLightPoint ? pointTap(map, toPixel, t, b, unit)
-                  : kWhole             ? mixedTap(face, center, ahead, unit, fract(point.zw + by), i % 2 == 0)
+                  : kWhole             ? mixedTap(face, center, ahead, fract(point.zw + by), core2, i % 2 == 0)
                                        : flatTap(face, center, unit);
         RsmSurface s = AG_RSM_FETCH(texels, tap.texel);
         float term = tap.weight * vplTerm(x, n, s.position, s.normal);

@@ -13,6 +13,7 @@
 #include "tools/bench/moving_light.h"
 #include "tools/bench/report.h"
 #include "tools/bench/techniques.h"
+#include "tools/bench/walking.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::bench {
@@ -52,10 +53,10 @@ TEST(Bench, FilesHoldEveryRow) {
     const auto json = nlohmann::json::parse(toJson(report));
     ASSERT_EQ(json["rows"].size(), 2u);
     for (const char* field :
-         {"scene",         "technique",  "settings",      "size",          "vals",
-          "gpu_ms_median", "gpu_ms_p99", "cpu_ms_median", "passes",        "skipped",
-          "gpu_bytes",     "term",       "mean_ratio",    "rel_rmse",      "rel_mse",
-          "p99",           "flip",       "noise_floor",   "flicker_still", "flicker_moving"})
+         {"scene",         "technique",      "settings",        "size",    "vals",      "gpu_ms_median",
+          "gpu_ms_p99",    "cpu_ms_median",  "passes",          "skipped", "gpu_bytes", "term",
+          "mean_ratio",    "rel_rmse",       "rel_mse",         "p99",     "flip",      "noise_floor",
+          "flicker_still", "flicker_moving", "flicker_walking", "ghosting"})
         EXPECT_TRUE(json["rows"][0].contains(field)) << field;
     EXPECT_TRUE(json["rows"][0]["flicker_still"].is_null()) << "not measured is not 0";
     std::istringstream csv(toCsv(report));
@@ -99,6 +100,24 @@ TEST(Bench, FlickerOfKnownSequences) {
         }
     EXPECT_EQ(flickerOf(steady, nullptr), 0);
     EXPECT_NEAR(flickerOf(blinking, nullptr), 0.5, 1e-6) << "deviation 1 about a mean of 2";
+}
+
+TEST(Bench, WalksKnowNoiseFromGhosts) {
+    std::vector<Image> standing(8, Image(32, 32)), noisy = standing, trailing = standing;
+    for (size_t f = 0; f < 8; ++f)
+        for (size_t i = 0; i < 32 * 32; ++i) {
+            standing[f].pixels[i] = glm::vec3(2);
+            noisy[f].pixels[i] = glm::vec3((i + i / 32 + f) % 2 ? 3.0f : 1.0f);
+            trailing[f].pixels[i] = glm::vec3(2.5f);
+        }
+    const Walking same = compareWalk(standing, standing), noise = compareWalk(noisy, standing),
+                  trail = compareWalk(trailing, standing);
+    EXPECT_EQ(same.flicker, 0);
+    EXPECT_EQ(same.ghosting, 0);
+    EXPECT_NEAR(noise.flicker, 0.5, 1e-6);
+    EXPECT_LT(noise.ghosting, 0.03);
+    EXPECT_NEAR(trail.flicker, 0, 1e-6);
+    EXPECT_NEAR(trail.ghosting, 0.25, 1e-6);
 }
 
 TEST(Bench, TrendTakesTheTruthsOwnMotionAway) {

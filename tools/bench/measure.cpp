@@ -9,6 +9,7 @@
 #include "engine/core/flip.h"
 #include "engine/core/settings.h"
 #include "engine/scene/static_scene.h"
+#include "tools/bench/walking.h"
 #include "tools/reference/vpl_tracer.h"
 
 namespace ag::bench {
@@ -164,6 +165,28 @@ Status SceneBench::measureFlicker(const gi::GiSettings& settings, gi::Layer laye
     return Ok{};
 }
 
+void SceneBench::measureWalking(const gi::GiSettings& settings, gi::Layer layer, Row& row) {
+    Frame frame{renderer_, options_.flickerSize, layer};
+    RenderScene scene = flickerScene_;
+    std::vector<Image> standing, walking;
+    constexpr uint32_t kStep = kWalkFrames / kWalkStops;
+    for (uint32_t at = kStep - 1; at < kWalkFrames; at += kStep) {
+        placeOnWalk(scene, flickerScene_, options_.flickerSize, at);
+        for (uint32_t i = 0; i < kWarmFrames; ++i)
+            frame.render(scene, settings, {});
+        standing.push_back(frame.image());
+    }
+    for (uint32_t i = 0; i < kWarmFrames + kWalkFrames; ++i) {
+        const uint32_t at = std::max(i, kWarmFrames) - kWarmFrames;
+        placeOnWalk(scene, flickerScene_, options_.flickerSize, at);
+        frame.render(scene, settings, {});
+        if (i >= kWarmFrames && at % kStep == kStep - 1) walking.push_back(frame.image());
+    }
+    const Walking walk = compareWalk(walking, standing);
+    row.flickerWalking = walk.flicker;
+    row.ghosting = walk.ghosting;
+}
+
 Status SceneBench::measureGpu(const Technique& technique, const Variant& variant, Row& row, Image& image) {
     gi::GiSettings settings;
     Settings registry;
@@ -185,7 +208,9 @@ Status SceneBench::measureGpu(const Technique& technique, const Variant& variant
     row.vals = frame.emitters;
     row.gpuBytes = renderer_.deviceBytes();
     timeFrames(settings, *layer, row);
-    return options_.flicker ? measureFlicker(settings, *layer, row) : Status(Ok{});
+    if (!options_.flicker) return Ok{};
+    measureWalking(settings, *layer, row);
+    return measureFlicker(settings, *layer, row);
 }
 
 void SceneBench::measureEmitters(Row& row, Image& image) {

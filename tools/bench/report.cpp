@@ -72,6 +72,8 @@ std::string toJson(const Report& report) {
                         {"noise_floor", r.noiseFloor},
                         {"flicker_still", orNull(r.flickerStill)},
                         {"flicker_moving", orNull(r.flickerMoving)},
+                        {"flicker_walking", orNull(r.flickerWalking)},
+                        {"ghosting", orNull(r.ghosting)},
                         {"equal_time_path_tracing_rel_rmse", r.pathTracingRelRmse},
                         {"pareto", r.pareto}});
     const nlohmann::ordered_json out = {
@@ -83,16 +85,17 @@ std::string toCsv(const Report& report) {
     std::string out =
         "scene,technique,variant,settings,width,height,vals,frames,gpu_ms_median,gpu_ms_p99,"
         "indirect_ms_median,cpu_ms_median,gpu_bytes,term,mean_ratio,rel_rmse,rel_mse,p99,flip,noise_floor,"
-        "flicker_still,flicker_moving,equal_time_path_tracing_rel_rmse,pareto,device\n";
+        "flicker_still,flicker_moving,flicker_walking,ghosting,equal_time_path_tracing_rel_rmse,pareto,"
+        "device\n";
     for (const Row& r : report.rows)
         out += fmt::format(
             "{},{},{},{},{},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{:.5f},{:.5f},{:.6f},{:.5f},{:.5f},"
-            "{:.5f},{},{},{:.5f},{},\"{}\"\n",
+            "{:.5f},{},{},{},{},{:.5f},{},\"{}\"\n",
             r.scene, r.technique, r.variant, settingsText(r), r.size.x, r.size.y, r.vals, r.frames,
             r.gpuMsMedian, r.gpuMsP99, r.indirectMs(), r.cpuMsMedian, r.gpuBytes, r.term, r.error.meanRatio,
             r.error.relativeRmse, r.error.relMse, r.error.p99, r.flip, r.noiseFloor,
-            orBlank(r.flickerStill, 6), orBlank(r.flickerMoving, 6), r.pathTracingRelRmse, r.pareto ? 1 : 0,
-            report.device);
+            orBlank(r.flickerStill, 6), orBlank(r.flickerMoving, 6), orBlank(r.flickerWalking, 6),
+            orBlank(r.ghosting, 6), r.pathTracingRelRmse, r.pareto ? 1 : 0, report.device);
     return out;
 }
 
@@ -107,8 +110,8 @@ std::string toMarkdown(const Report& report) {
             "nearer "
             "to the truth.\n\n| technique | setting | indirect ms | relative RMSE | mean ratio | FLIP | p99 "
             "| "
-            "flicker still | moving | path tracing in the same time | MiB |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|\n",
+            "flicker still | light moves | camera moves | ghosting | path tracing in the same time | MiB |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
             scene, first->size.x, first->size.y, first->term, first->noiseFloor * 100);
         for (const Row& r : report.rows) {
             if (r.scene != scene || r.isPathTracing()) continue;
@@ -116,10 +119,11 @@ std::string toMarkdown(const Report& report) {
                 r.pathTracingRelRmse > 0 ? fmt::format("{:.2f}", r.pathTracingRelRmse) : "";
             out += fmt::format(
                 "| {}{} | {} | {:.2f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {} | {} | "
-                "{} | {:.1f} |\n",
+                "{} | {} | {} | {:.1f} |\n",
                 r.technique, r.pareto ? " ★" : "", r.variant, r.indirectMs(), r.error.relativeRmse,
                 r.error.meanRatio, r.flip, r.error.p99, orBlank(r.flickerStill, 4),
-                orBlank(r.flickerMoving, 4), paths, double(r.gpuBytes) / 1048576.0);
+                orBlank(r.flickerMoving, 4), orBlank(r.flickerWalking, 4), orBlank(r.ghosting, 4), paths,
+                double(r.gpuBytes) / 1048576.0);
         }
     }
     return out;

@@ -30,6 +30,7 @@ struct Row {
     double flip = 0;
     double noiseFloor = 0;                              // relative RMSE of the reference itself
     std::optional<double> flickerStill, flickerMoving;  // none: not measured
+    std::optional<double> flickerWalking, ghosting;     // see walking.h
     double pathTracingRelRmse = 0;  // of path tracing stopped after this row's time; 0: not traced
     bool pareto = false;            // nothing in the scene is both faster and nearer to the truth
     // Path tracing for another row's time: a row of its own in the files, a column and a curve elsewhere.
