@@ -22,15 +22,15 @@ constexpr std::array<std::string_view, io::kMaxBounceLights> kListedNames = {
     "stochastic_rsm.listed0", "stochastic_rsm.listed1", "stochastic_rsm.listed2", "stochastic_rsm.listed3",
     "stochastic_rsm.listed4", "stochastic_rsm.listed5", "stochastic_rsm.listed6", "stochastic_rsm.listed7"};
 
-// x, y in the unit disk, dense in its middle, and the weight xi that makes up for it. Samples that take turns
-// between disk and whole map are two patterns.
+// Directions and radii in the unit disk, dense in its middle. Samples that take turns between disk and whole
+// map are two patterns.
 BufferHandle addPattern(FrameGraph& graph, uint32_t samples, bool takeTurns) {
     std::array<glm::vec4, kMostSamples> points;  // 64 KiB
     for (uint32_t i = 0; i < samples; ++i) {
         const glm::vec2 xi =
             takeTurns ? io::hammersley(i / 2, (samples + 1) / 2) : io::hammersley(i, samples);
         const float angle = 2 * std::numbers::pi_v<float> * xi.y;
-        points[i] = {xi.x * std::cos(angle), xi.x * std::sin(angle), xi.x, xi.y};
+        points[i] = {std::cos(angle), std::sin(angle), xi.x, xi.y};
     }
     const auto bytes = std::as_bytes(std::span(points.data(), samples));
     const BufferHandle buffer = graph.buffer(

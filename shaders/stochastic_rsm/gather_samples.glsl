@@ -23,7 +23,7 @@ layout(set = 0, binding = 4, scalar) readonly buffer Faces { RsmFace items[]; } 
 layout(set = 0, binding = 5, scalar) readonly buffer Maps { RsmMap items[]; } maps;
 layout(constant_id = 4) const bool kRandom = false;  // the pattern is shifted in each pixel and frame
 layout(constant_id = 5) const bool kWhole = false;   // every other sample from anywhere in the map; not of point lights
-layout(set = 0, binding = 6) uniform samplerBuffer pattern;  // x, y in the unit disk; xi; share of the full angle
+layout(set = 0, binding = 6) uniform samplerBuffer pattern;  // unit direction; radius in the disk; share of the full angle
 layout(set = 0, binding = 9) uniform samplerBuffer noise;
 layout(set = 0, binding = 7, scalar) readonly buffer List { uint count; uint pixels[]; } list;
 layout(set = 0, binding = 8, rgba16f) uniform image2D irradiance;
@@ -71,7 +71,7 @@ vec2 uvOf(RsmFace face, vec3 position, out bool ahead) {
 // Round a point light: the sample's direction picks the face.
 Tap pointTap(RsmMap map, vec3 toPixel, vec3 t, vec3 b, vec3 unit) {
     float r = 2.0 * push.p.radius;  // a face is two units wide
-    vec3 direction = toPixel + (t * unit.x + b * unit.y) * r;
+    vec3 direction = toPixel + (t * unit.x + b * unit.y) * (r * unit.z);
     float length2 = dot(direction, direction);
     vec3 a = abs(direction);
     float cosAxis = max(a.x, max(a.y, a.z)) * inversesqrt(length2);
@@ -84,14 +84,17 @@ Tap pointTap(RsmMap map, vec3 toPixel, vec3 t, vec3 b, vec3 unit) {
 
 Tap flatTap(RsmFace face, vec2 center, vec3 unit) {
     float r = push.p.radius;
-    return tapOf(face, center + unit.xy * r, 2.0 * kPi * r * r * unit.z * float(face.size * face.size));
+    return tapOf(face, center + unit.xy * (unit.z * r), 2.0 * kPi * r * r * unit.z * float(face.size * face.size));
 }
 
-// Cranley & Patterson 1976: the same pattern on a torus, shifted.
-vec3 shifted(vec4 unit, vec2 by) {
-    vec2 xi = fract(unit.zw + by);
-    float angle = 2.0 * kPi * xi.y;
-    return vec3(xi.x * cos(angle), xi.x * sin(angle), xi.x);
+// Cranley & Patterson 1976: the same pattern on a torus, shifted. A pixel's pattern is turned as a whole, with one sine.
+struct Shift {
+    vec2 by, turn;
+};
+
+vec3 shifted(vec4 point, Shift s) {
+    vec2 direction = vec2(point.x * s.turn.x - point.y * s.turn.y, point.x * s.turn.y + point.y * s.turn.x);
+    return kRandom ? vec3(direction, fract(point.z + s.by.x)) : point.xyz;
 }
 
 // Squared radius, in widths of the map, of a disk as large as the pixel is away from what the map sees of it: light from
@@ -107,10 +110,9 @@ float core2Of(RsmFace face, vec2 center, vec3 x) {
 // Half of the samples from the disk, half from the whole map, each weighed by how likely either was to choose it (balance
 // heuristic, Veach & Guibas 1995). The disk's are as dense as 1 / (r² + core²), since light falls off so with distance.
 // Where the light looks the other way there is no disk.
-Tap mixedTap(RsmFace face, vec2 center, bool ahead, vec2 xi, float core2, bool fromDisk) {
+Tap mixedTap(RsmFace face, vec2 center, bool ahead, vec3 unit, vec2 anywhere, float core2, bool fromDisk) {
     float r2 = push.p.radius * push.p.radius, scale = log2(1.0 + r2 / core2);
-    float angle = 2.0 * kPi * xi.y, r = sqrt(core2 * (exp2(xi.x * scale) - 1.0));
-    vec2 uv = fromDisk && ahead ? center + r * vec2(cos(angle), sin(angle)) : xi;
+    vec2 uv = fromDisk && ahead ? center + unit.xy * sqrt(core2 * (exp2(unit.z * scale) - 1.0)) : anywhere;
     vec2 apart = uv - center;
     float apart2 = dot(apart, apart), disk = apart2 < r2 ? 1.0 / (kPi * log(2.0) * scale * (apart2 + core2)) : 0.0;
     return tapOf(face, uv, float(face.size * face.size) / (ahead ? 0.5 * (1.0 + disk) : 1.0));
@@ -126,12 +128,13 @@ vec3 gather(vec3 x, vec3 n, vec2 by) {
     else center = uvOf(face, x, ahead);
     orthonormalBasis(toPixel, t, b);
     float core2 = kWhole && kKind != kLightPoint ? core2Of(face, center, x) : 0.0;
+    Shift shift = Shift(by, vec2(cos(2.0 * kPi * by.y), sin(2.0 * kPi * by.y)));
     vec3 e = vec3(0.0);
     for (uint i = 0; i < push.p.sampleCount; ++i) {
         vec4 point = texelFetch(pattern, int(i));
-        vec3 unit = kRandom ? shifted(point, by) : point.xyz;
+        vec3 unit = shifted(point, shift);
         Tap tap = kKind == kLightPoint ? pointTap(map, toPixel, t, b, unit)
-                  : kWhole             ? mixedTap(face, center, ahead, fract(point.zw + by), core2, i % 2 == 0)
+                  : kWhole             ? mixedTap(face, center, ahead, unit, fract(point.zw + by), core2, i % 2 == 0)
                                        : flatTap(face, center, unit);
         RsmSurface s = AG_RSM_FETCH(texels, tap.texel);
         float term = tap.weight * vplTerm(x, n, s.position, s.normal);
