@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
-#include <string>
+#include <string_view>
 #include <type_traits>
-#include <vector>
 
 #include "engine/core/check.h"
 
@@ -25,8 +23,10 @@ using ComponentId = uint32_t;
 constexpr ComponentId kMaxComponents = 128;
 
 struct ComponentType {
-    uint32_t sizeBytes = 0;
+    std::string_view name;   // with its namespaces: what saved worlds know it by
+    uint32_t sizeBytes = 0;  // 0: an empty struct, a tag
     uint32_t alignment = 0;
+    bool tracked = false;
 };
 
 // Which rows changed, not only which chunks, for components streamed elsewhere: specialise to true.
@@ -34,15 +34,32 @@ template <class T>
 inline constexpr bool kTrackRows = false;
 
 // Types are numbered in the order of first use in the process.
-ComponentId nextComponentId(ComponentType type, bool tracked);
+ComponentId nextComponentId(const ComponentType& type);
 const ComponentType& componentType(ComponentId id);
-bool componentTracked(ComponentId id);
+uint32_t componentTypeCount();
+ComponentId componentNamed(std::string_view name);  // kMaxComponents: no such type was used yet
+
+// As the compiler spells it: "ag::WorldTransform".
+template <class T>
+constexpr std::string_view typeName() {
+    constexpr std::string_view spelt = __PRETTY_FUNCTION__;
+    constexpr size_t begin = spelt.find("T = ") + 4;
+    return spelt.substr(begin, spelt.find_first_of(";]", begin) - begin);
+}
 
 template <class T>
 ComponentId componentId() {
     static_assert(std::is_trivially_copyable_v<T>, "components are moved as bytes");
-    static const ComponentId id = nextComponentId({sizeof(T), alignof(T)}, kTrackRows<T>);
+    static_assert(alignof(T) <= 64, "columns start at cache lines");
+    static const ComponentId id =
+        nextComponentId({typeName<T>(), std::is_empty_v<T> ? 0 : sizeof(T), alignof(T), kTrackRows<T>});
     return id;
+}
+
+// Makes types known before their first use: a saved world is read by the names of its components.
+template <class... Ts>
+void registerComponents() {
+    (componentId<Ts>(), ...);
 }
 
 // A set of component types.

@@ -3,16 +3,17 @@
 // Every column of every chunk carries a version: frame x 256 + position of the writing system. Because it
 // holds the position and not the time, it is the same on one thread and on many, and a writer late in a frame
 // is seen by an early reader of the next. Structure changes (create, destroy, add, remove) happen here
-// directly, or from systems through Commands at a flush.
+// directly, or from systems through Commands at a flush. Pointers to components last until the next of these.
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 
-#include "engine/ecs/storage.h"
+#include "engine/ecs/bundle.h"
+#include "engine/ecs/query.h"
 
 namespace ag {
 
@@ -31,7 +32,6 @@ ResourceId resourceId() {
     return id;
 }
 
-// Component values to create an entity with or add to one.
 struct ComponentValue {
     ComponentId id;
     const void* bytes;
@@ -44,16 +44,24 @@ class World {
     World& operator=(const World&) = delete;
 
     template <class... Ts>
-    Entity create(const Ts&... components) {
-        const ComponentValue values[] = {ComponentValue{componentId<Ts>(), &components}..., ComponentValue{}};
-        return createFrom({values, sizeof...(Ts)});
-    }
-    Entity createFrom(std::span<const ComponentValue> values);
+    Entity create(const Ts&... components);
+    // Many at once, the cheapest way: fill(std::span<const Entity>, std::span<Ts>...) is called for each run
+    // of new rows and must write every one.
+    template <class... Ts, class F>
+    void createMany(uint32_t count, F&& fill);
+    // The same from columns of bytes, parallel to the bundle's components.
+    void createRows(const BundleType& type, uint32_t count, const std::byte* const* columns);
     void destroy(Entity entity);  // nothing if it is not alive
+    void destroy(std::span<const Entity> entities);
     bool alive(Entity entity) const {
         return entity.index < records_.size() && records_[entity.index].generation == entity.generation &&
-               records_[entity.index].archetype != kNone;
+               records_[entity.index].chunk;
     }
+    // Hints for work on many entities in random order: first its record, some turns later its row.
+    void prefetchRecord(Entity entity) const {
+        if (entity.index < records_.size()) __builtin_prefetch(&records_[entity.index], 1);
+    }
+    void prefetchRow(Entity entity) const;
 
     template <class T>
     void add(Entity entity, const T& value) {
@@ -68,7 +76,7 @@ class World {
 
     template <class T>
     bool has(Entity entity) const {
-        return alive(entity) && archetypes_[records_[entity.index].archetype].column(componentId<T>()) >= 0;
+        return find(entity, componentId<T>()) != nullptr;
     }
     template <class T>
     const T* get(Entity entity) const {  // null if it is dead or has none
@@ -80,6 +88,27 @@ class World {
         return static_cast<T*>(writeAt(entity, componentId<T>(), version()));
     }
     void* writeAt(Entity entity, ComponentId id, uint32_t version);
+    // Null if it is dead or has none.
+    const void* find(Entity entity, ComponentId id) const {
+        if (entity.index >= records_.size()) return nullptr;
+        const Record& record = records_[entity.index];
+        if (record.generation != entity.generation || !record.chunk) return nullptr;
+        const Archetype& archetype = *record.chunk->archetype;
+        const uint8_t column = archetype.columnOf[id];
+        if (column == Archetype::kNoColumn) return nullptr;
+        return record.chunk->columns[column] + record.row * size_t(archetype.sizes[column]);
+    }
+    // Whether the chunk the entity is in had the component written, or its rows moved, since a version.
+    bool writtenSince(Entity entity, ComponentId id, uint32_t version) const {
+        if (!alive(entity)) return false;
+        const Chunk& chunk = *records_[entity.index].chunk;
+        const uint8_t column = chunk.archetype->columnOf[id];
+        if (column == Archetype::kNoColumn) return false;
+        return newerThan(chunk.versions[column], version) || newerThan(chunk.structureVersion, version);
+    }
+    const Archetype* archetypeOf(Entity entity) const {  // null if it is dead
+        return alive(entity) ? records_[entity.index].chunk->archetype : nullptr;
+    }
 
     // One of each type; made by setResource, read by Res<T>.
     template <class T, class... Args>
@@ -100,34 +129,100 @@ class World {
     uint32_t entityCount() const { return alive_; }
     std::deque<Archetype>& archetypes() { return archetypes_; }
     const std::deque<Archetype>& archetypes() const { return archetypes_; }
+    std::span<const QueryMatch> matches(const QueryShape& shape);
+    size_t chunkMemoryBytes() const { return memory_.slabBytes(); }
     uint32_t frame() const { return frame_; }
     void advanceFrame() { ++frame_; }
     uint32_t version() const { return frame_ * kVersionsPerFrame + kFlushPosition; }
+    // Moves with every create, destroy, add and remove: an index made of the world is stale if it differs.
+    uint64_t structureCount() const { return structureCount_; }
 
     // Over all rows in storage order: equal for equal worlds however many threads made them.
     uint64_t stateHash() const;
 
   private:
+    friend struct WorldSnapshot;
     static constexpr uint32_t kNone = ~0u;
     struct Record {
+        Chunk* chunk = nullptr;  // null: free
+        uint32_t row = 0;        // free: the next free index
         uint32_t generation = 0;
-        uint32_t archetype = kNone;
-        RowPlace place;
     };
-    uint32_t archetypeFor(const ComponentMask& mask);
-    const void* find(Entity entity, ComponentId id) const;
-    void setValue(const Record& record, ComponentValue value);
+    struct NewRows {
+        Chunk* chunk;
+        uint32_t begin, count;
+    };
+    Entity takeHandle() {
+        if (freeHead_ == kNone) {
+            records_.emplace_back();
+            return {uint32_t(records_.size() - 1), 0};
+        }
+        const uint32_t index = freeHead_;
+        freeHead_ = records_[index].row;
+        return {index, records_[index].generation};
+    }
+    const Bundle& bundleOf(const BundleType& type) {
+        if (type.id < bundles_.size() && bundles_[type.id].archetype) return bundles_[type.id];
+        return makeBundle(type);
+    }
+    const Bundle& makeBundle(const BundleType& type);
+    NewRows pushRows(Archetype& archetype, uint32_t most);
+    Archetype& archetypeFor(const ComponentMask& mask);
     void takeOut(const Record& record);
-    void move(Entity entity, uint32_t to);
+    Record& move(Entity entity, Archetype& to);
+    void swapEntities(World& other);
 
     std::vector<Record> records_;
-    std::vector<uint32_t> freeIndices_;
-    std::deque<Archetype> archetypes_;  // stays in place: views hold references
-    std::unordered_map<uint64_t, std::vector<uint32_t>> archetypeOfMask_;
-    ChunkMemory memory_;
-    std::vector<std::shared_ptr<void>> resources_;
+    uint32_t freeHead_ = kNone;
     uint32_t alive_ = 0;
     uint32_t frame_ = 1;
+    uint64_t structureCount_ = 0;
+    std::deque<Archetype> archetypes_;  // stays in place: chunks and views point at them
+    std::unordered_map<uint64_t, std::vector<uint32_t>> archetypeOfMask_;
+    std::vector<Bundle> bundles_;
+    std::array<std::atomic<QueryMatches*>, kMaxQueries> queries_{};
+    std::vector<std::unique_ptr<QueryMatches>> ownedQueries_;
+    std::mutex queryMutex_;
+    ChunkMemory memory_;
+    std::vector<std::shared_ptr<void>> resources_;
 };
+
+template <class... Ts>
+Entity World::create(const Ts&... components) {
+    const Bundle& bundle = bundleOf(bundleType<Ts...>());
+    const Entity entity = takeHandle();
+    const RowPlace place = pushRow(*bundle.archetype, memory_, entity, version());
+    size_t i = 0;
+    const auto put = [&]<class T>(const T& value) {
+        std::byte* column = place.chunk->columns[bundle.columns[i++]];
+        if constexpr (!std::is_empty_v<T>) std::memcpy(column + place.row * sizeof(T), &value, sizeof(T));
+    };
+    (put(components), ...);
+    Record& record = records_[entity.index];
+    record.chunk = place.chunk;
+    record.row = place.row;
+    ++alive_;
+    ++structureCount_;
+    return entity;
+}
+
+template <class... Ts, class F>
+void World::createMany(uint32_t count, F&& fill) {
+    const Bundle bundle = bundleOf(bundleType<Ts...>());
+    while (count > 0) {
+        const NewRows rows = pushRows(*bundle.archetype, count);
+        size_t i = 0;
+        const auto column = [&]<class T>(T*) {
+            return std::span<T>(reinterpret_cast<T*>(rows.chunk->columns[bundle.columns[i++]]) + rows.begin,
+                                rows.count);
+        };
+        std::apply(
+            [&](auto... spans) {
+                fill(std::span<const Entity>(rows.chunk->entities + rows.begin, rows.count), spans...);
+            },
+            std::tuple<std::span<Ts>...>{column(static_cast<Ts*>(nullptr))...});
+        count -= rows.count;
+    }
+}
 
 }  // namespace ag

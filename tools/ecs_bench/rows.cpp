@@ -1,0 +1,36 @@
+#include "tools/ecs_bench/rows.h"
+
+#include <ctime>
+
+namespace ag::ecs_bench {
+namespace {
+
+void add(const std::string& name, const Bench& bench) {
+    benchmark::RegisterBenchmark(name.c_str(), bench)->UseManualTime()->Unit(benchmark::kMicrosecond);
+}
+
+}  // namespace
+
+void Rows::compare(const std::string& name, double atMost, Bench ours, Bench plain) {
+    add(name + "/ours", ours);
+    add(name + "/plain", plain);
+    rows_.push_back({name, name + "/ours", name + "/plain", Target::kRatio, atMost});
+}
+
+void Rows::alone(const std::string& name, double atMostNs, Bench ours) {
+    add(name + "/ours", ours);
+    rows_.push_back({name, name + "/ours", {}, atMostNs > 0 ? Target::kNs : Target::kNone, atMostNs});
+}
+
+void Rows::against(const std::string& name, double atMost, Bench ours, const std::string& other) {
+    add(name + "/ours", ours);
+    rows_.push_back({name, name + "/ours", other, Target::kRatio, atMost});
+}
+
+double secondsNow(Clock clock) {
+    timespec t;
+    clock_gettime(clock == Clock::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);
+    return double(t.tv_sec) + double(t.tv_nsec) * 1e-9;
+}
+
+}  // namespace ag::ecs_bench
