@@ -29,28 +29,39 @@ uint32_t capacityOf(const Archetype& archetype, size_t ordinal) {
     return std::clamp(fit, kLeastRows, kMostRows);
 }
 
-size_t columnBytes(const Archetype& archetype, size_t column, uint32_t capacity) {
-    return alignUp(size_t(archetype.sizes[column]) * capacity) + kColumnSkew;
+size_t chunkBytes(const Archetype& archetype, uint32_t capacity) {
+    size_t bytes = alignUp(sizeof(Entity) * capacity);
+    for (const uint32_t size : archetype.sizes)
+        bytes += alignUp(size_t(size) * capacity) + kColumnSkew;
+    AG_CHECK_MSG(bytes < ~0u, "a component is too large for a chunk");
+    return bytes;
 }
 
-std::unique_ptr<Chunk> makeChunk(Archetype& archetype, ChunkMemory& memory, uint32_t capacity) {
-    auto chunk = std::make_unique<Chunk>();
-    const size_t count = archetype.components.size();
-    chunk->archetype = &archetype;
-    chunk->capacity = capacity;
-    chunk->bytes = alignUp(sizeof(Entity) * capacity);
-    for (size_t c = 0; c < count; ++c)
-        chunk->bytes += columnBytes(archetype, c, capacity);
-    chunk->memory = memory.allocate(chunk->bytes);
-    chunk->entities = reinterpret_cast<Entity*>(chunk->memory);
-    std::byte* at = chunk->memory + alignUp(sizeof(Entity) * capacity);
-    for (size_t c = 0; c < count; ++c) {
-        chunk->columns.push_back(at);
-        at += columnBytes(archetype, c, capacity);
+const ChunkLayout& layoutOf(Archetype& archetype, size_t ordinal, uint32_t capacity) {
+    std::unique_ptr<ChunkLayout>& layout = archetype.layouts[std::min<size_t>(ordinal, 2)];
+    if (layout) return *layout;
+    layout = std::make_unique<ChunkLayout>();
+    size_t at = alignUp(sizeof(Entity) * capacity);
+    for (size_t c = 0; c < archetype.components.size(); ++c) {
+        (*layout)[archetype.components[c]] = uint32_t(at);
+        at += alignUp(size_t(archetype.sizes[c]) * capacity) + kColumnSkew;
     }
-    chunk->versions.assign(count, 0);
-    chunk->rowBits.assign(count, nullptr);
-    const size_t words = (capacity + 63) / 64;
+    return *layout;
+}
+
+std::unique_ptr<Chunk> makeChunk(Archetype& archetype, ChunkMemory& memory, size_t ordinal) {
+    auto chunk = std::make_unique<Chunk>();
+    chunk->archetype = &archetype;
+    chunk->capacity = capacityOf(archetype, ordinal);
+    chunk->bytes = chunkBytes(archetype, chunk->capacity);
+    chunk->memory = memory.allocate(chunk->bytes);
+    chunk->layout = &layoutOf(archetype, ordinal, chunk->capacity);
+    chunk->entities = reinterpret_cast<Entity*>(chunk->memory);
+    for (const ComponentId id : archetype.components)
+        chunk->columns.push_back(chunk->memory + (*chunk->layout)[id]);
+    chunk->versions.assign(archetype.components.size(), 0);
+    chunk->rowBits.assign(archetype.components.size(), nullptr);
+    const size_t words = (chunk->capacity + 63) / 64;
     if (!archetype.trackedColumns.empty())
         chunk->words = std::make_unique<uint64_t[]>(words * archetype.trackedColumns.size());
     for (size_t i = 0; i < archetype.trackedColumns.size(); ++i)
@@ -119,21 +130,29 @@ void initArchetype(Archetype& a, uint32_t index, const ComponentMask& mask) {
     }
 }
 
+uint32_t Archetype::rows() const {
+    uint32_t sum = 0;
+    for (const auto& chunk : chunks)
+        sum += chunk->rows;
+    return sum;
+}
+
 Chunk& addChunk(Archetype& archetype, ChunkMemory& memory) {
     const size_t ordinal = archetype.chunks.size();
-    const uint32_t capacity = capacityOf(archetype, ordinal);
-    if (archetype.spare && archetype.spare->capacity == capacity)
+    if (archetype.spare && archetype.spare->ordinal == ordinal)
         archetype.chunks.push_back(std::move(archetype.spare));
     else
-        archetype.chunks.push_back(makeChunk(archetype, memory, capacity));
-    archetype.chunks.back()->ordinal = uint32_t(ordinal);
-    return *archetype.chunks.back();
+        archetype.chunks.push_back(makeChunk(archetype, memory, ordinal));
+    archetype.last = archetype.chunks.back().get();
+    archetype.last->ordinal = uint32_t(ordinal);
+    return *archetype.last;
 }
 
 void dropLastChunk(Archetype& archetype, ChunkMemory& memory) {
     if (archetype.spare) memory.release(archetype.spare->memory, archetype.spare->bytes);
     archetype.spare = std::move(archetype.chunks.back());
     archetype.chunks.pop_back();
+    archetype.last = archetype.chunks.empty() ? nullptr : archetype.chunks.back().get();
 }
 
 void setBits(uint64_t* words, uint32_t begin, uint32_t end) {

@@ -40,15 +40,19 @@ class ChunkMemory {
 
 struct Archetype;
 
+// Where each component's column begins in a chunk, in bytes; 0: it has none.
+using ChunkLayout = std::array<uint32_t, kMaxComponents>;
+
 struct Chunk {
+    std::byte* memory = nullptr;  // the entities, then the columns
+    const ChunkLayout* layout = nullptr;
     Archetype* archetype = nullptr;
-    std::byte* memory = nullptr;
     size_t bytes = 0;
     uint32_t ordinal = 0;  // among the archetype's chunks
     uint32_t capacity = 0;
     uint32_t rows = 0;
-    uint32_t structureVersion = 0;      // when rows last came, went or changed places
-    Entity* entities = nullptr;         // at the start of the memory
+    uint32_t structureVersion = 0;  // when rows last came, went or changed places
+    Entity* entities = nullptr;
     std::vector<std::byte*> columns;    // parallel to the archetype's components
     std::vector<uint32_t> versions;     // of columns: when and by which system last written
     std::vector<uint64_t*> rowBits;     // of columns: which rows changed; null where not tracked
@@ -67,11 +71,12 @@ struct Archetype {
     std::array<uint8_t, kMaxComponents> columnOf{};
     std::array<uint16_t, kMaxComponents> with{}, without{};  // archetypes one component away, once known
     uint32_t rowBytes = sizeof(Entity);
-    uint32_t rows = 0;
-    std::vector<std::unique_ptr<Chunk>> chunks;  // all full but the last
+    std::array<std::unique_ptr<ChunkLayout>, 3> layouts;  // of the first chunk, the second and all others
+    std::vector<std::unique_ptr<Chunk>> chunks;           // all full but the last
+    Chunk* last = nullptr;
     std::unique_ptr<Chunk> spare;  // emptied last: a world at a chunk's edge does not make and break it
 
-    int column(ComponentId id) const { return columnOf[id] == kNoColumn ? -1 : columnOf[id]; }
+    uint32_t rows() const;
 };
 
 struct RowPlace {
@@ -110,10 +115,9 @@ void markRows(Chunk& chunk, uint32_t begin, uint32_t end);
 
 // A row at the end, its columns not yet written.
 inline RowPlace pushRow(Archetype& archetype, ChunkMemory& memory, Entity entity, uint32_t version) {
-    Chunk* chunk = archetype.chunks.empty() ? nullptr : archetype.chunks.back().get();
+    Chunk* chunk = archetype.last;
     if (!chunk || chunk->rows == chunk->capacity) chunk = &addChunk(archetype, memory);
     const uint32_t row = chunk->rows++;
-    ++archetype.rows;
     chunk->entities[row] = entity;
     chunk->structureVersion = version;
     if (!archetype.trackedColumns.empty()) markRow(*chunk, row);
@@ -125,9 +129,8 @@ inline RowPlace pushRow(Archetype& archetype, ChunkMemory& memory, Entity entity
 inline Entity removeRow(RowPlace place, ChunkMemory& memory, uint32_t version) {
     Chunk& chunk = *place.chunk;
     Archetype& archetype = *chunk.archetype;
-    Chunk& last = *archetype.chunks.back();
+    Chunk& last = *archetype.last;
     const uint32_t lastRow = --last.rows;
-    --archetype.rows;
     chunk.structureVersion = version;
     last.structureVersion = version;  // the leaver may have been looked at as a neighbour
     Entity moved;

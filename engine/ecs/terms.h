@@ -56,6 +56,7 @@ template <class C>
 struct ColumnTerm {
     using Column = C;
     using Component = std::remove_const_t<C>;
+    static_assert(!std::is_empty_v<C>, "a tag has no values: ask With or Without");
     static constexpr bool kHasColumn = true, kWrites = !std::is_const_v<C>, kTakes = false;
     static constexpr bool kIfChanged = false, kIfUnchanged = false;
     static void shape(QueryShape& s) {

@@ -68,18 +68,22 @@ std::span<const QueryMatch> World::matches(const QueryShape& shape) {
 
 // As many as fit the last chunk, at most `most`, with handles.
 World::NewRows World::pushRows(Archetype& archetype, uint32_t most) {
-    Chunk* chunk = archetype.chunks.empty() ? nullptr : archetype.chunks.back().get();
+    Chunk* chunk = archetype.last;
     if (!chunk || chunk->rows == chunk->capacity) chunk = &addChunk(archetype, memory_);
     const uint32_t begin = chunk->rows, count = std::min(most, chunk->capacity - begin);
-    for (uint32_t i = 0; i < count; ++i) {
+    uint32_t i = 0;
+    for (; i < count && freeHead_ != kNone; ++i) {
         const Entity entity = takeHandle();
         chunk->entities[begin + i] = entity;
         records_[entity.index].chunk = chunk;
         records_[entity.index].row = begin + i;
     }
+    for (; i < count; ++i) {
+        chunk->entities[begin + i] = {uint32_t(records_.size()), 0};
+        records_.push_back({chunk, begin + i, 0});
+    }
     chunk->rows += count;
     chunk->structureVersion = version();
-    archetype.rows += count;
     alive_ += count;
     ++structureCount_;
     if (!archetype.trackedColumns.empty()) markRows(*chunk, begin, begin + count);
@@ -88,6 +92,7 @@ World::NewRows World::pushRows(Archetype& archetype, uint32_t most) {
 
 void World::createRows(const BundleType& type, uint32_t count, const std::byte* const* columns) {
     const Bundle bundle = bundleOf(type);
+    reserveHandles(count);
     for (uint32_t done = 0; done < count;) {
         const NewRows rows = pushRows(*bundle.archetype, count - done);
         for (size_t i = 0; i < type.components.size(); ++i) {

@@ -53,10 +53,7 @@ class World {
     void createRows(const BundleType& type, uint32_t count, const std::byte* const* columns);
     void destroy(Entity entity);  // nothing if it is not alive
     void destroy(std::span<const Entity> entities);
-    bool alive(Entity entity) const {
-        return entity.index < records_.size() && records_[entity.index].generation == entity.generation &&
-               records_[entity.index].chunk;
-    }
+    bool alive(Entity entity) const { return recordOf(entity) != nullptr; }
     // Hints for work on many entities in random order: first its record, some turns later its row.
     void prefetchRecord(Entity entity) const {
         if (entity.index < records_.size()) __builtin_prefetch(&records_[entity.index], 1);
@@ -80,7 +77,11 @@ class World {
     }
     template <class T>
     const T* get(Entity entity) const {  // null if it is dead or has none
-        return static_cast<const T*>(find(entity, componentId<T>()));
+        const Record* record = recordOf(entity);
+        if (!record) return nullptr;
+        const uint32_t offset = (*record->chunk->layout)[componentId<T>()];
+        if (offset == 0) return nullptr;
+        return reinterpret_cast<const T*>(record->chunk->memory + offset) + record->row;
     }
     // For writing: stamps the column and, if tracked, the row with the version now.
     template <class T>
@@ -90,18 +91,17 @@ class World {
     void* writeAt(Entity entity, ComponentId id, uint32_t version);
     // Null if it is dead or has none.
     const void* find(Entity entity, ComponentId id) const {
-        if (entity.index >= records_.size()) return nullptr;
-        const Record& record = records_[entity.index];
-        if (record.generation != entity.generation || !record.chunk) return nullptr;
-        const Archetype& archetype = *record.chunk->archetype;
-        const uint8_t column = archetype.columnOf[id];
-        if (column == Archetype::kNoColumn) return nullptr;
-        return record.chunk->columns[column] + record.row * size_t(archetype.sizes[column]);
+        const Record* record = recordOf(entity);
+        if (!record) return nullptr;
+        const uint32_t offset = (*record->chunk->layout)[id];
+        if (offset == 0) return nullptr;
+        return record->chunk->memory + offset + record->row * size_t(componentType(id).sizeBytes);
     }
     // Whether the chunk the entity is in had the component written, or its rows moved, since a version.
     bool writtenSince(Entity entity, ComponentId id, uint32_t version) const {
-        if (!alive(entity)) return false;
-        const Chunk& chunk = *records_[entity.index].chunk;
+        const Record* record = recordOf(entity);
+        if (!record) return false;
+        const Chunk& chunk = *record->chunk;
         const uint8_t column = chunk.archetype->columnOf[id];
         if (column == Archetype::kNoColumn) return false;
         return newerThan(chunk.versions[column], version) || newerThan(chunk.structureVersion, version);
@@ -152,6 +152,11 @@ class World {
         Chunk* chunk;
         uint32_t begin, count;
     };
+    const Record* recordOf(Entity entity) const {  // null if it is dead
+        if (entity.index >= records_.size()) return nullptr;
+        const Record& record = records_[entity.index];
+        return record.generation == entity.generation && record.chunk ? &record : nullptr;
+    }
     Entity takeHandle() {
         if (freeHead_ == kNone) {
             records_.emplace_back();
@@ -166,6 +171,10 @@ class World {
         return makeBundle(type);
     }
     const Bundle& makeBundle(const BundleType& type);
+    void reserveHandles(uint32_t count) {
+        if (records_.capacity() < records_.size() + count)
+            records_.reserve(std::max(records_.size() + count, records_.capacity() * 2));
+    }
     NewRows pushRows(Archetype& archetype, uint32_t most);
     Archetype& archetypeFor(const ComponentMask& mask);
     void takeOut(const Record& record);
@@ -209,6 +218,7 @@ Entity World::create(const Ts&... components) {
 template <class... Ts, class F>
 void World::createMany(uint32_t count, F&& fill) {
     const Bundle bundle = bundleOf(bundleType<Ts...>());
+    reserveHandles(count);
     while (count > 0) {
         const NewRows rows = pushRows(*bundle.archetype, count);
         size_t i = 0;

@@ -73,20 +73,24 @@ inline glm::mat4x3 matrixOf(const Local& local) {
     const glm::mat3 r = glm::mat3_cast(local.turn);
     return {r[0] * local.scale, r[1] * local.scale, r[2] * local.scale, local.place};
 }
-inline glm::mat4x3 below(const glm::mat4x3& parent, const Local& local) {
+[[gnu::always_inline]] inline glm::mat4x3 below(const glm::mat4x3& parent, const Local& local) {
     const glm::mat3 p(parent[0], parent[1], parent[2]);
     const glm::mat4x3 m = matrixOf(local);
     return {p * m[0], p * m[1], p * m[2], p * m[3] + parent[3]};
 }
+// Without a branch; glm::abs compiles to one, and signs here are random.
+inline glm::vec3 absolute(const glm::vec3& v) {
+    return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
+}
 inline WorldBox boxOf(const glm::mat4x3& m, const Extent& e) {
     return {m[0] * e.center.x + m[1] * e.center.y + m[2] * e.center.z + m[3],
-            glm::abs(m[0]) * e.half.x + glm::abs(m[1]) * e.half.y + glm::abs(m[2]) * e.half.z};
+            absolute(m[0]) * e.half.x + absolute(m[1]) * e.half.y + absolute(m[2]) * e.half.z};
 }
 inline uint32_t inside(const WorldBox& box, const Planes& planes) {
     uint32_t yes = 1;
     for (const glm::vec4& p : planes) {
         const glm::vec3 n(p);
-        yes &= uint32_t(glm::dot(n, box.center) + glm::dot(glm::abs(n), box.half) + p.w >= 0);
+        yes &= uint32_t(glm::dot(n, box.center) + glm::dot(absolute(n), box.half) + p.w >= 0);
     }
     return yes;
 }

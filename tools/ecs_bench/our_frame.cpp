@@ -33,10 +33,10 @@ struct GpuRows {
 };
 
 void move(View<Local, Velocity> moving, JobRunner& runner) {
-    moving.parallel(runner, moveThing);
+    moving.parallel(runner, [](Local& local, Velocity& v) { moveThing(local, v); });
 }
 void spin(View<Local, const Spin> spinning, JobRunner& runner) {
-    spinning.parallel(runner, spinThing);
+    spinning.parallel(runner, [](Local& local, const Spin& s) { spinThing(local, s); });
 }
 void placeRoots(View<Changed<const Local>, Matrix, Without<Above>> roots, JobRunner& runner) {
     roots.parallel(runner, [](const Local& local, Matrix& m) { m.worldFromLocal = matrixOf(local); });
@@ -72,7 +72,7 @@ void cull(View<const WorldBox, Visible> all, Res<const Planes> camera, JobRunner
     all.parallel(runner, [&](const WorldBox& box, Visible& visible) { visible.yes = inside(box, planes); });
 }
 void damage(View<Health, const Harm> all) {
-    all.each(harm);
+    all.each([](Health& health, const Harm& by) { harm(health, by); });
 }
 void burn(View<Spark> sparks, Commands& commands) {
     sparks.each([&](Entity entity, Spark& spark) {
