@@ -1,6 +1,7 @@
 // Handles and component types.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string_view>
 #include <type_traits>
@@ -23,7 +24,7 @@ using ComponentId = uint32_t;
 constexpr ComponentId kMaxComponents = 128;
 
 struct ComponentType {
-    std::string_view name;   // with its namespaces: what saved worlds know it by
+    std::string_view name;   // what saved worlds know it by
     uint32_t sizeBytes = 0;  // 0: an empty struct, a tag
     uint32_t alignment = 0;
     bool tracked = false;
@@ -39,12 +40,13 @@ const ComponentType& componentType(ComponentId id);
 uint32_t componentTypeCount();
 ComponentId componentNamed(std::string_view name);  // kMaxComponents: no such type was used yet
 
-// As the compiler spells it: "ag::WorldTransform".
+// As the compiler spells it from here, so without this namespace: "WorldTransform", "game::Mover".
 template <class T>
 constexpr std::string_view typeName() {
     constexpr std::string_view spelt = __PRETTY_FUNCTION__;
     constexpr size_t begin = spelt.find("T = ") + 4;
-    return spelt.substr(begin, spelt.find_first_of(";]", begin) - begin);
+    constexpr std::string_view name = spelt.substr(begin, spelt.find_first_of(";]", begin) - begin);
+    return name.substr(name.starts_with("ag::") ? 4 : 0);
 }
 
 template <class T>
@@ -69,6 +71,11 @@ struct ComponentMask {
     void set(ComponentId id) { words[id / 64] |= uint64_t(1) << (id % 64); }
     void reset(ComponentId id) { words[id / 64] &= ~(uint64_t(1) << (id % 64)); }
     bool has(ComponentId id) const { return words[id / 64] >> (id % 64) & 1; }
+    uint32_t countBelow(ComponentId id) const {  // its place among the set's types
+        const uint64_t below = (uint64_t(1) << (id % 64)) - 1;
+        return id < 64 ? uint32_t(std::popcount(words[0] & below))
+                       : uint32_t(std::popcount(words[0]) + std::popcount(words[1] & below));
+    }
     bool containsAll(const ComponentMask& m) const {
         return (words[0] & m.words[0]) == m.words[0] && (words[1] & m.words[1]) == m.words[1];
     }

@@ -85,7 +85,7 @@ World::NewRows World::pushRows(Archetype& archetype, uint32_t most) {
     chunk->rows += count;
     chunk->structureVersion = version();
     alive_ += count;
-    ++structureCount_;
+    ++editCount_;
     if (!archetype.trackedColumns.empty()) markRows(*chunk, begin, begin + count);
     return {chunk, begin, count};
 }
@@ -121,7 +121,7 @@ void World::destroy(Entity entity) {
     ++record.generation;
     freeHead_ = entity.index;
     --alive_;
-    ++structureCount_;
+    ++editCount_;
 }
 
 void World::prefetchRow(Entity entity) const {
@@ -161,7 +161,7 @@ World::Record& World::move(Entity entity, Archetype& to) {
     takeOut(old);
     record.chunk = place.chunk;
     record.row = place.row;
-    ++structureCount_;
+    ++editCount_;
     return record;
 }
 
@@ -169,6 +169,7 @@ void World::addFrom(Entity entity, ComponentValue value) {
     AG_CHECK(alive(entity));
     const size_t size = componentType(value.id).sizeBytes;
     if (void* existing = writeAt(entity, value.id, version())) {
+        ++editCount_;
         if (size > 0) std::memcpy(existing, value.bytes, size);
         return;
     }
@@ -207,6 +208,17 @@ void* World::writeAt(Entity entity, ComponentId id, uint32_t version) {
     return found;
 }
 
+uint32_t World::columnVersion(ComponentId id) const {
+    uint32_t newest = 0;
+    for (const Archetype& archetype : archetypes_) {
+        if (!archetype.mask.has(id)) continue;
+        for (const auto& chunk : archetype.chunks)
+            for (const uint32_t version : {chunk->versions[archetype.columnOf[id]], chunk->structureVersion})
+                if (newest == 0 || newerThan(version, newest)) newest = version;
+    }
+    return newest;
+}
+
 uint64_t World::stateHash() const {
     uint64_t hash = alive_;
     for (const Archetype& archetype : archetypes_) {
@@ -229,7 +241,7 @@ void World::swapEntities(World& other) {
     std::swap(archetypeOfMask_, other.archetypeOfMask_);
     memory_.swap(other.memory_);
     for (World* world : {this, &other}) {
-        ++world->structureCount_;
+        ++world->editCount_;
         world->bundles_.clear();
         for (auto& query : world->queries_)
             query = nullptr;

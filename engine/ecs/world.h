@@ -86,6 +86,7 @@ class World {
     // For writing: stamps the column and, if tracked, the row with the version now.
     template <class T>
     T* write(Entity entity) {
+        ++editCount_;
         return static_cast<T*>(writeAt(entity, componentId<T>(), version()));
     }
     void* writeAt(Entity entity, ComponentId id, uint32_t version);
@@ -120,22 +121,30 @@ class World {
         return *static_cast<T*>(resources_[id].get());
     }
     template <class T>
-    T& resource() const {
+    T* findResource() const {  // null if it was never set
         const ResourceId id = resourceId<T>();
-        AG_CHECK_MSG(id < resources_.size() && resources_[id], "the resource was never set");
-        return *static_cast<T*>(resources_[id].get());
+        return id < resources_.size() ? static_cast<T*>(resources_[id].get()) : nullptr;
+    }
+    template <class T>
+    T& resource() const {
+        T* found = findResource<T>();
+        AG_CHECK_MSG(found, "the resource was never set");
+        return *found;
     }
 
     uint32_t entityCount() const { return alive_; }
     std::deque<Archetype>& archetypes() { return archetypes_; }
     const std::deque<Archetype>& archetypes() const { return archetypes_; }
+    // The newest of a component's columns: an index made of them is stale if this or the edit count differs.
+    uint32_t columnVersion(ComponentId id) const;
     std::span<const QueryMatch> matches(const QueryShape& shape);
     size_t chunkMemoryBytes() const { return memory_.slabBytes(); }
     uint32_t frame() const { return frame_; }
     void advanceFrame() { ++frame_; }
     uint32_t version() const { return frame_ * kVersionsPerFrame + kFlushPosition; }
-    // Moves with every create, destroy, add and remove: an index made of the world is stale if it differs.
-    uint64_t structureCount() const { return structureCount_; }
+    // Moves with every create, destroy, add, remove and write called on the world itself; what systems write
+    // is in the versions of columns.
+    uint64_t editCount() const { return editCount_; }
 
     // Over all rows in storage order: equal for equal worlds however many threads made them.
     uint64_t stateHash() const;
@@ -185,7 +194,7 @@ class World {
     uint32_t freeHead_ = kNone;
     uint32_t alive_ = 0;
     uint32_t frame_ = 1;
-    uint64_t structureCount_ = 0;
+    uint64_t editCount_ = 0;
     std::deque<Archetype> archetypes_;  // stays in place: chunks and views point at them
     std::unordered_map<uint64_t, std::vector<uint32_t>> archetypeOfMask_;
     std::vector<Bundle> bundles_;
@@ -211,7 +220,7 @@ Entity World::create(const Ts&... components) {
     record.chunk = place.chunk;
     record.row = place.row;
     ++alive_;
-    ++structureCount_;
+    ++editCount_;
     return entity;
 }
 

@@ -25,12 +25,6 @@ std::vector<size_t> strongestLights(const SceneAsset& asset) {
     return nodes;
 }
 
-Name nameOf(const std::string& text) {
-    Name name;
-    text.copy(name.text, sizeof name.text - 1);
-    return name;
-}
-
 }  // namespace
 
 std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
@@ -40,7 +34,7 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
         const SceneNode& node = asset.nodes[i];
         const LocalTransform local{node.local.translation, node.local.rotation, node.local.scale,
                                    uint32_t(i)};
-        const Entity entity = world.create(local, WorldTransform{}, nameOf(node.name));
+        const Entity entity = world.create(local, WorldTransform{}, makeName(node.name));
         entities.push_back(entity);
         deepest = std::max(deepest, node.depth);
         if (node.parent >= 0) {

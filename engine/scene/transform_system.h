@@ -6,10 +6,6 @@
 
 namespace ag {
 
-struct HierarchyLevels {  // resource
-    uint32_t deepest = 0;
-};
-
 void updateRootTransforms(View<Changed<const LocalTransform>, WorldTransform, Without<Parent>> roots);
 // Writes a child only if its transform differs: what stands still stays unchanged for everyone after.
 void updateChildTransforms(
