@@ -253,13 +253,13 @@ Status WorldSnapshot::restore(World& world, std::span<const std::byte> bytes) {
     if (!types) return types.error();
     World fresh;
     fresh.frame_ = world.frame_;
+    fresh.position_ = world.position_;
     if (!readRecords(fresh, in)) return damaged();
     const uint32_t count = in.number();
     for (uint32_t i = 0; i < count; ++i)
         if (in.failed() || !readArchetype(fresh, in, *types)) return damaged();
     if (in.failed() || in.left() > 0 || !freeListFits(fresh)) return damaged();
     world.swapEntities(fresh);
-    world.advanceFrame();  // as if made at the end of a frame: every system sees all of it, once
     return Ok{};
 }
 

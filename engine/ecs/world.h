@@ -18,7 +18,7 @@
 namespace ag {
 
 constexpr uint32_t kVersionsPerFrame = 256;
-constexpr uint32_t kFlushPosition = 255;  // in a frame: where structure changes, after all systems
+constexpr uint32_t kEndOfFrame = 255;  // position of what happens after all systems
 
 inline bool newerThan(uint32_t version, uint32_t than) {
     return int32_t(version - than) > 0;
@@ -141,7 +141,10 @@ class World {
     size_t chunkMemoryBytes() const { return memory_.slabBytes(); }
     uint32_t frame() const { return frame_; }
     void advanceFrame() { ++frame_; }
-    uint32_t version() const { return frame_ * kVersionsPerFrame + kFlushPosition; }
+    // Stamped on what is changed on the world itself: between frames as before all systems of the next,
+    // during a frame at the position of the system that runs alone.
+    uint32_t version() const { return frame_ * kVersionsPerFrame + position_; }
+    void setPosition(uint32_t position) { position_ = position; }
     // Moves with every create, destroy, add, remove and write called on the world itself; what systems write
     // is in the versions of columns.
     uint64_t editCount() const { return editCount_; }
@@ -194,6 +197,7 @@ class World {
     uint32_t freeHead_ = kNone;
     uint32_t alive_ = 0;
     uint32_t frame_ = 1;
+    uint32_t position_ = 0;
     uint64_t editCount_ = 0;
     std::deque<Archetype> archetypes_;  // stays in place: chunks and views point at them
     std::unordered_map<uint64_t, std::vector<uint32_t>> archetypeOfMask_;

@@ -1,8 +1,10 @@
 #include "engine/scene/spawn_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/scene/components.h"
+#include "engine/scene/mover.h"
 #include "engine/scene/transform_system.h"
 
 namespace ag {
@@ -23,6 +25,14 @@ std::vector<size_t> strongestLights(const SceneAsset& asset) {
     std::ranges::stable_sort(nodes, [&](size_t a, size_t b) { return strength(a) > strength(b); });
     nodes.resize(std::min(nodes.size(), kMostBounceLights));
     return nodes;
+}
+
+void addMover(World& world, const SceneNode& node, Entity entity) {
+    const NodeExtras& extras = node.extras;
+    if (extras.movePeriod <= 0 && extras.spinSpeed == 0) return;
+    world.add(entity, Mover{node.local.translation, extras.moveExtent, extras.movePeriod, extras.spinSpeed,
+                            2 * std::atan2(node.local.rotation.y, node.local.rotation.w)});
+    if (MeshInstance* mesh = world.write<MeshInstance>(entity)) mesh->movable = 1;
 }
 
 }  // namespace
@@ -51,6 +61,8 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
                       PunctualLight{l.intensity, l.range, l.innerConeAngle, l.outerConeAngle, l.kind, 1});
         }
     }
+    for (size_t i = 0; i < asset.nodes.size(); ++i)
+        addMover(world, asset.nodes[i], entities[i]);
     for (size_t node : strongestLights(asset))
         world.add(entities[node], BounceLight{});
     world.setResource<HierarchyLevels>(deepest);

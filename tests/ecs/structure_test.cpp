@@ -135,6 +135,30 @@ TEST(Ecs, ChangedAndUnchangedPartTheWorld) {
     EXPECT_FALSE(positions.changed(far));
 }
 
+// What a flush makes is new once to each system, whether it stands before the flush or after it.
+TEST(Schedule, WhatAFlushMakesIsNewOnce) {
+    World world;
+    JobRunner one(1);
+    uint32_t before = 0, after = 0, makes = 1;
+    Schedule s;
+    s.add("before", [&](View<Changed<const Health>> fresh) { before += fresh.count(); });
+    s.add("make", [&](Commands& commands) {
+        for (; makes > 0; --makes)
+            commands.create(Health{});
+    });
+    s.flush();
+    s.add("after", [&](View<Changed<const Health>> fresh) { after += fresh.count(); });
+    for (int frame = 0; frame < 4; ++frame)
+        s.run(world, one);
+    EXPECT_EQ(before, 1u);
+    EXPECT_EQ(after, 1u);
+    world.create(Health{}, Position{});  // between frames
+    for (int frame = 0; frame < 3; ++frame)
+        s.run(world, one);
+    EXPECT_EQ(before, 2u);
+    EXPECT_EQ(after, 2u);
+}
+
 // Sums whose order matters: equal bits for any number of threads.
 TEST(Loops, FoldsDoNotDependOnThreads) {
     World world;

@@ -27,6 +27,11 @@ void Rows::against(const std::string& name, double atMost, Bench ours, const std
     rows_.push_back({name, name + "/ours", other, Target::kRatio, atMost});
 }
 
+void Rows::against(const std::string& name, double atMost, const std::string& ours,
+                   const std::string& other) {
+    rows_.push_back({name, ours, other, Target::kRatio, atMost});
+}
+
 double secondsNow(Clock clock) {
     timespec t;
     clock_gettime(clock == Clock::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &t);

@@ -29,6 +29,8 @@ class Rows {
     void alone(const std::string& name, double atMostNs, Bench ours);
     // Ours against another benchmark, registered by another row.
     void against(const std::string& name, double atMost, Bench ours, const std::string& other);
+    // Two benchmarks registered by other rows.
+    void against(const std::string& name, double atMost, const std::string& ours, const std::string& other);
     const std::vector<Row>& all() const { return rows_; }
 
   private:
