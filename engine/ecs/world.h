@@ -236,8 +236,9 @@ void World::createMany(uint32_t count, F&& fill) {
         const NewRows rows = pushRows(*bundle.archetype, count);
         size_t i = 0;
         const auto column = [&]<class T>(T*) {
-            return std::span<T>(reinterpret_cast<T*>(rows.chunk->columns[bundle.columns[i++]]) + rows.begin,
-                                rows.count);
+            std::byte* begin = rows.chunk->columns[bundle.columns[i++]];
+            if constexpr (std::is_empty_v<T>) return std::span<T>();  // a tag has nothing to write
+            return std::span<T>(reinterpret_cast<T*>(begin) + rows.begin, rows.count);
         };
         std::apply(
             [&](auto... spans) {

@@ -5,8 +5,10 @@
 namespace ag::ecs_bench {
 namespace {
 
-void add(const std::string& name, const Bench& bench) {
-    benchmark::RegisterBenchmark(name.c_str(), bench)->UseManualTime()->Unit(benchmark::kMicrosecond);
+void add(const std::string& name, const Bench& bench, double seconds = 0) {
+    auto* added = benchmark::RegisterBenchmark(name.c_str(), bench)->UseManualTime();
+    added->Unit(benchmark::kMicrosecond);
+    if (seconds > 0) added->MinTime(seconds);
 }
 
 }  // namespace
@@ -17,13 +19,14 @@ void Rows::compare(const std::string& name, double atMost, Bench ours, Bench pla
     rows_.push_back({name, name + "/ours", name + "/plain", Target::kRatio, atMost});
 }
 
-void Rows::alone(const std::string& name, double atMostNs, Bench ours) {
-    add(name + "/ours", ours);
+void Rows::alone(const std::string& name, double atMostNs, Bench ours, double seconds) {
+    add(name + "/ours", ours, seconds);
     rows_.push_back({name, name + "/ours", {}, atMostNs > 0 ? Target::kNs : Target::kNone, atMostNs});
 }
 
-void Rows::against(const std::string& name, double atMost, Bench ours, const std::string& other) {
-    add(name + "/ours", ours);
+void Rows::against(const std::string& name, double atMost, Bench ours, const std::string& other,
+                   double seconds) {
+    add(name + "/ours", ours, seconds);
     rows_.push_back({name, name + "/ours", other, Target::kRatio, atMost});
 }
 

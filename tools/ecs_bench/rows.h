@@ -25,10 +25,11 @@ class Rows {
   public:
     // Registers `name`/ours and `name`/plain.
     void compare(const std::string& name, double atMost, Bench ours, Bench plain);
-    // Only ours, in ns an item.
-    void alone(const std::string& name, double atMostNs, Bench ours);
+    // Only ours, in ns an item. `seconds` a repetition, if two threads need long to meet two idle cores.
+    void alone(const std::string& name, double atMostNs, Bench ours, double seconds = 0);
     // Ours against another benchmark, registered by another row.
-    void against(const std::string& name, double atMost, Bench ours, const std::string& other);
+    void against(const std::string& name, double atMost, Bench ours, const std::string& other,
+                 double seconds = 0);
     // Two benchmarks registered by other rows.
     void against(const std::string& name, double atMost, const std::string& ours, const std::string& other);
     const std::vector<Row>& all() const { return rows_; }
