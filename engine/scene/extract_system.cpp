@@ -65,8 +65,11 @@ void writeRows(const RowRun& run, std::span<const WorldTransform> worlds,
         for (uint32_t p = 0; p < meshes[i].primitiveCount; ++p, ++row) {
             RenderInstance& instance = scene.instances[row];
             const uint32_t primitive = meshes[i].firstPrimitive + p;
-            if (!all && instance.worldFromLocal == matrix && instance.primitive == primitive) continue;
-            instance = {matrix, primitive, meshes[i].movable != 0};
+            const bool movable = meshes[i].movable != 0;
+            if (!all && instance.worldFromLocal == matrix && instance.primitive == primitive &&
+                instance.movable == movable)
+                continue;
+            instance = {matrix, primitive, movable};
             state.bounds.set(row, instance, scene.geometry->primitives[primitive].boundsLocal);
             if (row / 64 != word) flush();
             word = row / 64;
