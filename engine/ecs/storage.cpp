@@ -156,18 +156,21 @@ void dropLastChunk(Archetype& archetype, ChunkMemory& memory) {
 }
 
 void setBits(uint64_t* words, uint32_t begin, uint32_t end) {
-    uint32_t row = begin;
-    for (; row + 64 <= end; row += 64)
-        words[row / 64] = ~uint64_t(0);
-    if (row < end) words[row / 64] |= ~uint64_t(0) >> (64 - (end - row));
+    if (begin >= end) return;
+    const uint32_t first = begin / 64, last = (end - 1) / 64;
+    const uint64_t head = ~uint64_t(0) << (begin % 64), tail = ~uint64_t(0) >> (63 - (end - 1) % 64);
+    if (first == last) {
+        words[first] |= head & tail;
+        return;
+    }
+    words[first] |= head;
+    std::fill(words + first + 1, words + last, ~uint64_t(0));
+    words[last] |= tail;
 }
 
 void markRows(Chunk& chunk, uint32_t begin, uint32_t end) {
-    for (uint32_t row = begin; row < end && row % 64; ++row)
-        markRow(chunk, row);
-    const uint32_t whole = std::min(end, (begin + 63) / 64 * 64);
     for (const uint8_t column : chunk.archetype->trackedColumns)
-        setBits(chunk.rowBits[column], whole, end);
+        setBits(chunk.rowBits[column], begin, end);
 }
 
 }  // namespace ag

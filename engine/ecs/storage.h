@@ -109,7 +109,7 @@ inline void markRow(Chunk& chunk, uint32_t row) {
         chunk.rowBits[column][row / 64] |= uint64_t(1) << (row % 64);
 }
 
-// Bits [begin, end) of a chunk's words; begin is a multiple of 64.
+// Bits [begin, end) of a chunk's words.
 void setBits(uint64_t* words, uint32_t begin, uint32_t end);
 void markRows(Chunk& chunk, uint32_t begin, uint32_t end);
 

@@ -39,8 +39,8 @@ class View {
     void each(F&& f) const {
         forChunks([&](const Piece& piece) { rows(piece, f); });
     }
-    // f(std::span<T>...) or f(std::span<const Entity>, std::span<T>...) for each chunk, or with Taken for
-    // each run of changed rows; what is written counts as written.
+    // f(std::span<T>...) or f(const RowRun&, std::span<T>...) for each chunk, or with Taken for each run of
+    // changed rows; what is written counts as written.
     template <class F>
     void chunks(F&& f) const {
         forChunks([&](const Piece& piece) { spans(piece, f); });
@@ -69,6 +69,7 @@ class View {
     // pieces in order. The same bits for any number of threads.
     template <class R, class F, class Join>
     R fold(JobRunner& runner, const R& start, F&& f, Join&& join) const {
+        static_assert(!std::is_same_v<R, bool>, "a vector's bools share words: fold into an int");
         Scratch<Piece> pieces;
         Scratch<R> parts;
         cut(*pieces);
@@ -151,6 +152,7 @@ class View {
                 forRuns(piece, [&](uint32_t first, uint32_t last) {
                     for (uint32_t row = first; row < last; ++row)
                         call(row);
+                    touch({piece.match, piece.chunk, first, last});
                 });
             } else if constexpr (kSays) {
                 sayingRows(piece, call);
@@ -165,19 +167,19 @@ class View {
     void spans(const Piece& piece, F&& f) const {
         const auto give = [&](uint32_t begin, uint32_t end) {
             withColumns(piece, [&](auto*... column) {
-                const uint32_t rows = end - begin;
+                const uint32_t count = end - begin;
                 if constexpr (std::is_invocable_v<F&, const RowRun&, decltype(std::span(column, 0))...>)
-                    f(RowRun{piece.chunk, begin, {piece.chunk->entities + begin, rows}},
-                      std::span(column + begin, rows)...);
+                    f(RowRun{piece.chunk, begin, {piece.chunk->entities + begin, count}},
+                      std::span(column + begin, count)...);
                 else
-                    f(std::span(column + begin, rows)...);
+                    f(std::span(column + begin, count)...);
+                touch({piece.match, piece.chunk, begin, end});
             });
         };
         if constexpr (kTakes) {
             forRuns(piece, give);
         } else if (piece.begin < piece.end) {
             give(piece.begin, piece.end);
-            touch(piece);
         }
     }
     // Rows whose function says whether it changed them: marks are gathered and set a word at a time.

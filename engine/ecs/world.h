@@ -105,7 +105,10 @@ class World {
         const Chunk& chunk = *record->chunk;
         const uint8_t column = chunk.archetype->columnOf[id];
         if (column == Archetype::kNoColumn) return false;
-        return newerThan(chunk.versions[column], version) || newerThan(chunk.structureVersion, version);
+        // Other rows of the chunk may be written, and stamped, by other threads meanwhile.
+        const uint32_t written =
+            std::atomic_ref(const_cast<uint32_t&>(chunk.versions[column])).load(std::memory_order_relaxed);
+        return newerThan(written, version) || newerThan(chunk.structureVersion, version);
     }
     const Archetype* archetypeOf(Entity entity) const {  // null if it is dead
         return alive(entity) ? records_[entity.index].chunk->archetype : nullptr;

@@ -233,6 +233,43 @@ TEST(Loops, ParallelLoopsMarkTheRowsTheyChanged) {
     EXPECT_EQ(takenSum().first, 0u);
 }
 
+// Two tracked components of the same rows have marks of their own, and writing while taking counts.
+TEST(Loops, WhatIsWrittenWhileTakingIsMarked) {
+    World world;
+    std::vector<Entity> all;
+    for (int i = 0; i < 3000; ++i)
+        all.push_back(world.create(Streamed{float(i)}, Copied{}));
+    SystemTime time{.version = world.version() + 1, .lastRun = 0};
+    const auto rowsOf = [&](uint32_t lastRun) {
+        std::vector<float> rows;
+        View<Taken<const Copied>>(world, {.version = time.version + 1, .lastRun = lastRun})
+            .each([&](const Copied& c) { rows.push_back(c.value); });
+        return rows;
+    };
+    EXPECT_EQ(rowsOf(0).size(), 3000u);
+    View<Taken<const Streamed>>(world, time).each([](const Streamed&) {});
+    world.advanceFrame();
+    for (const size_t i : {size_t(62), size_t(63), size_t(64), size_t(1500), size_t(2999)})
+        world.write<Streamed>(all[i]);
+    time = {.version = world.version() + 1, .lastRun = time.version};
+    View<Taken<const Streamed>, Copied>(world, time).each([](const Streamed& s, Copied& c) {
+        c.value = s.value;
+    });
+    EXPECT_EQ(rowsOf(time.version - 1), (std::vector<float>{62, 63, 64, 1500, 2999}));
+    for (const size_t i : {size_t(400), size_t(401)})
+        world.write<Streamed>(all[i]);
+    world.advanceFrame();
+    time = {.version = world.version() + 1, .lastRun = time.version};
+    world.write<Streamed>(all[402]);
+    View<Taken<const Streamed>, Copied>(world, time)
+        .chunks([](std::span<const Streamed> s, std::span<Copied> c) {
+            ASSERT_EQ(s.size(), 3u);
+            for (size_t i = 0; i < c.size(); ++i)
+                c[i].value = s[i].value;
+        });
+    EXPECT_EQ(rowsOf(time.version - 1), (std::vector<float>{400, 401, 402}));
+}
+
 using EcsDeathTest = testing::Test;
 TEST(EcsDeathTest, TwoSystemsCannotTakeTheSameMarks) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";

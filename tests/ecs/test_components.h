@@ -25,6 +25,12 @@ struct Streamed {
 template <>
 inline constexpr bool kTrackRows<Streamed> = true;
 
+struct Copied {  // tracked, too
+    float value = 0;
+};
+template <>
+inline constexpr bool kTrackRows<Copied> = true;
+
 struct Clock {
     float seconds = 0.1f;
 };

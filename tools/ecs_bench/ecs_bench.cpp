@@ -34,6 +34,7 @@ class BestReporter : public benchmark::ConsoleReporter {
         return found == best_.end() ? -1 : found->second;
     }
     double copied() const { return copied_; }
+    bool empty() const { return best_.empty(); }
 
   private:
     std::map<std::string, double> best_;
@@ -102,6 +103,7 @@ int run(int argc, char** argv) {
     if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
     BestReporter reporter;
     benchmark::RunSpecifiedBenchmarks(&reporter);
+    if (reporter.empty()) return 0;  // only listed
     fmt::print("\n{:<50} {:>12} {:>12} {:>8} {:>10}\n", "best of all repetitions", "ours ns", "plain ns",
                "ratio", "at most");
     bool good = true;
