@@ -14,8 +14,12 @@ constexpr size_t kSlabBytes = size_t(2) << 20;
 constexpr size_t kChunkBytes = size_t(256) << 10;
 constexpr uint32_t kLeastRows = 1024, kMostRows = 4096;
 constexpr size_t kColumnAlignment = 64;
-// Columns of equal power-of-two length would all start in the same cache set.
-constexpr size_t kColumnSkew = 3 * kColumnAlignment;
+
+// Columns of equal power-of-two length would all start in the same cache set, and a load would wait for
+// stores to another column that end in the same twelve bits. Short chunks are not worth the bytes.
+size_t columnSkew(uint32_t capacity) {
+    return capacity < kLeastRows ? kColumnAlignment : 17 * kColumnAlignment;
+}
 
 size_t alignUp(size_t n) {
     return (n + kColumnAlignment - 1) / kColumnAlignment * kColumnAlignment;
@@ -32,7 +36,7 @@ uint32_t capacityOf(const Archetype& archetype, size_t ordinal) {
 size_t chunkBytes(const Archetype& archetype, uint32_t capacity) {
     size_t bytes = alignUp(sizeof(Entity) * capacity);
     for (const uint32_t size : archetype.sizes)
-        bytes += alignUp(size_t(size) * capacity) + kColumnSkew;
+        bytes += alignUp(size_t(size) * capacity) + columnSkew(capacity);
     AG_CHECK_MSG(bytes < ~0u, "a component is too large for a chunk");
     return bytes;
 }
@@ -44,7 +48,7 @@ const ChunkLayout& layoutOf(Archetype& archetype, size_t ordinal, uint32_t capac
     size_t at = alignUp(sizeof(Entity) * capacity);
     for (size_t c = 0; c < archetype.components.size(); ++c) {
         (*layout)[archetype.components[c]] = uint32_t(at);
-        at += alignUp(size_t(archetype.sizes[c]) * capacity) + kColumnSkew;
+        at += alignUp(size_t(archetype.sizes[c]) * capacity) + columnSkew(capacity);
     }
     return *layout;
 }

@@ -63,6 +63,8 @@ struct Archetype {
     static constexpr uint8_t kNoColumn = 255;
     static constexpr uint16_t kNoIndex = 0xffff;
 
+    std::vector<std::unique_ptr<Chunk>> chunks;  // all full but the last
+    Chunk* last = nullptr;
     uint32_t index = 0;  // in the world
     ComponentMask mask;
     std::vector<ComponentId> components;  // ascending
@@ -72,8 +74,6 @@ struct Archetype {
     std::array<uint16_t, kMaxComponents> with{}, without{};  // archetypes one component away, once known
     uint32_t rowBytes = sizeof(Entity);
     std::array<std::unique_ptr<ChunkLayout>, 3> layouts;  // of the first chunk, the second and all others
-    std::vector<std::unique_ptr<Chunk>> chunks;           // all full but the last
-    Chunk* last = nullptr;
     std::unique_ptr<Chunk> spare;  // emptied last: a world at a chunk's edge does not make and break it
 
     uint32_t rows() const;

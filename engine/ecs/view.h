@@ -115,9 +115,19 @@ class View {
     }
     template <class F>
     void forChunks(F&& f) const {
-        for (const QueryMatch& match : matches_)
+        for (size_t m = 0; m < matches_.size(); ++m) {
+            const QueryMatch& match = matches_[m];
+            prefetchMatches(m);
             for (const auto& chunk : match.archetype->chunks)
                 if (wanted(match, *chunk)) f(Piece{&match, chunk.get(), 0, chunk->rows});
+        }
+    }
+    // The way to a chunk has three steps; those of the next archetypes are taken ahead, one each.
+    void prefetchMatches(size_t m) const {
+        if (m + 3 < matches_.size()) __builtin_prefetch(matches_[m + 3].archetype);
+        if (m + 2 < matches_.size()) __builtin_prefetch(matches_[m + 2].archetype->chunks.data());
+        if (m + 1 < matches_.size() && matches_[m + 1].archetype->last)
+            __builtin_prefetch(matches_[m + 1].archetype->chunks.front().get());
     }
     void cut(std::vector<Piece>& pieces) const {
         forChunks([&](const Piece& whole) { detail::cutChunk(*whole.match, *whole.chunk, pieces); });

@@ -143,21 +143,25 @@ void World::destroy(std::span<const Entity> entities) {
     }
 }
 
-// Into another archetype, taking along the components both have. Both lists ascend.
-World::Record& World::move(Entity entity, Archetype& to) {
+// Into an archetype that has `id` more or less, taking the others along.
+World::Record& World::move(Entity entity, Archetype& to, ComponentId id) {
     Record& record = records_[entity.index];
     const Record old = record;
     const Archetype& from = *old.chunk->archetype;
     const RowPlace place = pushRow(to, memory_, entity, version());
-    size_t t = 0;
-    for (size_t c = 0; c < from.components.size(); ++c) {
-        while (t < to.components.size() && to.components[t] < from.components[c])
-            ++t;
-        if (t == to.components.size()) break;
-        if (to.components[t] != from.components[c]) continue;
+    const bool gains = to.sizes.size() > from.sizes.size();
+    const size_t differs = gains ? to.columnOf[id] : from.columnOf[id];
+    const size_t count = from.sizes.size();
+    std::byte* const* source = old.chunk->columns.data();
+    std::byte* const* target = place.chunk->columns.data();
+    const auto copy = [&](size_t c, size_t t) {
         const size_t size = from.sizes[c];
-        copyRow(place.chunk->columns[t] + place.row * size, old.chunk->columns[c] + old.row * size, size);
-    }
+        copyRow(target[t] + place.row * size, source[c] + old.row * size, size);
+    };
+    for (size_t c = 0; c < differs; ++c)
+        copy(c, c);
+    for (size_t c = differs + !gains; c < count; ++c)
+        copy(c, gains ? c + 1 : c - 1);
     takeOut(old);
     record.chunk = place.chunk;
     record.row = place.row;
@@ -166,35 +170,39 @@ World::Record& World::move(Entity entity, Archetype& to) {
 }
 
 void World::addFrom(Entity entity, ComponentValue value) {
-    AG_CHECK(alive(entity));
-    const size_t size = componentType(value.id).sizeBytes;
-    if (void* existing = writeAt(entity, value.id, version())) {
+    const Record* found = recordOf(entity);
+    AG_CHECK(found);
+    Archetype& from = *found->chunk->archetype;
+    if (from.columnOf[value.id] != Archetype::kNoColumn) {
+        void* existing = writeAt(entity, value.id, version());
+        if (const size_t size = from.sizes[from.columnOf[value.id]]) std::memcpy(existing, value.bytes, size);
         ++editCount_;
-        if (size > 0) std::memcpy(existing, value.bytes, size);
         return;
     }
-    Archetype& from = *records_[entity.index].chunk->archetype;
     if (from.with[value.id] == Archetype::kNoIndex) {
         ComponentMask mask = from.mask;
         mask.set(value.id);
         from.with[value.id] = uint16_t(archetypeFor(mask).index);
     }
     Archetype& to = archetypes_[from.with[value.id]];
-    const Record& record = move(entity, to);
-    copyRow(record.chunk->columns[to.columnOf[value.id]] + record.row * size,
-            static_cast<const std::byte*>(value.bytes), size);
+    const Record& record = move(entity, to, value.id);
+    const uint8_t column = to.columnOf[value.id];
+    const size_t size = to.sizes[column];
+    copyRow(record.chunk->columns[column] + record.row * size, static_cast<const std::byte*>(value.bytes),
+            size);
 }
 
 void World::removeComponent(Entity entity, ComponentId id) {
-    if (!alive(entity)) return;
-    Archetype& from = *records_[entity.index].chunk->archetype;
-    if (!from.mask.has(id)) return;
+    const Record* found = recordOf(entity);
+    if (!found) return;
+    Archetype& from = *found->chunk->archetype;
+    if (from.columnOf[id] == Archetype::kNoColumn) return;
     if (from.without[id] == Archetype::kNoIndex) {
         ComponentMask mask = from.mask;
         mask.reset(id);
         from.without[id] = uint16_t(archetypeFor(mask).index);
     }
-    move(entity, archetypes_[from.without[id]]);
+    move(entity, archetypes_[from.without[id]], id);
 }
 
 void* World::writeAt(Entity entity, ComponentId id, uint32_t version) {

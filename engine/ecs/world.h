@@ -193,7 +193,7 @@ class World {
     NewRows pushRows(Archetype& archetype, uint32_t most);
     Archetype& archetypeFor(const ComponentMask& mask);
     void takeOut(const Record& record);
-    Record& move(Entity entity, Archetype& to);
+    Record& move(Entity entity, Archetype& to, ComponentId id);
     void swapEntities(World& other);
 
     std::vector<Record> records_;

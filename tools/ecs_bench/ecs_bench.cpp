@@ -12,7 +12,7 @@
 namespace ag::ecs_bench {
 namespace {
 
-// Keeps the shortest iteration of each benchmark over all its repetitions.
+// Keeps the best of each benchmark's repetitions.
 class BestReporter : public benchmark::ConsoleReporter {
   public:
     BestReporter() : ConsoleReporter(OO_Tabular) {}

@@ -1,5 +1,6 @@
 #include "tools/ecs_bench/rows.h"
 
+#include <algorithm>
 #include <ctime>
 
 namespace ag::ecs_bench {
@@ -33,6 +34,12 @@ void Rows::against(const std::string& name, double atMost, Bench ours, const std
 void Rows::against(const std::string& name, double atMost, const std::string& ours,
                    const std::string& other) {
     rows_.push_back({name, ours, other, Target::kRatio, atMost});
+}
+
+double typicalBest(std::vector<double>& seconds, Clock clock) {
+    const auto at = seconds.begin() + (clock == Clock::kThread ? ptrdiff_t(seconds.size() / 4) : 0);
+    std::nth_element(seconds.begin(), at, seconds.end());
+    return *at;
 }
 
 double secondsNow(Clock clock) {

@@ -49,20 +49,22 @@ void addCrowdRows(Rows& rows);
 enum class Clock { kThread, kWall };  // CPU time of the one thread; two threads are timed on the wall
 double secondsNow(Clock clock);
 
-// Times `body` after an untimed `prepare`, every iteration; the counter "best" is the shortest, in ns an
-// item.
+// What a repetition's iterations cost. The wall clock can only be late, so its least counts. A thread's CPU
+// clock on a busy virtual machine is at times set back by what the host took, so its lower quartile counts.
+double typicalBest(std::vector<double>& seconds, Clock clock);
+
+// Times `body` after an untimed `prepare`, every iteration; the counter "best" is in ns an item.
 template <class Prepare, class Body>
 void timed(benchmark::State& state, double items, Prepare prepare, Body body, Clock clock = Clock::kThread) {
-    double best = 1e30;
+    std::vector<double> all;
     for ([[maybe_unused]] auto turn : state) {
         prepare();
         const double begin = secondsNow(clock);
         body();
-        const double seconds = std::max(secondsNow(clock) - begin, 1e-9);
-        state.SetIterationTime(seconds);
-        best = std::min(best, seconds);
+        all.push_back(std::max(secondsNow(clock) - begin, 1e-9));
+        state.SetIterationTime(all.back());
     }
-    state.counters["best"] = best * 1e9 / items;
+    state.counters["best"] = typicalBest(all, clock) * 1e9 / items;
 }
 template <class Body>
 void timed(benchmark::State& state, double items, Body body, Clock clock = Clock::kThread) {
