@@ -7,14 +7,6 @@
 
 namespace ag::game {
 
-struct Mover {             // slides to and fro along `extent` and turns about +Y
-    glm::dvec3 origin{0};  // m, middle of the way
-    glm::vec3 extent{0};   // m
-    float period = 0;      // s, 0: does not slide
-    float spinSpeed = 0;   // rad/s
-    float startYaw = 0;    // rad
-};
-
 struct Collider {           // an upright box the player walks round
     glm::vec2 halfSize{0};  // m, along x and z before turning
 };

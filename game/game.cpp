@@ -28,12 +28,6 @@ void addGameplay(World& world, const SceneAsset& asset, const std::vector<Entity
         if (extras.flickerPeriod > 0 && node.light >= 0)
             world.add(entities[i], Flicker{asset.lights[size_t(node.light)].intensity, extras.flickerDepth,
                                            extras.flickerPeriod, extras.flickerOff, uint32_t(i)});
-        if (extras.movePeriod > 0 || extras.spinSpeed != 0) {
-            world.add(entities[i],
-                      Mover{node.local.translation, extras.moveExtent, extras.movePeriod, extras.spinSpeed,
-                            2 * std::atan2(node.local.rotation.y, node.local.rotation.w)});
-            if (node.mesh >= 0) world.write<MeshInstance>(entities[i])->movable = 1;
-        }
     }
 }
 

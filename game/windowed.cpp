@@ -12,6 +12,7 @@
 #include "engine/app/window.h"
 #include "engine/core/image.h"
 #include "engine/gpu/barrier.h"
+#include "engine/scene/describe_components.h"
 #include "game/demo_options.h"
 
 namespace ag::game {
@@ -51,6 +52,7 @@ void handleKeys(Window& window, Demo& demo, Controls& controls) {
         if (key == GLFW_KEY_ESCAPE) window.captureCursor(false);
         if (key == GLFW_KEY_F1) controls.panels.showSettings = !controls.panels.showSettings;
         if (key == GLFW_KEY_F2) controls.panels.showPasses = !controls.panels.showPasses;
+        if (key == GLFW_KEY_F3) controls.panels.showWorld = !controls.panels.showWorld;
         if (key == GLFW_KEY_TAB) window.captureCursor(!window.cursorCaptured());
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
             const gi::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
@@ -63,7 +65,7 @@ std::string statusLine(const Demo& demo, double frameMs) {
     const Player& player = demo.game->player();
     return fmt::format(
         "{:.1f} ms  {:.1f}/s  at {:.2f} {:.2f}\n{}WASD walk, mouse look, hold: lamp, 1-9 views, Tab mouse, "
-        "F1 settings, F2 passes",
+        "F1 settings, F2 passes, F3 world",
         frameMs, 1000 / std::max(frameMs, 1e-3), player.position.x, player.position.z,
         demo.layer ? std::string(gi::layerName(*demo.layer)) + "\n" : "");
 }
@@ -78,6 +80,7 @@ class WindowedRun {
           ui_(window.handle()),
           imgui_(device, renderer_.pipelines()) {
         renderer_.load(demo.game->level().geometry);
+        describeSceneComponents();
     }
 
     int loop() {
@@ -118,7 +121,8 @@ class WindowedRun {
     bool show(double frameMs) {
         const auto image = swapchain_.acquire(window_.framebufferSize());
         if (!image) return false;
-        ui_.build(controls_.panels, demo_.settings, renderer_.graph(), statusLine(demo_, frameMs));
+        ui_.build(controls_.panels, demo_.settings, renderer_.graph(), demo_.game->world(),
+                  statusLine(demo_, frameMs));
         // The window may have changed since the tick: the image is scaled onto it for that one frame.
         const glm::uvec2 size = demo_.game->world().resource<ActiveCamera>().size;
         renderer_.render(

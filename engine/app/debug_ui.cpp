@@ -81,7 +81,7 @@ DebugUi::~DebugUi() {
 }
 
 void DebugUi::build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
-                    const std::string& status) {
+                    const World& world, const std::string& status) {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     ImGui::SetNextWindowPos({8, 8});
@@ -93,6 +93,7 @@ void DebugUi::build(const DebugUiState& state, Settings& settings, const FrameGr
     ImGui::End();
     if (state.showSettings) settingsPanel(settings);
     if (state.showPasses) passPanel(graph);
+    if (state.showWorld) inspector_.build(world);
     ImGui::Render();
 }
 

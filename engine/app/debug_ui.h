@@ -1,6 +1,8 @@
-// The panels over a running program: every setting, and every pass with its time and what became of it.
+// The panels over a running program: every setting, every pass with its time and what became of it, and the
+// world's entities.
 #pragma once
 
+#include "engine/app/inspector.h"
 #include "engine/core/settings.h"
 #include "engine/frame/frame_graph.h"
 
@@ -11,6 +13,7 @@ namespace ag {
 struct DebugUiState {
     bool showSettings = false;  // F1
     bool showPasses = false;    // F2
+    bool showWorld = false;     // F3
 };
 
 // ImGui's context with GLFW's events; one at a time.
@@ -22,8 +25,11 @@ class DebugUi {
     DebugUi& operator=(const DebugUi&) = delete;
 
     // Builds this frame's panels; their draw data is ready when it returns.
-    void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
+    void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
                const std::string& status);
+
+  private:
+    Inspector inspector_;
 };
 
 }  // namespace ag

@@ -18,7 +18,10 @@ uint64_t nowNs() {
 void Schedule::insert(std::string name, Access access, Run run) {
     for (const System& known : systems_)
         AG_CHECK_MSG(known.name != name, "two systems are named " + name);
-    AG_CHECK_LT(systems_.size() + 1, size_t(kFlushPosition));
+    for (const System& known : systems_)
+        AG_CHECK_MSG(!known.access.takes.intersects(access.takes),
+                     known.name + " and " + name + " both take the marks of a component");
+    AG_CHECK_LT(systems_.size() + 1, size_t(kEndOfFrame));
     systems_.push_back({.name = std::move(name), .access = access, .run = std::move(run)});
     stale_ = true;
 }
@@ -80,15 +83,19 @@ void Schedule::run(World& world, JobRunner& runner) {
         SystemSpan& span = spans_[index];
         span.beginNs = nowNs();
         span.thread = std::hash<std::thread::id>{}(std::this_thread::get_id());
-        const SystemTime time{.version = base + index + 1, .lastRun = system.lastRun};
+        const SystemTime time{.version = base + index + 1, .lastRun = system.lastRun, .cost = &system.cost};
+        if (system.access.exclusive) world.setPosition(index + 1);
         if (system.isFlush)
             playCommands(world, index);
         else
             system.run(world, time, system.commands, runner);
+        if (system.access.exclusive) world.setPosition(0);
         system.lastRun = time.version;
         span.endNs = nowNs();
     });
+    world.setPosition(kEndOfFrame);
     playCommands(world, systems_.size());
+    world.setPosition(0);
     world.advanceFrame();
 }
 

@@ -95,6 +95,7 @@ class Schedule {
         bool isFlush = false;
         uint32_t lastRun = 0;
         Commands commands;
+        LoopCost cost;
     };
     void insert(std::string name, Access access, Run run);
     void build();

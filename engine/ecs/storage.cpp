@@ -5,80 +5,87 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
-#include <mutex>
+#include <utility>
 
 namespace ag {
 namespace {
 
 constexpr size_t kSlabBytes = size_t(2) << 20;
 constexpr size_t kChunkBytes = size_t(256) << 10;
-constexpr uint32_t kLeastRows = 256, kMostRows = 4096;
+constexpr uint32_t kLeastRows = 1024, kMostRows = 4096;
 constexpr size_t kColumnAlignment = 64;
+
+// Columns of equal power-of-two length would all start in the same cache set, and a load would wait for
+// stores to another column that end in the same twelve bits. Short chunks are not worth the bytes.
+size_t columnSkew(uint32_t capacity) {
+    return capacity < kLeastRows ? kColumnAlignment : 17 * kColumnAlignment;
+}
 
 size_t alignUp(size_t n) {
     return (n + kColumnAlignment - 1) / kColumnAlignment * kColumnAlignment;
 }
 
-struct Registry {
-    std::mutex mutex;
-    std::array<ComponentType, kMaxComponents> types;
-    std::array<bool, kMaxComponents> tracked{};
-    uint32_t count = 0;
-};
-
-Registry& registry() {
-    static Registry instance;  // type identity is a fact of the process, not state
-    return instance;
-}
-
 // An archetype's first chunks are small, so that rare combinations stay so.
-uint32_t capacityOf(const Archetype& archetype) {
-    if (archetype.chunks.empty()) return 64;
-    if (archetype.chunks.size() == 1) return 256;
+uint32_t capacityOf(const Archetype& archetype, size_t ordinal) {
+    if (ordinal == 0) return 64;
+    if (ordinal == 1) return 256;
     const uint32_t fit = uint32_t(std::bit_floor(kChunkBytes / archetype.rowBytes));
     return std::clamp(fit, kLeastRows, kMostRows);
 }
 
-void addChunk(Archetype& archetype, ChunkMemory& memory) {
-    auto chunk = std::make_unique<Chunk>();
-    chunk->capacity = capacityOf(archetype);
-    size_t at = alignUp(sizeof(Entity) * chunk->capacity);
-    for (ComponentId id : archetype.components) {
-        chunk->offsets.push_back(uint32_t(at));
-        at += alignUp(size_t(componentType(id).sizeBytes) * chunk->capacity);
-    }
-    chunk->bytes = at;
-    chunk->memory = memory.allocate(at);
-    chunk->versions.assign(archetype.components.size(), 0);
-    if (archetype.tracked) chunk->dirtyRows.assign((chunk->capacity + 63) / 64, 0);
-    archetype.chunks.push_back(std::move(chunk));
+size_t chunkBytes(const Archetype& archetype, uint32_t capacity) {
+    size_t bytes = alignUp(sizeof(Entity) * capacity);
+    for (const uint32_t size : archetype.sizes)
+        bytes += alignUp(size_t(size) * capacity) + columnSkew(capacity);
+    AG_CHECK_MSG(bytes < ~0u, "a component is too large for a chunk");
+    return bytes;
 }
 
-void setDirty(Chunk& chunk, uint32_t row) {
-    if (!chunk.dirtyRows.empty()) chunk.dirtyRows[row / 64] |= uint64_t(1) << (row % 64);
+const ChunkLayout& layoutOf(Archetype& archetype, size_t ordinal, uint32_t capacity) {
+    std::unique_ptr<ChunkLayout>& layout = archetype.layouts[std::min<size_t>(ordinal, 2)];
+    if (layout) return *layout;
+    layout = std::make_unique<ChunkLayout>();
+    size_t at = alignUp(sizeof(Entity) * capacity);
+    for (size_t c = 0; c < archetype.components.size(); ++c) {
+        (*layout)[archetype.components[c]] = uint32_t(at);
+        at += alignUp(size_t(archetype.sizes[c]) * capacity) + columnSkew(capacity);
+    }
+    return *layout;
+}
+
+std::unique_ptr<Chunk> makeChunk(Archetype& archetype, ChunkMemory& memory, size_t ordinal) {
+    auto chunk = std::make_unique<Chunk>();
+    chunk->archetype = &archetype;
+    chunk->capacity = capacityOf(archetype, ordinal);
+    chunk->bytes = chunkBytes(archetype, chunk->capacity);
+    chunk->memory = memory.allocate(chunk->bytes);
+    chunk->layout = &layoutOf(archetype, ordinal, chunk->capacity);
+    chunk->entities = reinterpret_cast<Entity*>(chunk->memory);
+    for (const ComponentId id : archetype.components)
+        chunk->columns.push_back(chunk->memory + (*chunk->layout)[id]);
+    chunk->versions.assign(archetype.components.size(), 0);
+    chunk->rowBits.assign(archetype.components.size(), nullptr);
+    const size_t words = (chunk->capacity + 63) / 64;
+    if (!archetype.trackedColumns.empty())
+        chunk->words = std::make_unique<uint64_t[]>(words * archetype.trackedColumns.size());
+    for (size_t i = 0; i < archetype.trackedColumns.size(); ++i)
+        chunk->rowBits[archetype.trackedColumns[i]] = chunk->words.get() + i * words;
+    return chunk;
 }
 
 }  // namespace
 
-ComponentId nextComponentId(ComponentType type, bool tracked) {
-    Registry& r = registry();
-    const std::lock_guard lock(r.mutex);
-    AG_CHECK_LT(r.count, kMaxComponents);
-    r.types[r.count] = type;
-    r.tracked[r.count] = tracked;
-    return r.count++;
-}
-
-const ComponentType& componentType(ComponentId id) {
-    return registry().types[id];
-}
-bool componentTracked(ComponentId id) {
-    return registry().tracked[id];
-}
-
 ChunkMemory::~ChunkMemory() {
     for (void* slab : slabs_)
         std::free(slab);
+}
+
+void ChunkMemory::swap(ChunkMemory& other) {
+    std::swap(slabs_, other.slabs_);
+    std::swap(free_, other.free_);
+    std::swap(next_, other.next_);
+    std::swap(left_, other.left_);
+    std::swap(slabBytes_, other.slabBytes_);
 }
 
 std::byte* ChunkMemory::allocate(size_t bytes) {
@@ -97,6 +104,7 @@ std::byte* ChunkMemory::allocate(size_t bytes) {
         slabs_.push_back(memory);
         next_ = static_cast<std::byte*>(memory);
         left_ = slab;
+        slabBytes_ += slab;
     }
     std::byte* memory = next_;
     next_ += bytes;
@@ -108,59 +116,65 @@ void ChunkMemory::release(std::byte* memory, size_t bytes) {
     free_.push_back({memory, bytes});
 }
 
-Archetype makeArchetype(const ComponentMask& mask) {
-    Archetype a;
+void initArchetype(Archetype& a, uint32_t index, const ComponentMask& mask) {
+    AG_CHECK_LT(index, Archetype::kNoIndex);
+    a.index = index;
     a.mask = mask;
-    a.columnOf.fill(-1);
+    a.columnOf.fill(Archetype::kNoColumn);
+    a.with.fill(Archetype::kNoIndex);
+    a.without.fill(Archetype::kNoIndex);
     for (ComponentId id = 0; id < kMaxComponents; ++id) {
         if (!mask.has(id)) continue;
-        a.columnOf[id] = int16_t(a.components.size());
+        const ComponentType& type = componentType(id);
+        a.columnOf[id] = uint8_t(a.components.size());
+        if (type.tracked) a.trackedColumns.push_back(a.columnOf[id]);
         a.components.push_back(id);
-        a.rowBytes += componentType(id).sizeBytes;
-        a.tracked = a.tracked || componentTracked(id);
+        a.sizes.push_back(type.sizeBytes);
+        a.rowBytes += type.sizeBytes;
     }
-    return a;
 }
 
-RowPlace pushRow(Archetype& archetype, ChunkMemory& memory, Entity entity, uint32_t version) {
-    if (archetype.chunks.empty() || archetype.chunks.back()->rows == archetype.chunks.back()->capacity)
-        addChunk(archetype, memory);
-    Chunk& chunk = *archetype.chunks.back();
-    const uint32_t row = chunk.rows++;
-    ++archetype.rows;
-    chunk.entities()[row] = entity;
-    for (uint32_t& v : chunk.versions)
-        v = version;
-    setDirty(chunk, row);
-    return {uint32_t(archetype.chunks.size() - 1), row};
+uint32_t Archetype::rows() const {
+    uint32_t sum = 0;
+    for (const auto& chunk : chunks)
+        sum += chunk->rows;
+    return sum;
 }
 
-Entity removeRow(Archetype& archetype, ChunkMemory& memory, RowPlace place, uint32_t version) {
-    Chunk& last = *archetype.chunks.back();
-    Chunk& chunk = *archetype.chunks[place.chunk];
-    const uint32_t lastRow = last.rows - 1;
-    Entity moved;
-    if (&chunk != &last || place.row != lastRow) {
-        moved = last.entities()[lastRow];
-        chunk.entities()[place.row] = moved;
-        for (uint32_t c = 0; c < archetype.components.size(); ++c) {
-            const size_t size = componentType(archetype.components[c]).sizeBytes;
-            std::memcpy(chunk.column(c) + place.row * size, last.column(c) + lastRow * size, size);
-        }
-        for (uint32_t& v : chunk.versions)
-            v = version;
-        setDirty(chunk, place.row);
+Chunk& addChunk(Archetype& archetype, ChunkMemory& memory) {
+    const size_t ordinal = archetype.chunks.size();
+    if (archetype.spare && archetype.spare->ordinal == ordinal)
+        archetype.chunks.push_back(std::move(archetype.spare));
+    else
+        archetype.chunks.push_back(makeChunk(archetype, memory, ordinal));
+    archetype.last = archetype.chunks.back().get();
+    archetype.last->ordinal = uint32_t(ordinal);
+    return *archetype.last;
+}
+
+void dropLastChunk(Archetype& archetype, ChunkMemory& memory) {
+    if (archetype.spare) memory.release(archetype.spare->memory, archetype.spare->bytes);
+    archetype.spare = std::move(archetype.chunks.back());
+    archetype.chunks.pop_back();
+    archetype.last = archetype.chunks.empty() ? nullptr : archetype.chunks.back().get();
+}
+
+void setBits(uint64_t* words, uint32_t begin, uint32_t end) {
+    if (begin >= end) return;
+    const uint32_t first = begin / 64, last = (end - 1) / 64;
+    const uint64_t head = ~uint64_t(0) << (begin % 64), tail = ~uint64_t(0) >> (63 - (end - 1) % 64);
+    if (first == last) {
+        words[first] |= head & tail;
+        return;
     }
-    // The leaver may have been looked at as a neighbour: its chunk changed too.
-    for (uint32_t& v : last.versions)
-        v = version;
-    --last.rows;
-    --archetype.rows;
-    if (last.rows == 0) {
-        memory.release(last.memory, last.bytes);
-        archetype.chunks.pop_back();
-    }
-    return moved;
+    words[first] |= head;
+    std::fill(words + first + 1, words + last, ~uint64_t(0));
+    words[last] |= tail;
+}
+
+void markRows(Chunk& chunk, uint32_t begin, uint32_t end) {
+    for (const uint8_t column : chunk.archetype->trackedColumns)
+        setBits(chunk.rowBits[column], begin, end);
 }
 
 }  // namespace ag

@@ -1,275 +1,255 @@
-// What systems take as parameters. Their types say everything a system touches: const is read, the rest is
-// written, and what is not named does not compile.
+// Entities by what they have, as a system's parameter. Its type says everything it touches: const is read,
+// the rest is written, and what is not named does not compile.
 //
 //   void flickerLamps(View<PointLight, const Flicker> lamps, Res<const FrameTime> time);
 #pragma once
 
-#include <tuple>
+#include <bit>
 
-#include "engine/ecs/world.h"
-#include "engine/jobs/job_graph.h"
+#include "engine/ecs/commands.h"
+#include "engine/ecs/lookup.h"
+#include "engine/ecs/pieces.h"
+#include "engine/ecs/scratch.h"
 
 namespace ag {
 
-// Filters of a View. Changed<const T> also gives the column; its rows are those of chunks written since the
-// system last ran.
-template <class T>
-struct With {};
-template <class T>
-struct Without {};
-template <class T>
-struct Changed {};
-
-// What a system is allowed to touch, as sets: the schedule's edges come from these.
-struct Access {
-    ComponentMask reads, writes, resourceReads, resourceWrites;
-    bool exclusive = false;  // takes the World itself
-
-    bool conflicts(const Access& other) const {
-        const auto clash = [](const ComponentMask& w, const ComponentMask& r, const ComponentMask& w2) {
-            return w.intersects(r) || w.intersects(w2);
-        };
-        return exclusive || other.exclusive || clash(writes, other.reads, other.writes) ||
-               other.writes.intersects(reads) ||
-               clash(resourceWrites, other.resourceReads, other.resourceWrites) ||
-               other.resourceWrites.intersects(resourceReads);
-    }
-};
-
-// Where a system stands in time: what it stamps, and what it has seen.
-struct SystemTime {
-    uint32_t version = 0;  // stamped on what it writes
-    uint32_t lastRun = 0;  // its version when it ran before
-};
-
-namespace detail {
-
-template <class Term>
-struct TermTraits {  // T or const T
-    using Column = Term;
-    static constexpr bool kHasColumn = true;
-    static void filter(ComponentMask& with, ComponentMask&) {
-        with.set(componentId<std::remove_const_t<Term>>());
-    }
-    static void access(Access& a) {
-        (std::is_const_v<Term> ? a.reads : a.writes).set(componentId<std::remove_const_t<Term>>());
-    }
-    static bool unseen(const Archetype&, const Chunk&, uint32_t) { return true; }
-};
-template <class T>
-struct TermTraits<With<T>> {
-    using Column = void;
-    static constexpr bool kHasColumn = false;
-    static void filter(ComponentMask& with, ComponentMask&) { with.set(componentId<T>()); }
-    static void access(Access&) {}
-    static bool unseen(const Archetype&, const Chunk&, uint32_t) { return true; }
-};
-template <class T>
-struct TermTraits<Without<T>> {
-    using Column = void;
-    static constexpr bool kHasColumn = false;
-    static void filter(ComponentMask&, ComponentMask& without) { without.set(componentId<T>()); }
-    static void access(Access&) {}
-    static bool unseen(const Archetype&, const Chunk&, uint32_t) { return true; }
-};
-template <class T>
-struct TermTraits<Changed<T>> {
-    static_assert(std::is_const_v<T>, "Changed reads: Changed<const T>");
-    using Column = T;
-    static constexpr bool kHasColumn = true;
-    static void filter(ComponentMask& with, ComponentMask&) {
-        with.set(componentId<std::remove_const_t<T>>());
-    }
-    static void access(Access& a) { a.reads.set(componentId<std::remove_const_t<T>>()); }
-    static bool unseen(const Archetype& a, const Chunk& c, uint32_t lastRun) {
-        return newerThan(c.versions[size_t(a.column(componentId<std::remove_const_t<T>>()))], lastRun);
-    }
-};
-
-template <class Term>
-using ColumnPointer = std::conditional_t<TermTraits<Term>::kHasColumn,
-                                         std::tuple<typename TermTraits<Term>::Column*>, std::tuple<>>;
-
-}  // namespace detail
-
-// The columns of one chunk: `get<T>()` is a span over its rows.
-class ChunkRows {
-  public:
-    ChunkRows(Archetype& archetype, Chunk& chunk) : archetype_(&archetype), chunk_(&chunk) {}
-    uint32_t size() const { return chunk_->rows; }
-    std::span<const Entity> entities() const { return {chunk_->entities(), chunk_->rows}; }
-    template <class T>
-    std::span<T> get() const {
-        const int column = archetype_->column(componentId<std::remove_const_t<T>>());
-        AG_CHECK_MSG(column >= 0, "the chunk has no such column");
-        return {reinterpret_cast<T*>(chunk_->column(uint32_t(column))), chunk_->rows};
-    }
-
-  private:
-    Archetype* archetype_;
-    Chunk* chunk_;
+// Where the spans of a loop over chunks lie.
+struct RowRun {
+    const Chunk* chunk = nullptr;
+    uint32_t first = 0;  // row of the chunk
+    std::span<const Entity> entities;
 };
 
 template <class... Terms>
 class View {
-  public:
-    View(World& world, SystemTime time) : world_(&world), time_(time) {
-        (detail::TermTraits<Terms>::filter(with_, without_), ...);
-    }
-    static void access(Access& a) { (detail::TermTraits<Terms>::access(a), ...); }
+    using Piece = detail::Piece;
+    using Columns = decltype(std::tuple_cat(detail::ColumnOf<Terms>{}...));
+    using Kept = decltype(std::tuple_cat(detail::KeptTerm<Terms>{}...));  // terms that have a column
+    static constexpr size_t kColumns = std::tuple_size_v<Columns>;
+    static constexpr bool kTakes = (detail::Term<Terms>::kTakes || ...);
 
-    // f(T&...) or f(Entity, T&...) for each row. If f returns a bool it says whether it changed the row: a
-    // chunk then counts as written only if one of its rows was.
+  public:
+    View(World& world, SystemTime time)
+        : matches_(world.matches(detail::queryShape<Terms...>())), time_(time) {}
+    static void access(Access& a) { (detail::Term<Terms>::access(a), ...); }
+
+    // f(T&...) or f(Entity, T&...) for each row. If f returns a bool it says whether it changed the row: only
+    // such rows are marked, and a chunk counts as written only if it has one.
     template <class F>
     void each(F&& f) const {
-        forChunks([&](Archetype& archetype, Chunk& chunk) { rows(archetype, chunk, f); });
+        forChunks([&](const Piece& piece) { rows(piece, f); });
     }
-    // The same with the chunks shared out over the runner's threads; f must not touch other rows' data.
-    template <class F>
-    void parallel(JobRunner& runner, F&& f) const {
-        std::vector<std::pair<Archetype*, Chunk*>>& list = scratch();
-        list.clear();
-        forChunks([&](Archetype& archetype, Chunk& chunk) { list.push_back({&archetype, &chunk}); });
-        runner.parallelFor(uint32_t(list.size()), 1, [&](uint32_t begin, uint32_t end) {
-            for (uint32_t i = begin; i < end; ++i)
-                rows(*list[i].first, *list[i].second, f);
-        });
-    }
-    // f(ChunkRows) for each chunk; written columns count as written.
+    // f(std::span<T>...) or f(const RowRun&, std::span<T>...) for each chunk, or with Taken for each run of
+    // changed rows; what is written counts as written.
     template <class F>
     void chunks(F&& f) const {
-        forChunks([&](Archetype& archetype, Chunk& chunk) {
-            (stamp<Terms>(archetype, chunk), ...);
-            markAll(archetype, chunk);
-            f(ChunkRows(archetype, chunk));
+        forChunks([&](const Piece& piece) { spans(piece, f); });
+    }
+    // The same with the rows shared out over the runner's threads; f must not touch other rows' data.
+    template <class F>
+    void parallel(JobRunner& runner, F&& f) const {
+        split(runner, [&](uint32_t, const Piece& piece) { rows(piece, f); });
+    }
+    template <class F>
+    void parallelChunks(JobRunner& runner, F&& f) const {
+        split(runner, [&](uint32_t, const Piece& piece) { spans(piece, f); });
+    }
+    // f(Commands&, Entity, T&...): the commands are played in the order of the rows.
+    template <class F>
+    void parallel(JobRunner& runner, Commands& commands, F&& f) const {
+        Scratch<Piece> pieces;
+        cut(*pieces);
+        const std::span<const std::unique_ptr<Commands>> parts = commands.parts(uint32_t(pieces->size()));
+        detail::runPieces(runner, *pieces, time_.cost, [&](uint32_t i) {
+            rows((*pieces)[i],
+                 [&](Entity entity, auto&... values) { return f(*parts[i], entity, values...); });
         });
     }
-    uint32_t count() const {
-        uint32_t rows = 0;
-        forChunks([&](Archetype&, Chunk& chunk) { rows += chunk.rows; });
-        return rows;
+    // f(R&, T&...) or f(R&, Entity, T&...) into a copy of `start` a piece; then join(R&, const R&) over the
+    // pieces in order. The same bits for any number of threads.
+    template <class R, class F, class Join>
+    R fold(JobRunner& runner, const R& start, F&& f, Join&& join) const {
+        static_assert(!std::is_same_v<R, bool>, "a vector's bools share words: fold into an int");
+        Scratch<Piece> pieces;
+        Scratch<R> parts;
+        cut(*pieces);
+        parts->assign(pieces->size(), start);
+        detail::runPieces(runner, *pieces, time_.cost, [&](uint32_t i) {
+            R part = start;
+            rows((*pieces)[i], [&](Entity entity, auto&... values) {
+                if constexpr (std::is_invocable_v<F&, R&, Entity, decltype(values)...>)
+                    f(part, entity, values...);
+                else
+                    f(part, values...);
+            });
+            (*parts)[i] = part;
+        });
+        R all = start;
+        for (const R& part : *parts)
+            join(all, part);
+        return all;
     }
+    uint32_t count() const {  // rows of the chunks it would visit
+        uint32_t sum = 0;
+        forChunks([&](const Piece& piece) { sum += piece.end; });
+        return sum;
+    }
+    bool empty() const { return count() == 0; }
 
   private:
+    template <class F>
+    static void overKept(F&& f) {
+        [&]<size_t... I>(std::index_sequence<I...>) {
+            (f.template operator()<std::tuple_element_t<I, Kept>>(I), ...);
+        }
+        (std::make_index_sequence<kColumns>{});
+    }
+    bool wanted([[maybe_unused]] const QueryMatch& match, [[maybe_unused]] const Chunk& chunk) const {
+        bool all = true;
+        overKept([&]<class T>(size_t i) {
+            if constexpr (T::kIfChanged || T::kIfUnchanged)
+                all = all && T::kIfChanged == (newerThan(chunk.versions[match.columns[i]], time_.lastRun) ||
+                                               newerThan(chunk.structureVersion, time_.lastRun));
+        });
+        return all;
+    }
     template <class F>
     void forChunks(F&& f) const {
-        for (Archetype& archetype : world_->archetypes()) {
-            if (!archetype.mask.containsAll(with_) || archetype.mask.intersects(without_)) continue;
-            for (const auto& chunk : archetype.chunks)
-                if ((detail::TermTraits<Terms>::unseen(archetype, *chunk, time_.lastRun) && ...))
-                    f(archetype, *chunk);
+        for (size_t m = 0; m < matches_.size(); ++m) {
+            const QueryMatch& match = matches_[m];
+            prefetchMatches(m);
+            for (const auto& chunk : match.archetype->chunks)
+                if (wanted(match, *chunk)) f(Piece{&match, chunk.get(), 0, chunk->rows});
         }
     }
-    template <class Term>
-    static auto columnOf(Archetype& archetype, Chunk& chunk) {
-        if constexpr (detail::TermTraits<Term>::kHasColumn) {
-            using Column = typename detail::TermTraits<Term>::Column;
-            const int column = archetype.column(componentId<std::remove_const_t<Column>>());
-            return std::tuple<Column*>(reinterpret_cast<Column*>(chunk.column(uint32_t(column))));
-        } else {
-            return std::tuple<>();
-        }
+    // The way to a chunk has three steps; those of the next archetypes are taken ahead, one each.
+    void prefetchMatches(size_t m) const {
+        if (m + 3 < matches_.size()) __builtin_prefetch(matches_[m + 3].archetype);
+        if (m + 2 < matches_.size()) __builtin_prefetch(matches_[m + 2].archetype->chunks.data());
+        if (m + 1 < matches_.size() && matches_[m + 1].archetype->last)
+            __builtin_prefetch(matches_[m + 1].archetype->chunks.front().get());
+    }
+    void cut(std::vector<Piece>& pieces) const {
+        forChunks([&](const Piece& whole) { detail::cutChunk(*whole.match, *whole.chunk, pieces); });
     }
     template <class F>
-    void rows(Archetype& archetype, Chunk& chunk, F& f) const {
-        const auto columns = std::tuple_cat(columnOf<Terms>(archetype, chunk)...);
-        std::apply(
-            [&](auto*... column) {
-                const Entity* entities = chunk.entities();
-                const auto call = [&](uint32_t row) {
-                    if constexpr (std::is_invocable_v<F&, Entity, decltype(*column)...>)
-                        return f(entities[row], column[row]...);
-                    else
-                        return f(column[row]...);
-                };
-                using Returned = decltype(call(0));
-                bool written = false;
-                for (uint32_t row = 0; row < chunk.rows; ++row) {
-                    if constexpr (std::is_same_v<Returned, bool>) {
-                        if (!call(row)) continue;
-                        written = true;
-                        mark<Terms...>(archetype, chunk, row);
-                    } else {
+    void split(JobRunner& runner, F&& f) const {
+        Scratch<Piece> pieces;
+        cut(*pieces);
+        detail::runPieces(runner, *pieces, time_.cost, [&](uint32_t i) { f(i, (*pieces)[i]); });
+    }
+    template <class F>
+    static void withColumns(const Piece& piece, F&& f) {
+        [&]<size_t... I>(std::index_sequence<I...>) {
+            f(reinterpret_cast<std::tuple_element_t<I, Columns>>(
+                piece.chunk->columns[piece.match->columns[I]])...);
+        }
+        (std::make_index_sequence<kColumns>{});
+    }
+    template <class F>
+    void rows(const Piece& piece, F&& f) const {
+        withColumns(piece, [&](auto*... column) {
+            const Entity* entities = piece.chunk->entities;
+            const auto call = [&](uint32_t row) {
+                if constexpr (std::is_invocable_v<F&, Entity, decltype(*column)...>)
+                    return f(entities[row], column[row]...);
+                else
+                    return f(column[row]...);
+            };
+            constexpr bool kSays = std::is_same_v<decltype(call(0)), bool>;
+            const uint32_t end = piece.end;
+            if constexpr (kTakes) {
+                forRuns(piece, [&](uint32_t first, uint32_t last) {
+                    for (uint32_t row = first; row < last; ++row)
                         call(row);
-                    }
+                    touch({piece.match, piece.chunk, first, last});
+                });
+            } else if constexpr (kSays) {
+                sayingRows(piece, call);
+            } else {
+                for (uint32_t row = piece.begin; row < end; ++row)
+                    call(row);
+                touch(piece);
+            }
+        });
+    }
+    template <class F>
+    void spans(const Piece& piece, F&& f) const {
+        const auto give = [&](uint32_t begin, uint32_t end) {
+            withColumns(piece, [&](auto*... column) {
+                const uint32_t count = end - begin;
+                if constexpr (std::is_invocable_v<F&, const RowRun&, decltype(std::span(column, 0))...>)
+                    f(RowRun{piece.chunk, begin, {piece.chunk->entities + begin, count}},
+                      std::span(column + begin, count)...);
+                else
+                    f(std::span(column + begin, count)...);
+                touch({piece.match, piece.chunk, begin, end});
+            });
+        };
+        if constexpr (kTakes) {
+            forRuns(piece, give);
+        } else if (piece.begin < piece.end) {
+            give(piece.begin, piece.end);
+        }
+    }
+    // Rows whose function says whether it changed them: marks are gathered and set a word at a time.
+    template <class Call>
+    void sayingRows(const Piece& piece, Call&& call) const {
+        bool any = false;
+        for (uint32_t base = piece.begin; base < piece.end; base += 64) {
+            uint64_t changed = 0;
+            for (uint32_t row = base, end = std::min(base + 64, piece.end); row < end; ++row)
+                changed |= uint64_t(call(row)) << (row - base);
+            if (!changed) continue;
+            any = true;
+            overKept([&]<class T>(size_t i) {
+                if constexpr (T::kWrites && kTrackRows<typename T::Component>)
+                    piece.chunk->rowBits[piece.match->columns[i]][base / 64] |= changed;
+            });
+        }
+        if (any) stamp(piece);
+    }
+    void stamp(const Piece& piece) const {
+        overKept([&]<class T>(size_t i) {
+            if constexpr (T::kWrites)
+                stampVersion(piece.chunk->versions[piece.match->columns[i]], time_.version);
+        });
+    }
+    void touch(const Piece& piece) const {
+        if (piece.begin == piece.end) return;
+        stamp(piece);
+        overKept([&]<class T>(size_t i) {
+            if constexpr (T::kWrites && kTrackRows<typename T::Component>)
+                setBits(piece.chunk->rowBits[piece.match->columns[i]], piece.begin, piece.end);
+        });
+    }
+    // f(first, last) for each run of marked rows; clears the marks.
+    template <class F>
+    static void forRuns(const Piece& piece, F&& f) {
+        uint64_t* words = nullptr;
+        overKept([&]<class T>(size_t i) {
+            if constexpr (T::kTakes) words = piece.chunk->rowBits[piece.match->columns[i]];
+        });
+        uint32_t first = piece.begin, last = piece.begin;
+        for (uint32_t base = piece.begin; base < piece.end; base += 64) {
+            uint64_t bits = std::exchange(words[base / 64], 0);
+            if (piece.end - base < 64) bits &= ~(~uint64_t(0) << (piece.end - base));
+            while (bits) {
+                const auto skip = uint32_t(std::countr_zero(bits)),
+                           length = uint32_t(std::countr_one(bits >> skip));
+                if (base + skip != last) {
+                    if (first < last) f(first, last);
+                    first = base + skip;
                 }
-                if constexpr (!std::is_same_v<Returned, bool>) {
-                    written = chunk.rows > 0;
-                    markAll(archetype, chunk);
-                }
-                if (written) (stamp<Terms>(archetype, chunk), ...);
-            },
-            columns);
-    }
-    template <class Term>
-    static constexpr bool writesTerm() {
-        if constexpr (detail::TermTraits<Term>::kHasColumn)
-            return !std::is_const_v<typename detail::TermTraits<Term>::Column>;
-        else
-            return false;
-    }
-    template <class Term>
-    static constexpr bool writesTracked() {
-        if constexpr (writesTerm<Term>()) return kTrackRows<typename detail::TermTraits<Term>::Column>;
-        return false;
-    }
-    template <class Term>
-    void stamp(Archetype& archetype, Chunk& chunk) const {
-        if constexpr (writesTerm<Term>())
-            chunk.versions[size_t(
-                archetype.column(componentId<typename detail::TermTraits<Term>::Column>()))] = time_.version;
-    }
-    template <class... Ts>
-    static void mark(Archetype&, Chunk& chunk, uint32_t row) {
-        if constexpr ((writesTracked<Ts>() || ...)) chunk.dirtyRows[row / 64] |= uint64_t(1) << (row % 64);
-    }
-    static void markAll(Archetype&, Chunk& chunk) {
-        if constexpr ((writesTracked<Terms>() || ...))
-            for (uint32_t row = 0; row < chunk.rows; ++row)
-                chunk.dirtyRows[row / 64] |= uint64_t(1) << (row % 64);
-    }
-    static std::vector<std::pair<Archetype*, Chunk*>>& scratch() {
-        thread_local std::vector<std::pair<Archetype*, Chunk*>> list;  // keeps its capacity from call to call
-        return list;
+                last = base + skip + length;
+                bits = skip + length == 64 ? 0 : bits & (~uint64_t(0) << (skip + length));
+            }
+        }
+        if (first < last) f(first, last);
     }
 
-    World* world_;
+    std::span<const QueryMatch> matches_;
     SystemTime time_;
-    ComponentMask with_, without_;
-};
-
-// Access to a component of any entity, the only way to other entities' rows.
-template <class T>
-class Lookup {
-  public:
-    Lookup(World& world, SystemTime time) : world_(&world), time_(time) {}
-    static void access(Access& a) { detail::TermTraits<T>::access(a); }
-    T* operator()(Entity entity) const {  // null if it is dead or has none
-        if constexpr (std::is_const_v<T>)
-            return world_->get<std::remove_const_t<T>>(entity);
-        else
-            return static_cast<T*>(world_->writeAt(entity, componentId<T>(), time_.version));
-    }
-
-  private:
-    World* world_;
-    SystemTime time_;
-};
-
-// One of the world's resources.
-template <class T>
-class Res {
-  public:
-    Res(World& world, SystemTime) : value_(&world.resource<std::remove_const_t<T>>()) {}
-    static void access(Access& a) {
-        const ResourceId id = resourceId<std::remove_const_t<T>>();
-        (std::is_const_v<T> ? a.resourceReads : a.resourceWrites).set(id);
-    }
-    T& operator*() const { return *value_; }
-    T* operator->() const { return value_; }
-
-  private:
-    T* value_;
 };
 
 }  // namespace ag

@@ -4,7 +4,8 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "engine/ecs/entity.h"
+#include "engine/ecs/hierarchy.h"
+#include "engine/ecs/name.h"
 #include "engine/scene/render_scene.h"
 
 namespace ag {
@@ -23,17 +24,6 @@ struct WorldTransform {         // derived by the transform systems
 };
 template <>
 inline constexpr bool kTrackRows<WorldTransform> = true;
-
-struct Name {  // as in the file, cut to fit; ends with a zero
-    char text[64] = {};
-};
-
-struct Parent {
-    Entity entity;
-};
-struct HierarchyDepth {
-    uint32_t depth = 0;  // 1: child of a root
-};
 
 struct MeshInstance {
     uint32_t firstPrimitive = 0, primitiveCount = 0;

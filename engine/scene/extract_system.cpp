@@ -1,6 +1,8 @@
 #include "engine/scene/extract_system.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 
 #include "engine/core/log.h"
 #include "engine/scene/light_check.h"
@@ -26,52 +28,96 @@ bool followCamera(RenderScene& scene, ExtractState& state, const glm::dvec3& cam
     return moved;
 }
 
-void addRange(std::vector<RenderScene::Range>& ranges, uint32_t row) {
-    if (!ranges.empty() && ranges.back().end == row)
-        ++ranges.back().end;
-    else
-        ranges.push_back({row, row + 1});
+// Numbers the rows anew; true if every entity kept its own.
+bool numberRows(InstanceView& instances, ExtractState& state) {
+    std::swap(state.rows, state.before);
+    InstanceRows& rows = state.rows;
+    for (std::vector<uint32_t>& chunks : rows.firstEntity)
+        chunks.clear();
+    rows.entities.clear();
+    rows.firstRow.assign(1, 0);
+    instances.chunks(
+        [&](const RowRun& run, std::span<const WorldTransform>, std::span<const MeshInstance> meshes) {
+            const uint32_t archetype = run.chunk->archetype->index;
+            if (rows.firstEntity.size() <= archetype) rows.firstEntity.resize(archetype + 1);
+            rows.firstEntity[archetype].push_back(uint32_t(rows.entities.size()));
+            rows.entities.insert(rows.entities.end(), run.entities.begin(), run.entities.end());
+            for (const MeshInstance& mesh : meshes)
+                rows.firstRow.push_back(rows.firstRow.back() + mesh.primitiveCount);
+        });
+    return rows.entities == state.before.entities && rows.firstRow == state.before.firstRow;
 }
 
-void refreshBounds(RenderScene& scene) {
-    scene.bounds = {};
-    for (const RenderInstance& instance : scene.instances) {
-        const Bounds& local = scene.geometry->primitives[instance.primitive].boundsLocal;
-        const glm::mat4x3& m = instance.worldFromLocal;
-        const glm::vec3 c = m * glm::vec4((local.min + local.max) * 0.5f, 1.0f),
-                        h = (local.max - local.min) * 0.5f;
-        const glm::vec3 e = glm::abs(m[0]) * h.x + glm::abs(m[1]) * h.y + glm::abs(m[2]) * h.z;
-        scene.bounds.add({c - e, c + e});
-    }
-}
-
-// Rows in storage order. If the entities are the ones of before, only rows that differ are written.
-void extractInstances(InstanceView& instances, ExtractState& state, RenderScene& scene, bool all) {
-    state.seen.clear();
-    instances.each([&](Entity entity, const WorldTransform&, const MeshInstance& mesh) {
-        for (uint32_t p = 0; p < mesh.primitiveCount; ++p)
-            state.seen.push_back(entity);
-    });
-    const bool same = !all && state.seen == state.rows;
-    if (!same) {
-        state.rows = state.seen;
-        scene.instances.resize(state.rows.size());
-    }
-    uint32_t row = 0;
-    instances.each([&](Entity, const WorldTransform& world, const MeshInstance& mesh) {
-        const glm::mat4x3 matrix = relativeTo(scene.originWorld, world);
-        for (uint32_t p = 0; p < mesh.primitiveCount; ++p, ++row) {
+// Writes the rows of a run of entities that differ from what they were, and marks them.
+void writeRows(const RowRun& run, std::span<const WorldTransform> worlds,
+               std::span<const MeshInstance> meshes, bool all, ExtractState& state, RenderScene& scene) {
+    const uint32_t first =
+        state.rows.firstEntity[run.chunk->archetype->index][run.chunk->ordinal] + run.first;
+    uint64_t bits = 0;
+    uint32_t word = 0;
+    const auto flush = [&] {  // other threads mark rows in the first and the last word, too
+        if (bits) std::atomic_ref(state.changed[word]).fetch_or(bits, std::memory_order_relaxed);
+        bits = 0;
+    };
+    for (size_t i = 0; i < worlds.size(); ++i) {
+        const glm::mat4x3 matrix = relativeTo(scene.originWorld, worlds[i]);
+        uint32_t row = state.rows.firstRow[first + i];
+        for (uint32_t p = 0; p < meshes[i].primitiveCount; ++p, ++row) {
             RenderInstance& instance = scene.instances[row];
-            const uint32_t primitive = mesh.firstPrimitive + p;
-            if (same && instance.worldFromLocal == matrix && instance.primitive == primitive) continue;
-            instance = {matrix, primitive, mesh.movable != 0};
-            if (same) addRange(scene.changedInstances, row);
+            const uint32_t primitive = meshes[i].firstPrimitive + p;
+            const bool movable = meshes[i].movable != 0;
+            if (!all && instance.worldFromLocal == matrix && instance.primitive == primitive &&
+                instance.movable == movable)
+                continue;
+            instance = {matrix, primitive, movable};
+            state.bounds.set(row, instance, scene.geometry->primitives[primitive].boundsLocal);
+            if (row / 64 != word) flush();
+            word = row / 64;
+            bits |= uint64_t(1) << (row % 64);
         }
-    });
+    }
+    flush();
+}
+
+// Half-open ranges of the rows marked.
+void toRanges(std::span<const uint64_t> words, std::vector<RenderScene::Range>& ranges) {
+    for (uint32_t w = 0; w < words.size(); ++w)
+        for (uint64_t bits = words[w]; bits;) {
+            const auto skip = uint32_t(std::countr_zero(bits)),
+                       length = uint32_t(std::countr_one(bits >> skip));
+            const uint32_t begin = w * 64 + skip;
+            if (!ranges.empty() && ranges.back().end == begin)
+                ranges.back().end += length;
+            else
+                ranges.push_back({begin, begin + length});
+            bits = skip + length == 64 ? 0 : bits & (~uint64_t(0) << (skip + length));
+        }
+}
+
+// Rows in storage order. If the entities are the ones of before, only rows that differ are written; and if
+// none came, went or got another mesh, only those that moved are looked at.
+void extractInstances(InstanceView& instances, MovedInstances& moved, bool renumber, bool replaced,
+                      ExtractState& state, RenderScene& scene, JobRunner& runner) {
+    const bool same = (!renumber || numberRows(instances, state)) && !replaced;
+    const uint32_t count = state.rows.firstRow.empty() ? 0 : state.rows.firstRow.back();
+    if (!same) {
+        scene.instances.resize(count);
+        state.bounds.resize(count);
+    }
+    state.changed.assign((count + 63) / 64, 0);
+    const auto write = [&](const RowRun& run, std::span<const WorldTransform> worlds,
+                           std::span<const MeshInstance> meshes) {
+        writeRows(run, worlds, meshes, !same, state, scene);
+    };
+    if (renumber || replaced)
+        instances.parallelChunks(runner, write);
+    else
+        moved.parallelChunks(runner, write);
     scene.allInstancesChanged = !same;
+    if (same) toRanges(state.changed, scene.changedInstances);
     if (same && scene.changedInstances.empty()) return;
     ++scene.instancesVersion;
-    refreshBounds(scene);
+    scene.bounds = state.bounds.fold(state.changed, runner);
 }
 
 // Once for each light, not every frame.
@@ -112,16 +158,14 @@ void extractLights(LightRows& lights, Lookup<const BounceLight>& bounces, Lookup
 
 }  // namespace
 
-void extractScene(InstanceView instances, ChangedInstances changed, LightRows lights,
+void extractScene(InstanceView instances, MovedInstances moved, ChangedMeshes meshes, LightRows lights,
                   Lookup<const BounceLight> bounces, Lookup<const Name> names, Res<const ActiveCamera> camera,
-                  Res<ExtractState> state, Res<RenderScene> scene) {
+                  Res<ExtractState> state, Res<RenderScene> scene, JobRunner& runner) {
     scene->changedInstances.clear();
     scene->allInstancesChanged = false;
-    const bool moved = followCamera(*scene, *state, camera->pose.position);
-    const uint32_t rows = instances.count();
-    if (moved || changed.count() > 0 || rows != state->entityCount)
-        extractInstances(instances, *state, *scene, moved);
-    state->entityCount = rows;
+    const bool replaced = followCamera(*scene, *state, camera->pose.position);
+    const bool renumber = !meshes.empty() || instances.count() != state->rows.entities.size();
+    extractInstances(instances, moved, renumber, replaced, *state, *scene, runner);
     extractLights(lights, bounces, names, *state, *scene);
     setCamera(*scene, camera->pose, camera->size);
 }

@@ -7,6 +7,7 @@
 
 #include "engine/ecs/view.h"
 #include "engine/scene/components.h"
+#include "engine/scene/instance_bounds.h"
 #include "engine/scene/static_scene.h"
 
 namespace ag {
@@ -16,20 +17,28 @@ struct ActiveCamera {  // resource: what the player looks through
     glm::uvec2 size{640, 360};  // pixels
 };
 
-struct ExtractState {                     // resource: which entity each row stands for
-    std::vector<Entity> rows;             // entity of each instance row
-    std::vector<Entity> seen;             // scratch
-    uint32_t entityCount = 0;             // instances at the last look
+// Which instance rows belong to which entity: entities in storage order, each with its primitives in a row.
+struct InstanceRows {
+    std::vector<std::vector<uint32_t>> firstEntity;  // of each chunk, by archetype and chunk
+    std::vector<Entity> entities;
+    std::vector<uint32_t> firstRow;  // of each entity, and the end of the last
+};
+
+struct ExtractState {  // resource: what was seen at the last look
+    InstanceRows rows, before;
+    std::vector<uint64_t> changed;  // a bit an instance row
+    InstanceBounds bounds;
     bool placed = false;                  // the origin was chosen
     std::unordered_set<uint64_t> warned;  // bits of lights that something is wrong with
 };
 
 using InstanceView = View<const WorldTransform, const MeshInstance>;
-using ChangedInstances = View<Changed<const WorldTransform>, const MeshInstance>;
+using MovedInstances = View<Taken<const WorldTransform>, const MeshInstance>;
+using ChangedMeshes = View<Changed<const MeshInstance>, With<WorldTransform>>;
 using LightRows = View<const WorldTransform, const PunctualLight>;
 
-void extractScene(InstanceView instances, ChangedInstances changed, LightRows lights,
+void extractScene(InstanceView instances, MovedInstances moved, ChangedMeshes meshes, LightRows lights,
                   Lookup<const BounceLight> bounces, Lookup<const Name> names, Res<const ActiveCamera> camera,
-                  Res<ExtractState> state, Res<RenderScene> scene);
+                  Res<ExtractState> state, Res<RenderScene> scene, JobRunner& runner);
 
 }  // namespace ag

@@ -1,8 +1,10 @@
 #include "engine/scene/spawn_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/scene/components.h"
+#include "engine/scene/mover.h"
 #include "engine/scene/transform_system.h"
 
 namespace ag {
@@ -25,10 +27,12 @@ std::vector<size_t> strongestLights(const SceneAsset& asset) {
     return nodes;
 }
 
-Name nameOf(const std::string& text) {
-    Name name;
-    text.copy(name.text, sizeof name.text - 1);
-    return name;
+void addMover(World& world, const SceneNode& node, Entity entity) {
+    const NodeExtras& extras = node.extras;
+    if (extras.movePeriod <= 0 && extras.spinSpeed == 0) return;
+    world.add(entity, Mover{node.local.translation, extras.moveExtent, extras.movePeriod, extras.spinSpeed,
+                            2 * std::atan2(node.local.rotation.y, node.local.rotation.w)});
+    if (MeshInstance* mesh = world.write<MeshInstance>(entity)) mesh->movable = 1;
 }
 
 }  // namespace
@@ -40,7 +44,7 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
         const SceneNode& node = asset.nodes[i];
         const LocalTransform local{node.local.translation, node.local.rotation, node.local.scale,
                                    uint32_t(i)};
-        const Entity entity = world.create(local, WorldTransform{}, nameOf(node.name));
+        const Entity entity = world.create(local, WorldTransform{}, makeName(node.name));
         entities.push_back(entity);
         deepest = std::max(deepest, node.depth);
         if (node.parent >= 0) {
@@ -57,6 +61,8 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
                       PunctualLight{l.intensity, l.range, l.innerConeAngle, l.outerConeAngle, l.kind, 1});
         }
     }
+    for (size_t i = 0; i < asset.nodes.size(); ++i)
+        addMover(world, asset.nodes[i], entities[i]);
     for (size_t node : strongestLights(asset))
         world.add(entities[node], BounceLight{});
     world.setResource<HierarchyLevels>(deepest);

@@ -6,14 +6,15 @@
 
 namespace ag {
 
-struct HierarchyLevels {  // resource
-    uint32_t deepest = 0;
-};
+void updateRootTransforms(View<Changed<const LocalTransform>, WorldTransform, Without<Parent>> roots,
+                          JobRunner& runner);
 
-void updateRootTransforms(View<Changed<const LocalTransform>, WorldTransform, Without<Parent>> roots);
-// Writes a child only if its transform differs: what stands still stays unchanged for everyone after.
-void updateChildTransforms(
-    View<const LocalTransform, const Parent, const HierarchyDepth, WorldTransform> children,
-    Lookup<const WorldTransform> parents, Res<const HierarchyLevels> levels);
+using Children = View<const LocalTransform, const Parent, const HierarchyDepth, WorldTransform>;
+// Writes a child only if its transform differs: what stands still stays unchanged for everyone after. A child
+// whose parent is gone stays where it is. Nothing is looked at while nothing moves.
+void updateChildTransforms(Children children, View<Changed<const LocalTransform>, With<Parent>> moved,
+                           View<Changed<const Parent>> hung, View<Changed<const WorldTransform>> parentsMoved,
+                           Lookup<const WorldTransform> parents, Res<const HierarchyLevels> levels,
+                           JobRunner& runner);
 
 }  // namespace ag

@@ -8,36 +8,9 @@
 #include <random>
 
 #include "engine/ecs/schedule.h"
+#include "tests/ecs/test_components.h"
 
 namespace ag {
-
-struct Position {
-    float x = 0, y = 0, z = 0;
-    bool operator==(const Position&) const = default;
-};
-struct Velocity {
-    float x = 0, y = 0, z = 0;
-};
-struct Health {
-    int32_t points = 100;
-    bool operator==(const Health&) const = default;
-};
-struct Frozen {
-    uint32_t since = 0;
-};
-struct Streamed {
-    float value = 0;
-};
-template <>
-inline constexpr bool kTrackRows<Streamed> = true;
-
-struct Clock {
-    float seconds = 0.1f;
-};
-struct Score {
-    int total = 0;
-};
-
 namespace {
 
 TEST(Ecs, HandlesOutliveMovesAndNeverComeBack) {
@@ -164,21 +137,47 @@ TEST(Ecs, ChangeIsSeenOnceAlsoFromALaterWriter) {
     EXPECT_EQ(seen, 0);
 }
 
-TEST(Ecs, RowsThatSayTheyChangedAreMarked) {
+TEST(Ecs, RowsThatSayTheyChangedAreTakenOnce) {
     World world;
-    for (int i = 0; i < 100; ++i)
+    for (int i = 0; i < 5000; ++i)
         world.create(Streamed{float(i)});
-    Archetype& archetype = world.archetypes().front();
-    for (auto& chunk : archetype.chunks)
-        std::ranges::fill(chunk->dirtyRows, 0);
-    View<Streamed>(world, {.version = 9999}).each([](Streamed& s) {
-        const bool changed = s.value == 3 || s.value == 64;
-        if (changed) s.value = -1;
-        return changed;
+    uint32_t version = world.version();
+    const auto take = [&] {
+        std::vector<float> taken;
+        const SystemTime time{.version = version + 1, .lastRun = version - 1};
+        View<Taken<const Streamed>>(world, time).each([&](const Streamed& s) { taken.push_back(s.value); });
+        return taken;
+    };
+    EXPECT_EQ(take().size(), 5000u) << "all are new";
+    EXPECT_TRUE(take().empty());
+    version += 256;
+    View<Streamed>(world, {.version = version}).each([](Streamed& s) {
+        return s.value == 3 || s.value == 63 || s.value == 64 || s.value == 2000 || s.value == 4999;
     });
-    EXPECT_EQ(archetype.chunks[0]->dirtyRows[0], uint64_t(1) << 3);
-    EXPECT_EQ(archetype.chunks[1]->dirtyRows[0], uint64_t(1)) << "row 64 opens the second chunk";
-    EXPECT_EQ(archetype.chunks[0]->versions[0], 9999u);
+    EXPECT_EQ(take(), (std::vector<float>{3, 63, 64, 2000, 4999}));
+    EXPECT_TRUE(take().empty());
+}
+
+TEST(Ecs, TakenRowsComeInRuns) {
+    World world;
+    std::vector<Entity> entities;
+    for (int i = 0; i < 1000; ++i)
+        entities.push_back(world.create(Streamed{float(i)}));
+    const auto take = [&] {
+        std::vector<std::pair<float, size_t>> runs;
+        View<Taken<const Streamed>>(world, {.version = 1}).chunks([&](std::span<const Streamed> s) {
+            runs.push_back({s[0].value, s.size()});
+        });
+        return runs;
+    };
+    using Runs = std::vector<std::pair<float, size_t>>;
+    EXPECT_EQ(take(), (Runs{{0, 64}, {64, 256}, {320, 680}})) << "a run a chunk";
+    for (int i : {10, 11, 12, 100, 120, 121, 127, 128, 129, 319, 320, 999})
+        world.write<Streamed>(entities[size_t(i)]);
+    EXPECT_EQ(take(), (Runs{{10, 3}, {100, 1}, {120, 2}, {127, 3}, {319, 1}, {320, 1}, {999, 1}}));
+    EXPECT_EQ(take(), Runs{});
+    world.destroy(entities[5]);
+    EXPECT_EQ(take(), (Runs{{999, 1}})) << "the last row fills the hole";
 }
 
 void move(View<Position, const Velocity> things, Res<const Clock> clock) {

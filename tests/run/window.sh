@@ -34,7 +34,7 @@ for _ in 1 2 3 4 5; do
   xdotool mousemove_relative 20 4
   sleep 0.2
 done
-for key in F1 F2 8 9 1 F1 F2; do
+for key in F1 F2 F3 8 9 1 F1 F2 F3; do
   xdotool key $key
   sleep 0.3
 done

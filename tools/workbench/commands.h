@@ -12,6 +12,7 @@ void addReferenceCommand(CLI::App& program, int& exitCode);
 void addSceneCommand(CLI::App& program, int& exitCode);
 void addCompareCommand(CLI::App& program, int& exitCode);
 void addBenchCommand(CLI::App& program, int& exitCode);
+void addEcsBenchCommand(CLI::App& program, int& exitCode);
 void addSweepCommand(CLI::App& program, int& exitCode);
 
 // One sentence to stderr; returns 2.

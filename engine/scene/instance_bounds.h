@@ -1,0 +1,52 @@
+// World bounds of every instance, by blocks: refreshed where instances changed, folded for the scene, and
+// tested against a view's planes.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "engine/jobs/job_graph.h"
+#include "engine/scene/render_scene.h"
+
+namespace ag {
+
+// Left, right, top, bottom, near of a clip matrix with reversed depth; a point p is inside where
+// dot(plane, (p, 1)) >= 0 for all. There is no far plane.
+std::array<glm::vec4, 5> viewPlanes(const glm::mat4& clipFromWorld);
+
+class InstanceBounds {
+  public:
+    static constexpr uint32_t kBlock = 256;  // rows
+
+    void resize(size_t rows);
+    size_t size() const { return rows_; }
+    // Rows of different blocks, or different rows of one, may be set from several threads.
+    void set(uint32_t row, const RenderInstance& instance, const Bounds& local);
+    Bounds of(uint32_t row) const;
+    // Folds the blocks any of whose rows the words say changed; returns the bounds of all.
+    Bounds fold(std::span<const uint64_t> changedRows, JobRunner& runner);
+    // A bit a row: whether its box reaches into the view. Boxes that only touch count; a box near a corner
+    // may count though it is outside.
+    void cull(const std::array<glm::vec4, 5>& planes, std::vector<uint64_t>& visibleRows,
+              JobRunner& runner) const;
+
+  private:
+    size_t rows_ = 0;
+    std::array<std::vector<float>, 3> center_,
+        half_;  // a column a coordinate: eight boxes are tested at once
+    std::vector<Bounds> blocks_;
+};
+
+inline void InstanceBounds::set(uint32_t row, const RenderInstance& instance, const Bounds& local) {
+    const glm::mat4x3& m = instance.worldFromLocal;
+    const glm::vec3 c = (local.min + local.max) * 0.5f, h = (local.max - local.min) * 0.5f;
+    for (int k = 0; k < 3; ++k) {
+        center_[size_t(k)][row] = m[0][k] * c.x + m[1][k] * c.y + m[2][k] * c.z + m[3][k];
+        half_[size_t(k)][row] =
+            std::fabs(m[0][k]) * h.x + std::fabs(m[1][k]) * h.y + std::fabs(m[2][k]) * h.z;
+    }
+}
+
+}  // namespace ag
