@@ -45,6 +45,9 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.direct = addLampLighting(graph, scene, f.gbuffer, f.lampLists, f.lampShadows, f.direct, s.lampLighting);
     if (s.lightClusters.strongFirst) addLampRelevance(graph, f.viewPoints, f.lampLists, h.lampRelevance);
 
+    // To the rules of a game
+    addProbes(graph, scene, f.rsm, f.vals, f.isms, s.probes, h.probes);
+
     // To the eye
     f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);
     return f;
