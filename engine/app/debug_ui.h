@@ -1,6 +1,7 @@
 // The panels over a running program: every setting, and every pass with its time and what became of it.
 #pragma once
 
+#include "engine/core/function_ref.h"
 #include "engine/core/settings.h"
 #include "engine/frame/frame_graph.h"
 
@@ -11,6 +12,7 @@ namespace ag {
 struct DebugUiState {
     bool showSettings = false;  // F1
     bool showPasses = false;    // F2
+    bool showStatus = false;    // F3
 };
 
 // ImGui's context with GLFW's events; one at a time.
@@ -21,9 +23,9 @@ class DebugUi {
     DebugUi(const DebugUi&) = delete;
     DebugUi& operator=(const DebugUi&) = delete;
 
-    // Builds this frame's panels; their draw data is ready when it returns.
+    // Builds this frame's panels and what `game` adds; their draw data is ready when it returns.
     void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
-               const std::string& status);
+               const std::string& status, FunctionRef<void()> game);
 };
 
 }  // namespace ag

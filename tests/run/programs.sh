@@ -64,8 +64,8 @@ expect 2 "neither .exr nor .pfm" "$bin/afterglow" compare "$0" "$work/a.pfm"
 expect 2 "cannot write" "$bin/afterglow" compare "$work/a.pfm" "$work/a.pfm" --heatmap "$work/none/heat.png"
 
 # Lamps hung in a scene: the same ones for the renderer and the reference, and none where there is no room.
-render gallery -o "$work/lamps.pfm" --layer direct --lamps 30 --no-scene-lights --preset lights-reference
-expect 0 "0 bounces" "$bin/afterglow" reference gallery -o "$work/lamps.exr" --layer direct --bounces 0 --lamps 30 \
+render hall -o "$work/lamps.pfm" --layer direct --lamps 30 --no-scene-lights --preset lights-reference
+expect 0 "0 bounces" "$bin/afterglow" reference hall -o "$work/lamps.exr" --layer direct --bounces 0 --lamps 30 \
   --no-scene-lights --size 160x90
 expect 0 '"rel_rmse"' "$bin/afterglow" compare "$work/lamps.exr" "$work/lamps.pfm" --max-rel-rmse 0.1
 
