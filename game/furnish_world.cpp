@@ -59,7 +59,7 @@ void addTurning(const Furnished& f) {
     const NodeExtras& e = f.node.extras;
     Body body = bodyOf(f, BodyKind::kDynamic);
     const bool pendulum = e.swing > 0;
-    body.angularDamping = pendulum ? 0 : 0.75f;
+    body.angularDamping = pendulum ? 0 : 0.95f;
     body.linearDamping = pendulum ? 0 : 0.2f;
     f.world.add(f.entity, Hinge{e.pivot, e.axis, pendulum ? 1 : e.least, pendulum ? -1 : e.most});
     if (pendulum) {
@@ -92,8 +92,10 @@ void addTagged(const Furnished& f, const std::vector<Entity>& entities, uint32_t
     if (e.tag == "petal") addPetal(f, entities);
     if (e.tag == "panel" || e.tag == "pendulum") addTurning(f);
     if (e.tag == "crate") {
+        Body body = bodyOf(f, BodyKind::kDynamic);
+        body.friction = 0.9f;
         f.world.add(f.entity, Crate{});
-        addMovable(f, bodyOf(f, BodyKind::kDynamic));
+        addMovable(f, body);
     }
     if (e.tag == "door") {
         const Body body = bodyOf(f, BodyKind::kKinematic);

@@ -47,20 +47,22 @@ void pushBody(PhysicsWorld& physics, const BodyHit& hit, glm::vec3 velocity, con
     const float flat = glm::length(into);
     if (flat < 0.3f) return;
     into /= flat;
-    const float wanted = glm::dot(velocity, into), has = glm::dot(physics.pose(hit.body).velocity, into);
+    const float wanted = std::min(glm::dot(velocity, into), s.pushSpeed),
+                has = glm::dot(physics.pose(hit.body).velocity, into);
     const float impulse = std::clamp((wanted - has) * physics.mass(hit.body), 0.0f, s.pushForce * seconds);
     if (impulse > 0) physics.push(hit.body, into * impulse, hit.position);
 }
 
-// Along the ground or through the air, sliding along what stands upright.
+// Along the ground or through the air, sliding along what stands upright; what gives way is pushed with this
+// speed.
 glm::vec3 slide(PhysicsWorld& physics, const Character& c, glm::dvec3& feet, glm::vec3 way,
-                const CharacterSettings& s, float seconds, bool push) {
+                const CharacterSettings& s, float seconds, glm::vec3 push) {
     const glm::vec3 wanted = way;
     glm::vec3 met[kMostSlides];
     for (int i = 0; i < kMostSlides; ++i) {
         const auto hit = advance(physics, capsuleOf(c, s), feet, way);
         if (!hit) break;
-        if (push) pushBody(physics, *hit, c.velocity, s, seconds);
+        if (push != glm::vec3(0)) pushBody(physics, *hit, push, s, seconds);
         way *= 1 - hit->share;
         glm::vec3 normal = hit->normal;
         if (normal.y < s.steepest) normal.y = 0;  // walls are not climbed
@@ -74,13 +76,14 @@ glm::vec3 slide(PhysicsWorld& physics, const Character& c, glm::dvec3& feet, glm
 }
 
 // Straight ahead; where that is blocked, up a step, ahead, and down again.
-void walk(PhysicsWorld& physics, Character& c, glm::vec3 way, const CharacterSettings& s, float seconds) {
+void walk(PhysicsWorld& physics, Character& c, glm::vec3 way, glm::vec3 push, const CharacterSettings& s,
+          float seconds) {
     glm::dvec3 straight = c.feet, over = c.feet;
-    slide(physics, c, straight, way, s, seconds, true);
+    slide(physics, c, straight, way, s, seconds, push);
     if (c.grounded) {
         advance(physics, capsuleOf(c, s), over, {0, s.stepHeight, 0});
         const double up = over.y - c.feet.y;
-        slide(physics, c, over, way, s, seconds, false);
+        slide(physics, c, over, way, s, seconds, {});
         const auto ground = advance(physics, capsuleOf(c, s), over, {0, -float(up) - 0.02f, 0});
         const auto gained = [&](glm::dvec3 p) {
             return glm::length(glm::dvec2(p.x - c.feet.x, p.z - c.feet.z));
@@ -147,7 +150,9 @@ void moveCharacter(PhysicsWorld& physics, Character& c, const CharacterIntent& i
     crouch(physics, c, intent.crouch, s);
     accelerate(c, intent, s, seconds);
     const glm::dvec3 before = c.feet;
-    walk(physics, c, glm::vec3(c.velocity.x, 0, c.velocity.z) * seconds, s, seconds);
+    // It is pushed as fast as one wants to go, not as one is let to.
+    const glm::vec3 push = glm::vec3(intent.way.x, 0, intent.way.y) * s.speed;
+    walk(physics, c, glm::vec3(c.velocity.x, 0, c.velocity.z) * seconds, push, s, seconds);
     // What was stopped has no speed left.
     const glm::vec3 moved = glm::vec3(c.feet - before) / seconds;
     if (glm::length(glm::vec2(moved.x, moved.z)) < glm::length(glm::vec2(c.velocity.x, c.velocity.z))) {

@@ -14,6 +14,7 @@ struct CharacterSettings {
     float stepHeight = 0.32f;                                  // m, climbed without a jump
     float steepest = 0.64f;                                    // cosine of the steepest slope that carries
     float pushForce = 260;                                     // N
+    float pushSpeed = 1.4f;                                    // m/s, of what is pushed, at most
 };
 
 struct Character {

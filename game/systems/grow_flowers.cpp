@@ -5,7 +5,7 @@
 namespace ag::game {
 namespace {
 
-constexpr float kOpenSeconds = 1.8f, kBlindedSeconds = 1.0f, kWiltSeconds = 90;  // from end to end
+constexpr float kOpenSeconds = 1.8f, kBlindedSeconds = 2.5f, kWiltSeconds = 90;  // from end to end
 constexpr float kLeastSeen = 0.1f;                                               // of the amount
 constexpr float kPetalSpread = 1.15f;                                            // rad when open
 

@@ -144,15 +144,15 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     crossWall(f, h, h.front + kWall, true);
     crossWall(f, h, h.back, true);
     sideWall(f, h, 1, h.front, h.back);
-    // The left wall has a niche from z = -29.3 to -30.7, 1.5 m deep, behind a panel.
+    // The left wall has a niche from z = -29.3 to -30.7, 2.2 m deep, behind a panel.
     sideWall(f, h, -1, h.front, -29.3f);
     sideWall(f, h, -1, -30.7f, h.back);
     f.solid("niche lintel", {-5.15f, 2.95f, -30}, {kWall, 1.3f, 1.4f}, h.wall);
-    f.solid("niche back", {-6.65f, kHeight / 2, -30}, {kWall, kHeight, 2}, h.wall);
-    f.solid("niche side", {-5.9f, kHeight / 2, -29.15f}, {1.8f, kHeight, kWall}, h.wall);
-    f.solid("niche side", {-5.9f, kHeight / 2, -30.85f}, {1.8f, kHeight, kWall}, h.wall);
-    f.floor("niche floor", {-6.5f, -30.7f}, {-5, -29.3f});
-    f.ceiling("niche ceiling", {-6.8f, -31}, {-5.3f, -29}, kHeight);
+    f.solid("niche back", {-7.35f, kHeight / 2, -30}, {kWall, kHeight, 2}, h.wall);
+    f.solid("niche side", {-6.2f, kHeight / 2, -29.15f}, {2.4f, kHeight, kWall}, h.wall);
+    f.solid("niche side", {-6.2f, kHeight / 2, -30.85f}, {2.4f, kHeight, kWall}, h.wall);
+    f.floor("niche floor", {-7.2f, -30.7f}, {-5, -29.3f});
+    f.ceiling("niche ceiling", {-7.5f, -31}, {-5.3f, -29}, kHeight);
     MeshParts panel;
     addBox(panel, f.wood, {0, 1.1f, 0.66f}, {0.06f, 2.16f, 1.3f});
     for (const float y : {0.55f, 1.65f})
@@ -163,8 +163,8 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     b.node(leaf).extras.axis = {0, 1, 0};
     b.node(leaf).extras.least = -1.45f;
     b.node(leaf).extras.most = 0.02f;
-    f.plinth({-6.15f, 0, -29.62f}, 0.5f);
-    f.flower(2, kWhitePaint, 0.15f, {-6.15f, 0.5f, -29.62f}, 0);
+    f.plinth({-6.85f, 0, -29.66f}, 0.5f);
+    f.flower(2, kWhitePaint, 0.08f, {-6.85f, 0.5f, -29.66f}, 0);
     // The beam: a lamp on a tripod shines on a flower, and nothing but a crate is at hand.
     const glm::vec3 lamp(4.5f, 0.86f, -26.6f);
     MeshParts tripod;
@@ -175,13 +175,13 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     b.node(b.model("tripod", tripod, lamp + glm::vec3(0.15f, 0, 0))).extras.collider = true;
     b.node(b.spot("beam", lamp, {-1, 0, 0}, glm::vec3(46, 41, 33), 4, 8)).extras.tag = "beam";
     f.plinth({-2.6f, 0, -26.6f}, 0.3f);
-    f.flower(2, kWhitePaint, 0.15f, {-2.6f, 0.3f, -26.6f}, 0.4f);
+    f.flower(2, kWhitePaint, 0.08f, {-2.6f, 0.3f, -26.6f}, 0.4f);
     f.crate(nullptr, {0.4f, 0.5f, -25.1f}, 1.0f, 24);
     // Behind a curtain that hangs low.
     f.solid("partition", {1.4f, kHeight / 2, -30.85f}, {0.2f, kHeight, 2.3f}, h.wall);
     f.curtain({1.4f, 0, -29.8f}, {5, 0, -29.8f}, 1.2f, 3.2f);
     f.plinth({4.2f, 0, -31.2f}, 0.5f);
-    f.flower(2, kWhitePaint, 0.15f, {4.2f, 0.5f, -31.2f}, 1.2f);
+    f.flower(2, kWhitePaint, 0.08f, {4.2f, 0.5f, -31.2f}, 1.2f);
     f.column({-3.6f, 0, -24.6f}, kHeight);
     f.column({2.6f, 0, -28.6f}, kHeight);
     f.bench({-4.3f, 0, -27.6f}, kPi / 2);

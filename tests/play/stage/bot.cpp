@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "engine/scene/components.h"
 #include "game/systems/walk_player.h"
 
 namespace ag::game {
@@ -28,6 +29,14 @@ float pixels(double angle) {
 bool Bot::fail(const std::string& what) {
     if (tells_) std::cerr << fmt::format("tick {}: {}\n", inputs_.size(), what);
     failed_ = true;
+    if (tells_)
+        View<const BodyState, const Body, const Name>(stage_.game.world(), {})
+            .each([&](const BodyState& s, const Body& b, const Name& name) {
+                if (b.kind != BodyKind::kDynamic) return;
+                const glm::vec3 x = s.rotation * glm::vec3(1, 0, 0);
+                std::cerr << fmt::format("  {} at {:.2f} {:.2f} {:.2f}, +x looks {:.2f} {:.2f} {:.2f}\n", name.text,
+                                         s.position.x, s.position.y, s.position.z, x.x, x.y, x.z);
+            });
     return false;
 }
 
@@ -54,7 +63,13 @@ void Bot::tick(glm::dvec2 way) {
                 .look = turn(),
                 .buttons = held_};
     inputs_.push_back(input);
+    std::vector<bool> bloomed;
+    for (size_t i = 0; tells_ && i < stage_.flowers.size(); ++i)
+        bloomed.push_back(stage_.flower(i).bloomed);
     stage_.tick(input);
+    for (size_t i = 0; i < bloomed.size(); ++i)
+        if (bloomed[i] && !stage_.flower(i).bloomed)
+            std::cerr << fmt::format("tick {}: flower {} closed again\n", inputs_.size(), i);
 }
 
 bool Bot::walk(double x, double z, int mostTicks, double tolerance) {

@@ -37,11 +37,15 @@ bool shadowRoom(Bot& b) {
     b.walk(-1.2, -25.2);
     b.look(-5.0, 1.2, -25.8);
     if (!b.waitForFlower(6)) return false;
-    // The panel
+    // The panel; past the open flower with the lamp turned away
+    b.look(4.5, 1.5, -24.5);
+    b.walk(-1.2, -28.8);
     b.lookAhead();
     b.walk(-3.6, -29.6);
-    b.walk(-4.8, -29.7, 120, 0.3);
-    b.look(-6.5, 1.3, -30.3);
+    b.walk(-5.6, -29.75, 120, 0.3);
+    b.walk(-6.2, -30.1, 120, 0.25);
+    b.walk(-5.2, -29.9);
+    b.look(-7.2, 1.6, -30.5);
     if (!b.waitForFlower(5)) return false;
     // Under the curtain
     b.lookAhead();
@@ -55,10 +59,29 @@ bool shadowRoom(Bot& b) {
 }
 
 bool paintRoom(Bot& b) {
-    // The yellow crate to its flower
-    b.walk(1.2, -38.4);
-    b.walk(-1.6, -38.4, 200);
-    return true;
+    // The yellow crate to its flower, lit from the flower's side
+    b.walk(1.9, -37.6);
+    b.walk(1.8, -38.4);
+    b.walk(-1.0, -38.4, 240);
+    b.walk(-1.4, -39.8);
+    b.walk(-3.4, -40.0);
+    b.look(-2.2, 0.4, -38.4);
+    if (!b.waitForFlower(8)) return false;
+    // The swinging board, from beside its flower
+    b.lookAhead();
+    b.walk(-1.0, -41.0);
+    b.walk(-1.2, -43.2);
+    b.look(-2.7, 1.2, -41.6);
+    if (!b.waitForFlower(10)) return false;
+    // The panel, turned round its post
+    b.lookAhead();
+    b.walk(0.6, -41.6);
+    b.walk(1.2, -39.6);
+    b.walk(3.0, -39.6);
+    b.walk(3.0, -41.2, 120, 0.3);
+    b.walk(3.4, -40.6);
+    b.look(2.0, 1.0, -41.4);
+    return b.waitForFlower(9);
 }
 
 }  // namespace
