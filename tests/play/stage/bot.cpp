@@ -34,8 +34,8 @@ bool Bot::fail(const std::string& what) {
             .each([&](const BodyState& s, const Body& b, const Name& name) {
                 if (b.kind != BodyKind::kDynamic) return;
                 const glm::vec3 x = s.rotation * glm::vec3(1, 0, 0);
-                std::cerr << fmt::format("  {} at {:.2f} {:.2f} {:.2f}, +x looks {:.2f} {:.2f} {:.2f}\n", name.text,
-                                         s.position.x, s.position.y, s.position.z, x.x, x.y, x.z);
+                std::cerr << fmt::format("  {} at {:.2f} {:.2f} {:.2f}, +x looks {:.2f} {:.2f} {:.2f}\n",
+                                         name.text, s.position.x, s.position.y, s.position.z, x.x, x.y, x.z);
             });
     return false;
 }

@@ -86,6 +86,35 @@ bool paintRoom(Bot& b) {
 
 }  // namespace
 
+bool playDirectBeam(Bot& b) {
+    b.wait(12);
+    b.walk(-1.0, -3.9);
+    b.look(-2.9, 1.4, -3.9);
+    b.wait(300);
+    return !b.failed();
+}
+
+bool playWallBetween(Bot& b) {
+    b.wait(12);
+    b.walk(0.4, -5.6);
+    b.walk(0.4, -7.1);
+    b.look(2.3, 1.2, -7.1);
+    b.wait(300);
+    return !b.failed();
+}
+
+bool playWrongColour(Bot& b) {
+    b.wait(12);
+    if (!lightRoom(b) || !b.waitForDoor(0)) return false;
+    b.lookAhead();
+    b.walk(0, -7.2);
+    b.walk(0, -13.8);
+    b.walk(1.2, -16.2);
+    b.look(5.0, 1.5, -17.3);
+    b.wait(300);
+    return !b.failed();
+}
+
 bool playWalkthrough(Bot& b) {
     b.wait(20);
     if (!lightRoom(b) || !b.waitForDoor(0)) return false;
