@@ -52,7 +52,10 @@ void addLantern(const Furnished& f, uint32_t number) {
     const glm::vec3 intensity =
         f.node.light >= 0 ? f.asset.lights[size_t(f.node.light)].intensity : glm::vec3(0);
     f.world.add(f.entity, Lantern{f.node.extras.room, 0.12f * float(number % 16), intensity});
-    if (f.node.mesh >= 0) f.world.write<MeshInstance>(f.entity)->movable = 1;
+    if (f.node.light >= 0) f.world.write<PunctualLight>(f.entity)->intensity = glm::vec3(0);
+    if (f.node.mesh < 0) return;
+    f.world.write<MeshInstance>(f.entity)->movable = 1;
+    f.world.write<LocalTransform>(f.entity)->scale = glm::vec3(0.02f);
 }
 
 void addTurning(const Furnished& f) {

@@ -87,12 +87,13 @@ class HeadlessRun {
         const double median = quantile(frameMs_, 0.5);
         return fmt::format(
                    "device {}\n{} frames of {}x{}, {} ticks each, first after {:.0f} ms (start and shader "
-                   "compilation), median {:.1f} ms ({:.1f}/s), p99 {:.1f} ms\nplayer at {:.2f} {:.2f}\n"
+                   "compilation), median {:.1f} ms ({:.1f}/s), p99 {:.1f} ms\nplayer at {:.2f} {:.2f}{}\n"
                    "flowers open: {} of {}, rooms solved: {} of {}{}\nworld hash {:016x}\n"
                    "device memory {:.1f} MiB\n\n",
                    device_.info().name, frames_, o.size.x, o.size.y, o.ticksPerFrame, firstMs_, median,
-                   median > 0 ? 1000 / median : 0, quantile(frameMs_, 0.99), at.x, at.z, p.flowersOpen,
-                   p.flowers, p.roomsSolved, p.rooms, p.won ? ", finished" : "", demo_.game->stateHash(),
+                   median > 0 ? 1000 / median : 0, quantile(frameMs_, 0.99), at.x, at.z,
+                   demo_.game->player().carried ? ", carrying a crate" : "", p.flowersOpen, p.flowers,
+                   p.roomsSolved, p.rooms, p.won ? ", finished" : "", demo_.game->stateHash(),
                    double(renderer_.deviceBytes()) / 1048576.0) +
                passes_.text();
     }

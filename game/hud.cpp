@@ -7,14 +7,13 @@
 
 #include "engine/physics/physics_system.h"
 #include "engine/scene/components.h"
-#include "game/systems/walk_player.h"
+#include "game/systems/carry_crates.h"
 #include "gi/gi_components.h"
 
 namespace ag::game {
 namespace {
 
-constexpr double kHintReach = 4.5;   // m
-constexpr double kCrateReach = 2.2;  // m
+constexpr double kHintReach = 4.5;  // m
 
 struct Hue {
     glm::vec3 color;
@@ -49,11 +48,12 @@ std::string nearestHint(const std::vector<Hint>& hints, const Player& player, in
     return best ? best->text : "";
 }
 
-bool crateInReach(const World& world, const Player& player) {
+bool crateInReach(World& world, const Player& player) {
     const PhysicsWorld& physics = *world.resource<Physics>().world;
-    const auto hit = physics.ray(
-        player.position, player.position + glm::dvec3(viewDirection(player.yaw, player.pitch)) * kCrateReach);
-    return hit && physics.kind(hit->body) == BodyKind::kDynamic && physics.mass(hit->body) <= 20;
+    bool any = false;
+    View<const Crate, const BodyState>(world, {}).each(
+        [&](const Crate&, const BodyState& state) { any = any || graspOf(physics, player, state.body) > 0; });
+    return any;
 }
 
 }  // namespace
@@ -73,8 +73,8 @@ const char* shapeName(Shape shape) {
 }
 
 const char* moodText(FlowerMood mood) {
-    static constexpr const char* kTexts[] = {"in the dark", "not its colour",        "more of that",
-                                             "opening",     "blinded: direct light", "open"};
+    static constexpr const char* kTexts[] = {"in the dark", "not its colour", "more of that",
+                                             "opening",     "direct light!",  "open"};
     return kTexts[size_t(mood)];
 }
 

@@ -57,10 +57,14 @@ float drawText(ImDrawList& list, ImVec2 at, const char* text, ImU32 color = kInk
     return size.x;
 }
 
-void drawCentered(ImDrawList& list, float y, float width, const std::string& text) {
+// Its last line ends at `bottom`; what is too wide is broken.
+void drawCentered(ImDrawList& list, float bottom, float width, const std::string& text) {
     if (text.empty()) return;
-    const float size = ImGui::CalcTextSize(text.c_str()).x;
-    drawText(list, {std::max((width - size) / 2, 6.0f), y}, text.c_str());
+    const float most = width - 40;
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, most);
+    const ImVec2 at((width - size.x) / 2, bottom - size.y);
+    list.AddRectFilled({at.x - 4, at.y - 2}, {at.x + size.x + 4, bottom + 2}, kShade, 3);
+    list.AddText(nullptr, 0, at, kInk, text.c_str(), nullptr, most);
 }
 
 // Three bars: a frame as high as the wish, filled as high as what is received.
@@ -117,10 +121,10 @@ void drawHud(const HudState& hud, glm::vec2 size, const glm::mat4& clipFromWorld
     drawFlowers(list, size, hud.flowers);
     drawText(list, {size.x - ImGui::CalcTextSize(hud.goal.c_str()).x - 10, 8}, hud.goal.c_str());
     list.AddCircleFilled({size.x / 2, size.y / 2}, 2, IM_COL32(255, 255, 255, 110));
-    drawCentered(list, size.y - 44, size.x, hud.hint);
+    drawCentered(list, size.y - 26, size.x, hud.hint);
     const char* hands = hud.carrying ? "put down" : hud.crateInReach ? "pick up" : nullptr;
     if (hands) drawText(list, {size.x / 2 + 12, size.y / 2 + 8}, hands);
-    drawCentered(list, size.y - 22, size.x, hud.notice);
+    drawCentered(list, size.y - 6, size.x, hud.notice);
 }
 
 }  // namespace ag::game

@@ -7,15 +7,14 @@ namespace ag::game {
 namespace {
 
 constexpr std::array<std::string_view, 5> kNames = {"low", "medium", "high", "ultra", "auto"};
-constexpr std::array<Rung, 7> kLadder = {{{Quality::kLow, 0.34f},
-                                          {Quality::kLow, 0.5f},
+constexpr std::array<Rung, 6> kLadder = {{{Quality::kLow, 0.5f},
                                           {Quality::kLow, 0.75f},
                                           {Quality::kLow, 1},
                                           {Quality::kMedium, 1},
                                           {Quality::kHigh, 1},
                                           {Quality::kUltra, 1}}};
-constexpr size_t kCpuStart = 1, kGpuStart = 5;
-constexpr double kLongMs = 70, kShortMs = 14;  // a frame: come down, climb
+constexpr size_t kCpuStart = 1, kGpuStart = 4;
+constexpr double kLongMs = 90, kShortMs = 14;  // a frame: come down, climb
 constexpr double kDownSeconds = 1.2, kUpSeconds = 3;
 constexpr int kWarmFrames = 4;  // after a change: shaders are compiled
 

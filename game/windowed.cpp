@@ -260,8 +260,9 @@ class WindowedRun {
         MenuEvent event = MenuEvent::kNone;
         const RenderScene& scene = demo_.game->scene();
         ui_.build(panels_, demo_.settings, renderer_.graph(), statusLine(), [&] {
-            drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
-                    glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
+            if (!menu_.open)
+                drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
+                        glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
             if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, keysLine());
         });
         chosen_ = event;  // obeyed before the next frame: this one is under way

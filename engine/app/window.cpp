@@ -50,6 +50,9 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, glm::uvec
     std::unique_ptr<Window> window(new Window);
     window->window_ = glfwCreateWindow(int(size.x), int(size.y), title.c_str(), nullptr, nullptr);
     if (!window->window_) return Error{"no window can be opened: " + lastError()};
+    // A tap shorter than a frame counts all the same.
+    glfwSetInputMode(window->window_, GLFW_STICKY_KEYS, GLFW_TRUE);
+    glfwSetInputMode(window->window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     glfwSetWindowUserPointer(window->window_, window.get());
     window->installCallbacks();
     return window;

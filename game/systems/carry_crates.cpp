@@ -7,22 +7,15 @@
 namespace ag::game {
 namespace {
 
-constexpr double kReach = 2.2;   // m from the eyes
-constexpr float kHold = 1.25f;   // m before the eyes
-constexpr float kMostSpeed = 5;  // m/s of what is carried
-constexpr float kMostMass = 20;  // kg
-constexpr double kLetGo = 1.6;   // m from where it should be: something holds it back
+constexpr double kReach = 2.3;         // m from the eyes to its middle
+constexpr double kLeastCosine = 0.75;  // from the middle of the view
+constexpr float kHold = 1.25f;         // m before the eyes
+constexpr float kMostSpeed = 5;        // m/s of what is carried
+constexpr float kMostMass = 20;        // kg
+constexpr double kLetGo = 1.6;         // m from where it should be: something holds it back
 
 glm::vec3 holdDirection(const Player& player) {
     return viewDirection(player.yaw, std::clamp(player.pitch, -0.5f, 0.3f));
-}
-
-// The crate the player looks at, within reach and not too heavy.
-BodyId crateInView(const Physics& physics, const Player& player) {
-    const glm::dvec3 to = player.position + glm::dvec3(viewDirection(player.yaw, player.pitch)) * kReach;
-    const auto hit = physics.world->ray(player.position, to);
-    if (!hit || physics.world->kind(hit->body) != BodyKind::kDynamic) return kNoBody;
-    return physics.world->mass(hit->body) <= kMostMass ? hit->body : kNoBody;
 }
 
 void carry(PhysicsWorld& world, BodyId body, const Player& player, float step) {
@@ -35,12 +28,29 @@ void carry(PhysicsWorld& world, BodyId body, const Player& player, float step) {
 
 }  // namespace
 
+float graspOf(const PhysicsWorld& world, const Player& player, BodyId crate) {
+    if (world.mass(crate) > kMostMass) return 0;
+    const glm::dvec3 center = world.pose(crate).position, d = center - player.position;
+    const double distance = glm::length(d);
+    if (distance > kReach) return 0;
+    const double cosine = glm::dot(d / distance, glm::dvec3(viewDirection(player.yaw, player.pitch)));
+    const auto hit = cosine < kLeastCosine ? std::nullopt : world.ray(player.position, center);
+    return hit && hit->body == crate ? float(cosine) : 0;
+}
+
 void carryCrates(View<Crate, const BodyState> crates, Res<const Input> input, Res<Physics> physics,
                  Res<Player> player) {
     const bool pressed = input->buttons & ~player->buttonsBefore & kButtonUse;
     player->buttonsBefore = input->buttons;
-    const BodyId wanted = pressed && !player->carried ? crateInView(*physics, *player) : kNoBody;
     PhysicsWorld& world = *physics->world;
+    BodyId wanted = kNoBody;
+    float best = 0;
+    crates.each([&](Crate&, const BodyState& state) {
+        const float grasp = pressed && !player->carried ? graspOf(world, *player, state.body) : 0;
+        if (grasp > best) wanted = state.body;
+        best = std::max(best, grasp);
+        return false;
+    });
     crates.each([&](Entity entity, Crate& crate, const BodyState& state) {
         if (crate.carried) {
             const glm::dvec3 hands = player->position + glm::dvec3(holdDirection(*player) * kHold);

@@ -7,6 +7,10 @@
 
 namespace ag::game {
 
+// How well a crate lies to hand: the cosine from the middle of the view; 0 if it is too far, too heavy or
+// hidden.
+float graspOf(const PhysicsWorld& world, const Player& player, BodyId crate);
+
 void carryCrates(View<Crate, const BodyState> crates, Res<const Input> input, Res<Physics> physics,
                  Res<Player> player);
 

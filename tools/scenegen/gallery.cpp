@@ -99,6 +99,7 @@ void foyer(SceneBuilder& b, Furnisher& f) {
     f.painting({-2.5f, 1.7f, -8}, 0, {1.2f, 0.9f}, 8);
     f.sconce({-3.96f, 1.9f, -5.6f}, {1, 0, 0});
     f.sconce({3.96f, 1.9f, -1.4f}, {-1, 0, 0});
+    f.crate(nullptr, {-1.3f, 0.3f, -2.7f}, 0.6f, 14);
     f.crate(nullptr, {-3.3f, 0.3f, -0.8f}, 0.6f, 14);
     f.crate(nullptr, {-2.6f, 0.3f, -0.7f}, 0.6f, 14);
     f.crate(nullptr, {-3.0f, 0.91f, -0.75f}, 0.6f, 14);
