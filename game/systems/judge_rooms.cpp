@@ -31,6 +31,8 @@ bool inside(const Room& room, glm::dvec3 p) {
 void judgeRooms(View<Room> rooms, View<Flower> flowers, Res<const Player> player, Res<const GameTime> time,
                 Res<Progress> progress) {
     Progress now{.room = -1};
+    // A room without flowers is lit when all the others are.
+    const bool allSolved = progress->rooms > 0 && progress->roomsSolved == progress->rooms;
     int32_t last = -1;
     rooms.each([&](Room& room) {
         const Room before = room;
@@ -43,10 +45,10 @@ void judgeRooms(View<Room> rooms, View<Flower> flowers, Res<const Player> player
             flower.mood = FlowerMood::kOpen;
             return true;
         });
-        room.solved = room.solved || (room.flowers > 0 && room.open == room.flowers);
+        room.solved = room.solved || (room.flowers > 0 ? room.open == room.flowers : allSolved);
         if (room.solved && room.since < 60) room.since += float(time->step);
         now.rooms += room.flowers > 0;
-        now.roomsSolved += room.solved;
+        now.roomsSolved += room.flowers > 0 && room.solved;
         now.flowers += room.flowers;
         now.flowersOpen += room.solved ? room.flowers : room.open;
         if (inside(room, player->position)) now.room = room.index;
