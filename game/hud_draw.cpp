@@ -83,7 +83,7 @@ void drawBars(ImDrawList& list, ImVec2 at, float height, const FlowerLine& flowe
 }
 
 void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& flowers) {
-    constexpr float kWidth = 156, kHeight = 34;
+    constexpr float kWidth = 178, kHeight = 34;
     float y = 28;
     for (const FlowerLine& flower : flowers) {
         const float x = size.x - kWidth - 6;
@@ -91,11 +91,11 @@ void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>
         const Shape shape = shapeOf(flower.wants);
         drawShape(list, shape, {x + 16, y + 18}, 10, colorOf(flower.wants), flower.openness);
         drawBars(list, {x + 34, y + 4}, kHeight - 2, flower);
-        list.AddText({x + 78, y + 4}, colorOf(glm::mix(glm::vec3(1), flower.wants, 0.3f)),
-                     moodText(flower.mood));
         char open[24];
         std::snprintf(open, sizeof open, "%d %% open", int(flower.openness * 100));
-        list.AddText({x + 78, y + 20}, kInk, open);
+        const char* lines[] = {shapeName(shape), moodText(flower.mood), open};
+        for (int i = 0; i < 3; ++i)
+            list.AddText({x + 78, y + 3 + 15 * float(i)}, kInk, lines[i]);
         y += kHeight + 24;
     }
 }

@@ -199,10 +199,6 @@ BodyKind PhysicsWorld::kind(BodyId id) const {
 float PhysicsWorld::mass(BodyId id) const {
     return impl_->at(id).mass;
 }
-float PhysicsWorld::hingeAngle(BodyId id) const {
-    const Item& item = impl_->at(id);
-    return item.hinge ? item.hinge->getHingeAngle() : 0;
-}
 glm::vec3 PhysicsWorld::spin(BodyId id) const {
     return fromBullet(impl_->at(id).body->getAngularVelocity());
 }

@@ -52,7 +52,6 @@ class PhysicsWorld {
     BodyPose pose(BodyId body) const;
     BodyKind kind(BodyId body) const;
     float mass(BodyId body) const;
-    float hingeAngle(BodyId body) const;  // rad from where it was made
     glm::vec3 spin(BodyId body) const;    // rad/s
     uint32_t awakeCount() const;          // dynamic bodies that do not rest
     uint32_t bodyCount() const;

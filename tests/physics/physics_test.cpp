@@ -53,6 +53,18 @@ TEST(Physics, FallsAndRestsWhereTheFloorIs) {
     EXPECT_FALSE(w.pose(crate).awake);
 }
 
+TEST(Physics, LiesOnAMeshOfTriangles) {
+    PhysicsWorld w({1000, 0, 0});
+    const glm::dvec3 corners[] = {{990, 0, -10}, {990, 0, 10}, {1010, 2, 10}, {1010, 2, -10}};
+    const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    w.addMesh(corners, indices);
+    const BodyId crate = w.add(box(BodyKind::kDynamic, glm::vec3(0.6f)), {1000, 3, 0}, kUpright);
+    for (int i = 0; i < 240; ++i)
+        w.step(kTick);
+    EXPECT_NEAR(w.pose(crate).position.y, 1 + 0.3, 0.04) << "on a slope of 1 in 10";
+    EXPECT_NEAR(w.pose(crate).position.x, 1000, 0.1);
+}
+
 TEST(Physics, HundredsOfBodiesComeToRest) {
     PhysicsWorld w;
     addFloor(w);
