@@ -52,8 +52,8 @@ class PhysicsWorld {
     BodyPose pose(BodyId body) const;
     BodyKind kind(BodyId body) const;
     float mass(BodyId body) const;
-    glm::vec3 spin(BodyId body) const;    // rad/s
-    uint32_t awakeCount() const;          // dynamic bodies that do not rest
+    glm::vec3 spin(BodyId body) const;  // rad/s
+    uint32_t awakeCount() const;        // dynamic bodies that do not rest
     uint32_t bodyCount() const;
 
     void moveTo(BodyId body, glm::dvec3 position,
