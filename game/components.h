@@ -1,15 +1,16 @@
 // Components of the level's own things.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "engine/ecs/entity.h"
+#include "engine/physics/character.h"
 
 namespace ag::game {
-
-struct Collider {           // an upright box the player walks round
-    glm::vec2 halfSize{0};  // m, along x and z before turning
-};
 
 struct Flicker {             // of a light: another strength each turn, or none
     glm::vec3 intensity{0};  // W/sr when it burns fully
@@ -23,15 +24,80 @@ struct HandLamp {
     float yaw = 0, pitch = 0;  // rad, relative to the player's view
 };
 
-// Resources
-struct Player {
-    glm::dvec3 position{0};    // m, of the eyes
-    float yaw = 0, pitch = 0;  // rad; yaw 0 looks along -Z
-    float verticalFov = 1;     // rad
+enum class FlowerMood : uint32_t {
+    kDark,     // too little bounced light to tell its colour
+    kWrong,    // light of another colour
+    kThirsty,  // the right colour, not enough
+    kGrowing,
+    kBlinded,  // direct light: it closes
+    kOpen,     // for good: its room is solved
 };
 
-struct Walkable {               // where the eyes may be
-    glm::dvec2 min{0}, max{0};  // m, x and z
+struct Flower {
+    glm::vec3 wants{1};  // colour, greatest channel 1
+    float amount = 0;    // W/m², mean of the channels
+    int32_t room = 0;
+    float openness = 0;  // 0 to 1
+    FlowerMood mood = FlowerMood::kDark;
+    float received = 0;    // W/m² of bounced light
+    float match = 0;       // cosine between its colour and the light's
+    uint32_t bloomed = 0;  // was fully open, and has not wilted far since
+};
+
+struct Petal {
+    Entity flower;
+    glm::quat closed{1, 0, 0, 0};
+};
+
+struct Lantern {  // a light or a flame that wakes when its room is solved
+    int32_t room = 0;
+    float delay = 0;         // s after that
+    glm::vec3 intensity{0};  // W/sr awake
+};
+
+struct Door {
+    glm::dvec3 closed{0};  // m
+    float height = 0;      // m
+    int32_t room = 0;      // whose flowers open it
+};
+
+struct Room {
+    glm::dvec3 center{0};  // m
+    glm::vec3 half{0};     // m
+    int32_t index = 0;
+    uint32_t flowers = 0, open = 0;
+    uint32_t solved = 0;
+    float since = 0;  // s since it was solved
+    uint32_t unused[2] = {0, 0};
+};
+
+struct Crate {
+    uint32_t carried = 0;
+};
+
+// Resources
+struct Player {
+    Character body;
+    float yaw = 0, pitch = 0;    // rad; yaw 0 looks along -Z
+    float eyeHeight = 1.62f;     // m, follows crouching smoothly
+    glm::dvec3 position{0};      // m, of the eyes after the last tick
+    glm::dvec3 before{0};        // and after the one before
+    float verticalFov = 1;       // rad
+    Entity carried;              // a crate in the hands
+    uint32_t buttonsBefore = 0;  // of the last tick
+};
+
+struct Hint {
+    glm::dvec3 position{0};
+    int32_t room = 0;
+    std::string text;
+};
+
+struct Progress {
+    int32_t room = 0;  // the player is in; -1: between rooms
+    uint32_t roomsSolved = 0, rooms = 0;
+    uint32_t flowersOpen = 0, flowers = 0;
+    uint32_t won = 0;  // the last room was reached with all flowers open
 };
 
 struct GameTime {

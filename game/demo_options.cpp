@@ -2,11 +2,35 @@
 
 #include <iostream>
 
+#include "engine/core/log.h"
+#include "engine/scene/gltf_import.h"
+
 namespace ag::game {
+namespace {
+
+constexpr const char* kLevel = AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb";
+
+}  // namespace
 
 int refuse(const std::string& sentence) {
     std::cerr << "afterglow-demo: " << sentence << '\n';
     return 2;
+}
+
+Status loadLevel(Demo& demo) {
+    auto level = importGltf(demo.options.scene.empty() ? kLevel : demo.options.scene);
+    if (!level) return level.error();
+    for (const std::string& warning : level->warnings)
+        spdlog::warn("{}: {}", level->name, warning);
+    demo.game = std::make_unique<Game>(std::move(*level), demo.options.serial ? 1 : 0);
+    return Ok{};
+}
+
+void useQuality(Demo& demo, Quality preset) {
+    applyQuality(preset, demo.gi);
+    demo.gi.composite.exposure = demo.user.exposure;
+    for (const std::string& assignment : demo.options.assignments)
+        if (const Status set = demo.settings.set(assignment); !set) spdlog::warn("{}", set.error().message);
 }
 
 Input nextInput(Demo& demo, uint64_t tick, const Input& given) {

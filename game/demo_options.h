@@ -8,6 +8,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/scene/extract_system.h"
 #include "game/game.h"
+#include "game/user_files.h"
 #include "gi/gi_renderer.h"
 
 namespace ag::game {
@@ -15,10 +16,13 @@ namespace ag::game {
 struct DemoOptions {
     bool headless = false;
     uint32_t frames = 0;  // 0: until closed; headless: as long as the replay
-    std::string replay, record, scene, screenshot, report, view;
+    uint32_t ticksPerFrame = 1;
+    std::string replay, record, scene, screenshot, report, moments, view;
     std::string sizeText = "640x360";
     glm::uvec2 size{640, 360};
     std::vector<std::string> assignments;
+    std::string quality, userFolder;
+    bool resume = false;  // --continue
     bool serial = false;
     bool validate = false;
 };
@@ -30,6 +34,9 @@ struct Demo {
     gi::GiSettings gi;
     FrameGraphOptions graph;
     Settings settings;
+    UserFiles files;
+    UserSettings user;
+    Bindings keys;
     std::vector<Input> replay;  // empty: none
     std::vector<Input> recorded;
     std::optional<gi::Layer> layer;  // shown instead of the final image
@@ -40,6 +47,10 @@ int runHeadless(Demo& demo);
 int runWindowed(Demo& demo);
 int refuse(const std::string& sentence);
 
+// The level anew, from its file.
+Status loadLevel(Demo& demo);
+// The preset's settings with what the command line set over them.
+void useQuality(Demo& demo, Quality preset);
 // The tick's input: from the replay while it lasts, else what is given; kept if a recording was asked for.
 Input nextInput(Demo& demo, uint64_t tick, const Input& given);
 // Saves the recording if one was asked for.

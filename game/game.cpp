@@ -1,63 +1,82 @@
 #include "game/game.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/physics/physics_system.h"
 #include "engine/scene/extract_system.h"
 #include "engine/scene/spawn_scene.h"
 #include "engine/scene/static_scene.h"
+#include "game/furnish_world.h"
 
 namespace ag::game {
 namespace {
 
-// Half the ground a node's mesh covers, before turning.
-glm::vec2 halfGround(const SceneAsset& asset, const SceneNode& node) {
-    Bounds bounds;
-    const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
-    for (uint32_t p = 0; p < mesh.primitiveCount; ++p)
-        bounds.add(asset.geometry.primitives[mesh.firstPrimitive + p].boundsLocal);
-    const glm::vec3 half = (bounds.max - bounds.min) * 0.5f * glm::abs(node.local.scale);
-    return {half.x, half.z};
+// Standing where the camera's eyes are.
+Player playerAt(const CameraPose& start, PhysicsWorld& physics) {
+    Player player{.position = start.position, .before = start.position, .verticalFov = start.verticalFov};
+    player.yaw = std::atan2(start.forward.x, -start.forward.z);
+    player.pitch = std::asin(std::clamp(start.forward.y, -1.0f, 1.0f));
+    player.body.feet = start.position - glm::dvec3(0, double(player.eyeHeight), 0);
+    const CharacterSettings settings;
+    player.body.walker = physics.addWalker({settings.radius, settings.height}, player.body.feet);
+    return player;
 }
 
-void addGameplay(World& world, const SceneAsset& asset, const std::vector<Entity>& entities) {
-    for (size_t i = 0; i < asset.nodes.size(); ++i) {
-        const SceneNode& node = asset.nodes[i];
-        const NodeExtras& extras = node.extras;
-        if (node.name == "hand_lamp") world.add(entities[i], HandLamp{});
-        if (extras.collider && node.mesh >= 0) world.add(entities[i], Collider{halfGround(asset, node)});
-        if (extras.flickerPeriod > 0 && node.light >= 0)
-            world.add(entities[i], Flicker{asset.lights[size_t(node.light)].intensity, extras.flickerDepth,
-                                           extras.flickerPeriod, extras.flickerOff, uint32_t(i)});
+// A level without solid ground of its own gets one under everything.
+void addGround(World& world, const SceneAsset& level) {
+    bool solid = false;
+    for (const SceneNode& node : level.nodes)
+        solid = solid || (node.extras.collider && node.name == "ground");
+    if (solid) return;
+    const Bounds bounds = staticScene(level).bounds;
+    if (bounds.empty()) return;
+    const glm::vec3 middle = (bounds.min + bounds.max) * 0.5f, half = (bounds.max - bounds.min) * 0.5f;
+    const auto wall = [&](glm::vec3 center, glm::vec3 size) {
+        world.create(LocalTransform{.translation = glm::dvec3(center)}, WorldTransform{},
+                     Body{.kind = BodyKind::kStatic, .halfSize = size});
+    };
+    wall({middle.x, bounds.min.y - 0.5f, middle.z}, {half.x + 1, 0.5f, half.z + 1});
+    for (const float side : {-1.0f, 1.0f}) {
+        wall({middle.x + side * (half.x + 0.5f), middle.y, middle.z}, {0.5f, half.y + 2, half.z + 1});
+        wall({middle.x, middle.y, middle.z + side * (half.z + 0.5f)}, {half.x + 1, half.y + 2, 0.5f});
     }
 }
 
 }  // namespace
 
 Game::Game(SceneAsset level, uint32_t threads)
-    : level_(std::move(level)), schedule_(makeSchedule()), runner_(threads) {
-    addGameplay(world_, level_, spawnScene(world_, level_));
+    : level_(std::move(level)), tick_(makeTickSchedule()), frame_(makeFrameSchedule()), runner_(threads) {
     const CameraPose start = cameraOf(level_, 0);
-    Player player{.position = start.position, .verticalFov = start.verticalFov};
-    player.yaw = std::atan2(start.forward.x, -start.forward.z);
-    player.pitch = std::asin(std::clamp(start.forward.y, -1.0f, 1.0f));
-    world_.setResource<Player>(player);
-    const Bounds bounds = staticScene(level_).bounds;
-    world_.setResource<Walkable>(glm::dvec2(bounds.min.x, bounds.min.z),
-                                 glm::dvec2(bounds.max.x, bounds.max.z));
+    setUpPhysics(world_, start.position);
+    hints_ = furnishWorld(world_, level_, spawnScene(world_, level_));
+    addGround(world_, level_);
+    world_.setResource<Player>(playerAt(start, *world_.resource<Physics>().world));
+    world_.setResource<Progress>();
     world_.setResource<GameTime>();
     world_.setResource<Input>();
+    world_.setResource<gi::ProbeReadings>();
     world_.setResource<ActiveCamera>(start);
     world_.setResource<ExtractState>();
     world_.setResource<RenderScene>().geometry = &level_.geometry;
 }
 
-void Game::tick(const Input& input, glm::uvec2 viewSize) {
+void Game::tick(const Input& input) {
     world_.resource<Input>() = input;
-    world_.resource<ActiveCamera>().size = viewSize;
-    schedule_.run(world_, runner_);
+    tick_.run(world_, runner_);
     GameTime& time = world_.resource<GameTime>();
     ++time.tick;
     time.seconds = double(time.tick) * time.step;
+}
+
+void Game::frame(glm::uvec2 viewSize, float share) {
+    world_.resource<ActiveCamera>().size = viewSize;
+    world_.resource<Physics>().share = share;
+    frame_.run(world_, runner_);
+}
+
+void Game::takeReadings(const gi::ProbeReadings& readings) {
+    world_.resource<gi::ProbeReadings>() = readings;
 }
 
 }  // namespace ag::game

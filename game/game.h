@@ -1,4 +1,5 @@
-// A level being played: the world, its schedule, and one tick of time. Knows no window and no device.
+// A level being played: the world, its schedules, one tick of time, one frame of pictures. Knows no window
+// and no device.
 #pragma once
 
 #include <memory>
@@ -9,6 +10,7 @@
 #include "engine/scene/scene_asset.h"
 #include "game/components.h"
 #include "game/schedule.h"
+#include "gi/probes.h"
 
 namespace ag::game {
 
@@ -17,19 +19,28 @@ class Game {
     // `threads` 1: everything in order on the caller; 0: as many as the machine has.
     Game(SceneAsset level, uint32_t threads);
 
-    void tick(const Input& input, glm::uvec2 viewSize);
+    void tick(const Input& input);
+    // `share` of the way from the tick before to the last one: 1 shows the world as it is.
+    void frame(glm::uvec2 viewSize, float share = 1);
+    // What the renderer measured, for the next tick.
+    void takeReadings(const gi::ProbeReadings& readings);
+
     const RenderScene& scene() const { return world_.resource<RenderScene>(); }
     const Player& player() const { return world_.resource<Player>(); }
+    const Progress& progress() const { return world_.resource<Progress>(); }
+    const std::vector<Hint>& hints() const { return hints_; }
     const SceneAsset& level() const { return level_; }
     World& world() { return world_; }
-    Schedule& schedule() { return schedule_; }
+    Schedule& tickSchedule() { return tick_; }
+    Schedule& frameSchedule() { return frame_; }
     uint64_t stateHash() const { return world_.stateHash(); }
 
   private:
     SceneAsset level_;
     World world_;
-    Schedule schedule_;
+    Schedule tick_, frame_;
     JobRunner runner_;
+    std::vector<Hint> hints_;
 };
 
 }  // namespace ag::game

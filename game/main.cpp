@@ -1,16 +1,15 @@
-// The demo: a dark gallery and a lamp in your hand. WASD walk, the mouse looks (held button: it moves the
-// lamp), 1-9 show intermediates, F1 settings, F2 passes, Esc frees the mouse and, again, quits.
+// The demo: a dark gallery, a lamp in your hand, and flowers that open in light that has bounced. Esc is the
+// menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world.
 #include <CLI/CLI.hpp>
 
 #include "engine/core/log.h"
-#include "engine/scene/gltf_import.h"
 #include "game/demo_options.h"
+#include "game/save_game.h"
 
 namespace ag::game {
 namespace {
 
-constexpr const char* kLevel = AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb";
-constexpr const char* kTour = AFTERGLOW_SOURCE_DIR "/game/level/tour.replay";
+constexpr const char* kWalkthrough = AFTERGLOW_SOURCE_DIR "/game/level/walkthrough.replay";
 
 bool parseSize(const std::string& text, glm::uvec2& size) {
     char end = 0;
@@ -28,6 +27,13 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_option("--size", o.sizeText, "pixels, WxH")->capture_default_str();
     program.add_option("--scene", o.scene, "another level, glTF or GLB");
     program.add_option("--screenshot", o.screenshot, "save the last frame as PNG");
+    program.add_option("--moments", o.moments, "save ten moments of a headless run as one PNG");
+    program.add_option("--ticks-per-frame", o.ticksPerFrame, "headless: ticks of 1/60 s for each frame")
+        ->check(CLI::Range(1, 60))
+        ->capture_default_str();
+    program.add_option("--quality", o.quality, "low, medium, high, ultra or auto");
+    program.add_option("--user", o.userFolder, "folder of the save, the keys and the settings");
+    program.add_flag("--continue", o.resume, "go on with the saved game");
     program.add_option("--report", o.report, "save a report of the passes and times");
     program.add_option("--view", o.view, "show this intermediate instead of the final image");
     program.add_option("--set", o.assignments, "group.name=value")
@@ -37,12 +43,48 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_flag("--validate", o.validate, "with Vulkan validation; any message exits with 1");
 }
 
+// A file that is there must be good; one that is not is no fault.
+template <class T>
+Status loadIfThere(const std::string& path, Result<T> (*load)(const std::string&), T& into) {
+    if (!fileExists(path)) return Ok{};
+    auto loaded = load(path);
+    if (!loaded) return loaded.error();
+    into = *loaded;
+    return Ok{};
+}
+
+Status readUserFiles(Demo& demo) {
+    const DemoOptions& o = demo.options;
+    demo.files.folder = o.userFolder.empty() ? defaultUserFolder() : o.userFolder;
+    // Nobody's wishes change what a run without a window shows.
+    if (!o.headless || !o.userFolder.empty()) {
+        if (Status s = loadIfThere(demo.files.keys(), loadBindings, demo.keys); !s) return s;
+        if (Status s = loadIfThere(demo.files.settings(), loadUserSettings, demo.user); !s) return s;
+    }
+    if (o.quality.empty()) return Ok{};
+    const auto quality = qualityFromName(o.quality);
+    if (!quality) return Error{"a quality is low, medium, high, ultra or auto, not '" + o.quality + "'"};
+    demo.user.quality = *quality;
+    return Ok{};
+}
+
+Status readReplay(Demo& demo) {
+    const DemoOptions& o = demo.options;
+    const std::string replay = !o.replay.empty()                            ? o.replay
+                               : o.headless && o.scene.empty() && !o.resume ? kWalkthrough
+                                                                            : "";
+    if (replay.empty()) return Ok{};
+    auto ticks = loadReplay(replay);
+    if (!ticks) return ticks.error();
+    demo.replay = std::move(*ticks);
+    return Ok{};
+}
+
 // Everything checked before a device or a window is opened; the sentence that refuses it, if any.
 Status prepare(Demo& demo) {
     const DemoOptions& o = demo.options;
     demo.settings.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
                       &demo.graph.skip);
-    demo.gi.composite.exposure = 1.0f;  // eyes used to the dark
     gi::registerSettings(demo.settings, demo.gi);
     for (const std::string& assignment : o.assignments)
         if (Status set = demo.settings.set(assignment); !set) return set;
@@ -52,18 +94,12 @@ Status prepare(Demo& demo) {
         demo.layer = gi::layerFromName(o.view);
         if (!demo.layer) return Error{"there is no intermediate named '" + o.view + "'"};
     }
-    const std::string replay = !o.replay.empty() ? o.replay : o.headless && o.scene.empty() ? kTour : "";
-    if (!replay.empty()) {
-        auto ticks = loadReplay(replay);
-        if (!ticks) return ticks.error();
-        demo.replay = std::move(*ticks);
-    }
-    auto level = importGltf(o.scene.empty() ? kLevel : o.scene);
-    if (!level) return level.error();
-    for (const std::string& warning : level->warnings)
-        spdlog::warn("{}: {}", level->name, warning);
-    demo.game = std::make_unique<Game>(std::move(*level), o.serial ? 1 : 0);
-    return Ok{};
+    if (o.resume && !o.record.empty()) return Error{"a recording starts with the level, not with --continue"};
+    if (Status s = readUserFiles(demo); !s) return s;
+    if (Status s = readReplay(demo); !s) return s;
+    useQuality(demo, demo.user.quality == Quality::kAutomatic ? Quality::kLow : demo.user.quality);
+    if (Status s = loadLevel(demo); !s) return s;
+    return o.resume ? continueGame(*demo.game, demo.files.save()) : Status(Ok{});
 }
 
 int run(int argc, char** argv) {

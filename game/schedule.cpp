@@ -1,29 +1,53 @@
-// What the CPU does each tick, in order. A system's parameters say what it touches; the schedule finds what
-// may overlap.
+// What the CPU does, in order. A system's parameters say what it touches; the schedule finds what may
+// overlap.
 #include "game/schedule.h"
 
-#include "engine/scene/extract_system.h"
 #include "engine/scene/transform_system.h"
+#include "game/systems/carry_crates.h"
 #include "game/systems/flicker_lamps.h"
+#include "game/systems/grow_flowers.h"
+#include "game/systems/judge_rooms.h"
 #include "game/systems/move_boxes.h"
 #include "game/systems/walk_player.h"
+#include "gi/gi_systems.h"
 
 namespace ag::game {
 
-Schedule makeSchedule() {
+Schedule makeTickSchedule() {
     Schedule s;
+    // What the light of the frame before last says
+    s.add("readProbes", gi::readProbes);
+    s.add("growFlowers", growFlowers);
+    s.add("judgeRooms", judgeRooms);
+    s.add("wakeLanterns", wakeLanterns);
+    s.add("lightFlames", lightFlames);
+    s.add("openPetals", openPetals);
+
     // The world moves
-    s.add("moveBoxes", moveBoxes);
     s.add("flickerLamps", flickerLamps);
+    s.add("moveBoxes", moveBoxes);
+    s.add("openDoors", openDoors);
+    s.add("makeBodies", makeBodies);
+    s.add("keepPendulums", keepPendulums);
     s.add("walkPlayer", walkPlayer);
+    s.add("carryCrates", carryCrates);
+    s.add("stepPhysics", stepPhysics);
     s.add("aimLamp", aimLamp);
-    s.add("followPlayer", followPlayer);
     s.flush();
+    return s;
+}
+
+Schedule makeFrameSchedule() {
+    Schedule s;
+    // Between the ticks
+    s.add("placeBodies", placeBodies);
+    s.add("followPlayer", followPlayer);
 
     // The renderer's view of it
     s.add("updateRootTransforms", updateRootTransforms);
     s.add("updateChildTransforms", updateChildTransforms);
     s.add("extractScene", extractScene);
+    s.add("extractProbes", gi::extractProbes);
     return s;
 }
 

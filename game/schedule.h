@@ -4,7 +4,8 @@
 
 namespace ag::game {
 
-// What the CPU does each tick.
-Schedule makeSchedule();
+// What the CPU does each tick of 1/60 s, and each frame, which may lie between two ticks.
+Schedule makeTickSchedule();
+Schedule makeFrameSchedule();
 
 }  // namespace ag::game

@@ -1,8 +1,9 @@
-// The demo in a window: fixed ticks, frames as fast as they come, debug panels.
+// The demo in a window: fixed ticks, frames as fast as they come, the menu, the HUD and the debug panels.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -11,120 +12,234 @@
 #include "engine/app/imgui_pass.h"
 #include "engine/app/window.h"
 #include "engine/core/image.h"
-#include "engine/gpu/barrier.h"
+#include "engine/core/log.h"
+#include "engine/core/safe_file.h"
 #include "engine/scene/describe_components.h"
 #include "game/demo_options.h"
+#include "game/hud.h"
+#include "game/menu.h"
+#include "game/present.h"
+#include "game/save_game.h"
 
 namespace ag::game {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostTicksPerFrame = 5;         // a slow frame slows the world rather than piling up
+constexpr double kTick = 1.0 / 60;            // s
+constexpr int kMostTicksPerFrame = 12;        // a slower frame slows the world rather than piling up
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
+constexpr double kSaveSeconds = 60;           // between saves without an occasion
 
 // Keys 1 to 9.
 constexpr std::array<gi::Layer, 9> kKeyLayers = {
     gi::Layer::kFinal,  gi::Layer::kDirect, gi::Layer::kBounce1,  gi::Layer::kIrradiance, gi::Layer::kAlbedo,
     gi::Layer::kNormal, gi::Layer::kRsm,    gi::Layer::kClusters, gi::Layer::kVals};
 
-void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    gpu::transitionImage(commands, image, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}, from, to);
-}
-
-void blit(VkCommandBuffer commands, const gpu::Image& from, VkImage to, glm::uvec2 size) {
-    VkImageBlit region{.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                       .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}};
-    region.srcOffsets[1] = {int32_t(from.desc().size.x), int32_t(from.desc().size.y), 1};
-    region.dstOffsets[1] = {int32_t(size.x), int32_t(size.y), 1};
-    vkCmdBlitImage(commands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
-}
-
-struct Controls {
-    DebugUiState panels;
-    bool quit = false;
-};
-
-void handleKeys(Window& window, Demo& demo, Controls& controls) {
-    for (const int key : window.takePressedKeys()) {
-        if (key == GLFW_KEY_ESCAPE && !window.cursorCaptured()) controls.quit = true;
-        if (key == GLFW_KEY_ESCAPE) window.captureCursor(false);
-        if (key == GLFW_KEY_F1) controls.panels.showSettings = !controls.panels.showSettings;
-        if (key == GLFW_KEY_F2) controls.panels.showPasses = !controls.panels.showPasses;
-        if (key == GLFW_KEY_F3) controls.panels.showWorld = !controls.panels.showWorld;
-        if (key == GLFW_KEY_TAB) window.captureCursor(!window.cursorCaptured());
-        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
-            const gi::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
-            demo.layer = layer == gi::Layer::kFinal ? std::nullopt : std::optional(layer);
-        }
-    }
-}
-
-std::string statusLine(const Demo& demo, double frameMs) {
-    const Player& player = demo.game->player();
-    return fmt::format(
-        "{:.1f} ms  {:.1f}/s  at {:.2f} {:.2f}\n{}WASD walk, mouse look, hold: lamp, 1-9 views, Tab mouse, "
-        "F1 settings, F2 passes, F3 world",
-        frameMs, 1000 / std::max(frameMs, 1e-3), player.position.x, player.position.z,
-        demo.layer ? std::string(gi::layerName(*demo.layer)) + "\n" : "");
-}
-
 class WindowedRun {
   public:
     WindowedRun(Demo& demo, Window& window, gpu::Device& device)
         : demo_(demo),
           window_(window),
+          device_(device),
           swapchain_(device, window.framebufferSize()),
           renderer_(device),
           ui_(window.handle()),
-          imgui_(device, renderer_.pipelines()) {
+          imgui_(device, renderer_.pipelines()),
+          auto_(device.info().isCpu) {
         renderer_.load(demo.game->level().geometry);
         describeSceneComponents();
+        menu_.hasSave = fileExists(demo.files.save());
+        if (!demo.replay.empty() || demo.options.resume) play();
+        usePlayerSettings();
     }
 
     int loop() {
-        window_.captureCursor(true);
         auto last = Clock::now();
-        double behind = 0, smoothMs = 16;
-        for (uint64_t frame = 0; !window_.wantsToClose() && !controls_.quit; ++frame) {
+        for (uint64_t frame = 0; !window_.wantsToClose() && !quit_; ++frame) {
             window_.poll();
-            handleKeys(window_, demo_, controls_);
+            handleKeys();
+            if (window_.takeFocusLost()) openMenu();
             const auto now = Clock::now();
             const double elapsed = std::chrono::duration<double>(now - last).count();
             last = now;
-            smoothMs += (elapsed * 1e3 - smoothMs) * 0.05;
-            behind = std::min(behind + elapsed, kMostTicksPerFrame * kTick);
-            const Input held = window_.takeInput();
-            turned_ += held.look;
-            for (; behind >= kTick || ticks_ == 0; behind -= kTick) {
-                Input input = held;
-                input.look =
-                    std::exchange(turned_, glm::vec2(0));  // mouse movement counts once, and is never lost
-                demo_.game->tick(nextInput(demo_, ticks_++, input), renderSize());
-            }
-            if (!show(smoothMs)) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            frameMs_ += (elapsed * 1e3 - frameMs_) * 0.05;
+            advance(elapsed);
+            if (show())
+                adapt(elapsed);
+            else
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
             if (demo_.options.frames && frame + 1 >= demo_.options.frames) break;
             std::this_thread::sleep_until(now + std::chrono::duration_cast<Clock::duration>(
                                                     std::chrono::duration<double>(kShortestFrame)));
         }
         renderer_.waitIdle();
+        autosave();
         return saveScreenshot();
     }
 
   private:
-    static constexpr double kTick = 1.0 / 60;  // s
+    // --- The menu and the keys ---
+    void play() {
+        menu_.open = false;
+        menu_.started = true;
+        window_.captureCursor(true);
+    }
+    void openMenu() {
+        if (menu_.open) return;
+        menu_ = {.open = true, .started = menu_.started, .hasSave = menu_.hasSave};
+        window_.captureCursor(false);
+        autosave();
+    }
+    void handleKeys() {
+        obey(std::exchange(chosen_, MenuEvent::kNone));
+        for (const int key : window_.takePressedKeys()) {
+            if (menu_.open) {
+                // The mouse chooses by clicking; as a key it only counts where one is asked for.
+                if (key < kMouseCode || menu_.waitsForKey)
+                    obey(pressInMenu(menu_, key, demo_.user, demo_.keys));
+            } else if (key == GLFW_KEY_ESCAPE) {
+                openMenu();
+            }
+            debugKey(key);
+        }
+    }
+    void debugKey(int key) {
+        if (key == GLFW_KEY_F1) panels_.showSettings = !panels_.showSettings;
+        if (key == GLFW_KEY_F2) panels_.showPasses = !panels_.showPasses;
+        if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
+        if (key == GLFW_KEY_F4) panels_.showWorld = !panels_.showWorld;
+        if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
+        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey) {
+            const gi::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
+            demo_.layer = layer == gi::Layer::kFinal ? std::nullopt : std::optional(layer);
+        }
+    }
+    void obey(MenuEvent event) {
+        switch (event) {
+            case MenuEvent::kPlay:
+                play();
+                break;
+            case MenuEvent::kQuit:
+                quit_ = true;
+                break;
+            case MenuEvent::kNewGame:
+                startAnew();
+                break;
+            case MenuEvent::kContinue:
+                continueSaved();
+                break;
+            case MenuEvent::kSettingsChanged:
+                usePlayerSettings();
+                report(saveUserSettings(demo_.user, demo_.files.settings()));
+                break;
+            case MenuEvent::kKeysChanged:
+                report(saveBindings(demo_.keys, demo_.files.keys()));
+                break;
+            case MenuEvent::kNone:
+                break;
+        }
+    }
+    void report(const Status& status) {
+        if (!status) menu_.message = status.error().message;
+    }
 
-    glm::uvec2 renderSize() const { return glm::max(window_.framebufferSize(), glm::uvec2(1)); }
+    // --- The game ---
+    bool reload() {
+        renderer_.waitIdle();
+        if (const Status loaded = loadLevel(demo_); !loaded) {
+            menu_.message = loaded.error().message;
+            return false;
+        }
+        renderer_.load(demo_.game->level().geometry);
+        demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
+        demo_.recorded.clear();
+        ticks_ = 0;
+        behind_ = 0;
+        solved_ = 0;
+        return true;
+    }
+    void startAnew() {
+        if ((menu_.started || ticks_ > 0) && !reload()) return;
+        play();
+    }
+    // A save that cannot be read stays where it is, and so does the game under way.
+    void continueSaved() {
+        const auto text = readFile(demo_.files.save());
+        if (!text) return report(text.error());
+        const Status good = checkSave(*demo_.game, *text, demo_.files.save());
+        if (!good || !reload()) return report(good);
+        report(restoreGame(*demo_.game, *text, demo_.files.save()));
+        if (!demo_.options.record.empty()) {
+            spdlog::warn("a recording starts with the level: this one ends here");
+            demo_.options.record.clear();
+        }
+        solved_ = demo_.game->progress().roomsSolved;
+        play();
+    }
+    void autosave() {
+        sinceSave_ = 0;
+        if (!menu_.started || !demo_.options.scene.empty() || !demo_.replay.empty()) return;
+        if (!keepBrokenSave()) return;
+        const Status saved = saveGame(*demo_.game, demo_.files.save());
+        if (!saved) spdlog::warn("{}", saved.error().message);
+        menu_.hasSave = menu_.hasSave || saved;
+    }
+    // What is there and no save of this level is put aside, not written over.
+    bool keepBrokenSave() {
+        if (checkedSave_ || !fileExists(demo_.files.save())) return true;
+        checkedSave_ = true;
+        const Status moved = putBrokenSaveAside(*demo_.game, demo_.files.save());
+        if (!moved) spdlog::warn("{}", moved.error().message);
+        return bool(moved);
+    }
+    void advance(double elapsed) {
+        const Input held = takeInput(elapsed);
+        if (menu_.open) {
+            behind_ = 0;
+            return;
+        }
+        behind_ = std::min(behind_ + elapsed, kMostTicksPerFrame * kTick);
+        turned_ += held.look;
+        for (; behind_ >= kTick || ticks_ == 0; behind_ = std::max(behind_ - kTick, 0.0)) {
+            Input input = held;
+            input.look =
+                std::exchange(turned_, glm::vec2(0));  // mouse movement counts once, and is never lost
+            demo_.game->tick(nextInput(demo_, ticks_++, input));
+        }
+        sinceSave_ += elapsed;
+        const uint32_t solved = demo_.game->progress().roomsSolved;
+        if (solved != std::exchange(solved_, solved) || sinceSave_ > kSaveSeconds) autosave();
+    }
+    Input takeInput(double elapsed) {
+        Input input = window_.takeInput(demo_.keys, elapsed);
+        input.look *= demo_.user.sensitivity;
+        if (demo_.user.invertLook) input.look.y = -input.look.y;
+        return input;
+    }
 
+    // --- The picture ---
+    void usePlayerSettings() {
+        const bool automatic = demo_.user.quality == Quality::kAutomatic;
+        const Rung rung = automatic ? auto_.current() : rungOf(demo_.user.quality);
+        scale_ = rung.scale;
+        useQuality(demo_, rung.preset);
+        demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
+    }
+    void adapt(double elapsed) {
+        if (demo_.user.quality == Quality::kAutomatic && !menu_.open && auto_.step(elapsed * 1e3))
+            usePlayerSettings();
+    }
+    glm::uvec2 renderSize() const {
+        return glm::max(glm::uvec2(glm::vec2(window_.framebufferSize()) * scale_), glm::uvec2(16));
+    }
     // False while there is nothing to show on (minimised).
-    bool show(double frameMs) {
+    bool show() {
         const auto image = swapchain_.acquire(window_.framebufferSize());
         if (!image) return false;
-        ui_.build(controls_.panels, demo_.settings, renderer_.graph(), demo_.game->world(),
-                  statusLine(demo_, frameMs));
-        // The window may have changed since the tick: the image is scaled onto it for that one frame.
-        const glm::uvec2 size = demo_.game->world().resource<ActiveCamera>().size;
+        const glm::uvec2 size = renderSize();
+        demo_.game->frame(size, menu_.open ? 1.0f : float(behind_ / kTick));
+        drawUi();
         renderer_.render(
             demo_.game->scene(), size, demo_.gi, demo_.graph,
             [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
@@ -133,21 +248,44 @@ class WindowedRun {
                              : frame.outputs.display;
                 graph.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
             },
-            [&](VkCommandBuffer commands) { present(commands, *image); }, {image->acquired, image->rendered});
+            [&](VkCommandBuffer commands) {
+                presentImage(commands, renderer_.graph().physical(shown_), *image, swapchain_.size(), [&] {
+                    imgui_.draw(commands, image->view, swapchain_.format(), swapchain_.size(),
+                                uint32_t(drawn_++ % 2));
+                });
+            },
+            {image->acquired, image->rendered});
+        demo_.game->takeReadings(renderer_.probeReadings());
         swapchain_.present(*image);
         return true;
     }
-
-    void present(VkCommandBuffer commands, const gpu::SwapchainImage& target) {
-        transition(commands, target.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        blit(commands, renderer_.graph().physical(shown_), target.image, swapchain_.size());
-        transition(commands, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                   VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-        imgui_.draw(commands, target.view, swapchain_.format(), swapchain_.size(), uint32_t(drawn_++ % 2));
-        transition(commands, target.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                   VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    void drawUi() {
+        MenuEvent event = MenuEvent::kNone;
+        const RenderScene& scene = demo_.game->scene();
+        ui_.build(panels_, demo_.settings, renderer_.graph(), demo_.game->world(), statusLine(), [&] {
+            if (!menu_.open)
+                drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
+                        glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
+            if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, keysLine());
+        });
+        chosen_ = event;  // obeyed before the next frame: this one is under way
     }
-
+    std::string keysLine() const {
+        const auto key = [&](Action a) { return codeName(demo_.keys.codes[size_t(a)]); };
+        return fmt::format(
+            "{}{}{}{} walk, mouse looks, {} turns the lamp,\n{} jump, {} crouch, {} pick up and put down",
+            key(Action::kForward), key(Action::kLeft), key(Action::kBack), key(Action::kRight),
+            key(Action::kLamp), key(Action::kJump), key(Action::kCrouch), key(Action::kUse));
+    }
+    std::string statusLine() const {
+        const glm::uvec2 size = renderSize();
+        const glm::dvec3 at = demo_.game->player().position;
+        return fmt::format("{:.1f} ms  {:.1f}/s  {}x{} {}  at {:.2f} {:.2f}{}", frameMs_,
+                           1000 / std::max(frameMs_, 1e-3), size.x, size.y,
+                           qualityName(demo_.user.quality == Quality::kAutomatic ? auto_.current().preset
+                                                                                 : demo_.user.quality),
+                           at.x, at.z, demo_.layer ? fmt::format("\n{}", gi::layerName(*demo_.layer)) : "");
+    }
     int saveScreenshot() {
         if (demo_.options.screenshot.empty() || !shown_) return 0;
         const Status saved = saveImage(gi::readImage(renderer_, shown_), demo_.options.screenshot);
@@ -156,19 +294,28 @@ class WindowedRun {
 
     Demo& demo_;
     Window& window_;
+    gpu::Device& device_;
     gpu::Swapchain swapchain_;
     gi::GiRenderer renderer_;
     DebugUi ui_;
     ImGuiPass imgui_;
-    Controls controls_;
+    AutoQuality auto_;
+    DebugUiState panels_;
+    Menu menu_;
+    MenuEvent chosen_ = MenuEvent::kNone;
     ImageHandle shown_;
     glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels
+    float scale_ = 1;      // of the window's sides that is rendered
+    double behind_ = 0, frameMs_ = 16, sinceSave_ = 0;
+    uint32_t solved_ = 0;
+    bool quit_ = false, checkedSave_ = false;
     uint64_t ticks_ = 0, drawn_ = 0;
 };
 
 }  // namespace
 
 int runWindowed(Demo& demo) {
+    if (const Status folder = openFolder(demo.files); !folder) return refuse(folder.error().message);
     auto window = Window::open("Afterglow", demo.options.size);
     if (!window) return refuse(window.error().message + "; try --headless");
     auto device = gpu::Device::create({.validation = demo.options.validate, .window = (*window)->handle()});

@@ -6,6 +6,7 @@
 #include "gi/direct_lighting.h"
 #include "gi/gi_settings.h"
 #include "gi/lamp_lighting.h"
+#include "gi/probes.h"
 #include "gi/texel_shading.h"
 #include "gi/val_fit.h"
 #include "gi/vpl_sampling.h"
@@ -21,6 +22,7 @@ struct GiHistory {
     LampShadowHistory lampShadows;
     LampListsHistory lampLists;
     LampRelevance lampRelevance;
+    ProbeReadings probes;
 };
 
 // Everything the frame made: for composition, debug views, tests and captures.

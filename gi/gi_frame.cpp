@@ -14,7 +14,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
 
     // First bounce: where light lands, as few lights
     f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count);
-    f.importance = addImportance(graph, scene, f.rsm, f.viewPoints, s.importance);
+    f.importance = addImportance(graph, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
                                   h.valClustering);
     f.vals = s.firstBounce == FirstBounce::kPointLights
@@ -48,6 +48,9 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.lampLists = addLampLists(graph, scene, f.gbuffer, lamps, s.lampLighting.tiles, h.lampLists);
     f.direct = addLampLighting(graph, scene, f.gbuffer, f.lampLists, f.lampShadows, f.direct, s.lampLighting);
     if (s.lightClusters.strongFirst) addLampRelevance(graph, f.viewPoints, f.lampLists, h.lampRelevance);
+
+    // To the rules of a game
+    addProbes(graph, scene, f.rsm, f.vals, f.isms, s.probes, h.probes);
 
     // To the eye
     f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);

@@ -31,6 +31,8 @@ void GiRenderer::load(const GeometryArrays& geometry) {
     graph_.resetHistory("val_clustering.clusters");
     for (const std::string_view copy : kLampRelevanceCopies)  // of lamps that are gone
         graph_.resetHistory(copy);
+    for (const std::string_view copy : kProbeCopies)
+        graph_.resetHistory(copy);
     history_ = {};
 }
 

@@ -39,6 +39,8 @@ class GiRenderer {
                 FrameSemaphores semaphores = {});
     void waitIdle() { device_.waitIdle(); }
 
+    // Of the scene's probes, kFramesInFlight frames ago.
+    const ProbeReadings& probeReadings() const { return history_.probes; }
     FrameGraph& graph() { return graph_; }
     SceneGpu& scene() { return scene_; }
     gpu::Device& device() { return device_; }

@@ -296,6 +296,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"lamp_shadows", "soft_taps", 0, 64, "taps",
            "of a disk as large as a cluster, for its shadow; 0: from its centre"},
           &gi.lampShadows.softTaps);
+    s.add({"probes", "taps", 1, 32, "", "of area lights' soft shadows at probes"}, &gi.probes.taps);
     s.add({"lamp_lighting", "tiles", 0, 0, "", "pixels meet only lamps that reach their tile"},
           &gi.lampLighting.tiles);
     s.add({"lamp_lighting", "shadow_reach", 0, 100, "",

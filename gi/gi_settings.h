@@ -10,6 +10,7 @@
 #include "gi/importance.h"
 #include "gi/ism_atlas.h"
 #include "gi/lamp_lighting.h"
+#include "gi/probes.h"
 #include "gi/rsm.h"
 #include "gi/shadow_maps.h"
 #include "gi/stochastic_rsm.h"
@@ -44,6 +45,7 @@ struct GiSettings {
     LightClusterSettings lightClusters;
     LampShadowSettings lampShadows;
     LampLightingSettings lampLighting;
+    ProbeSettings probes;
     CompositeSettings composite;
 };
 

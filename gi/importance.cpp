@@ -13,8 +13,8 @@ uint32_t pyramidNodes(uint32_t largestFace) {
 
 }  // namespace
 
-Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm,
-                         BufferHandle viewPoints, const ImportanceSettings& settings) {
+Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle viewPoints,
+                         const ImportanceSettings& settings) {
     if (rsm.empty()) return {};
     Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace), .viewWeight = settings.viewWeight};
     const io::ImportanceSettings push{.atlasSize = rsm.atlas.size,

@@ -21,7 +21,7 @@ struct Importance {
     bool viewDependent() const { return viewWeight > 0; }
 };
 
-Importance addImportance(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm,
-                         BufferHandle viewPoints, const ImportanceSettings& settings);
+Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle viewPoints,
+                         const ImportanceSettings& settings);
 
 }  // namespace ag::gi

@@ -67,6 +67,16 @@ void passPanel(const FrameGraph& graph) {
     ImGui::End();
 }
 
+void statusPanel(const std::string& status) {
+    ImGui::SetNextWindowPos({8, 8});
+    ImGui::SetNextWindowBgAlpha(0.4f);
+    ImGui::Begin("status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::TextUnformatted(status.c_str());
+    ImGui::End();
+}
+
 }  // namespace
 
 DebugUi::DebugUi(GLFWwindow* window) {
@@ -81,16 +91,11 @@ DebugUi::~DebugUi() {
 }
 
 void DebugUi::build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
-                    const World& world, const std::string& status) {
+                    const World& world, const std::string& status, FunctionRef<void()> game) {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
-    ImGui::SetNextWindowPos({8, 8});
-    ImGui::SetNextWindowBgAlpha(0.4f);
-    ImGui::Begin("status", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::TextUnformatted(status.c_str());
-    ImGui::End();
+    game();
+    if (state.showStatus) statusPanel(status);
     if (state.showSettings) settingsPanel(settings);
     if (state.showPasses) passPanel(graph);
     if (state.showWorld) inspector_.build(world);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/app/inspector.h"
+#include "engine/core/function_ref.h"
 #include "engine/core/settings.h"
 #include "engine/frame/frame_graph.h"
 
@@ -13,7 +14,8 @@ namespace ag {
 struct DebugUiState {
     bool showSettings = false;  // F1
     bool showPasses = false;    // F2
-    bool showWorld = false;     // F3
+    bool showStatus = false;    // F3
+    bool showWorld = false;     // F4
 };
 
 // ImGui's context with GLFW's events; one at a time.
@@ -24,9 +26,9 @@ class DebugUi {
     DebugUi(const DebugUi&) = delete;
     DebugUi& operator=(const DebugUi&) = delete;
 
-    // Builds this frame's panels; their draw data is ready when it returns.
+    // Builds this frame's panels and what `game` adds; their draw data is ready when it returns.
     void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
-               const std::string& status);
+               const std::string& status, FunctionRef<void()> game);
 
   private:
     Inspector inspector_;

@@ -3,31 +3,37 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
+
+#include "engine/core/safe_file.h"
 
 namespace ag {
 namespace {
 
-constexpr const char* kHeader = "afterglow replay 1";
+constexpr const char* kHeader = "afterglow replay 2";
 constexpr size_t kMostTicks = 10'000'000;
+
+bool same(const Input& a, const Input& b) {
+    return a.forward == b.forward && a.right == b.right && a.look == b.look && a.buttons == b.buttons;
+}
+
+bool sane(const Input& i) {
+    return std::abs(i.forward) <= 1 && std::abs(i.right) <= 1 && std::abs(i.look.x) < 1e5f &&
+           std::abs(i.look.y) < 1e5f && i.buttons <= kAllButtons;
+}
 
 }  // namespace
 
 Status saveReplay(const std::vector<Input>& ticks, const std::string& path) {
-    const std::string temporary = path + ".part";
-    {
-        std::ofstream out(temporary);
-        out << kHeader << '\n';
-        for (const Input& i : ticks)
-            out << fmt::format("{} {} {} {} {}\n", i.forward, i.right, i.look.x, i.look.y, i.lampFree);
-        out.flush();
-        if (!out) return Error{path + ": the replay cannot be written"};
+    std::string text = std::string(kHeader) + '\n';
+    for (size_t i = 0, end = 0; i < ticks.size(); i = end) {
+        for (end = i + 1; end < ticks.size() && same(ticks[i], ticks[end]);)
+            ++end;
+        const Input& t = ticks[i];
+        text +=
+            fmt::format("{} {} {} {} {} {}\n", end - i, t.forward, t.right, t.look.x, t.look.y, t.buttons);
     }
-    std::error_code error;
-    std::filesystem::rename(temporary, path, error);
-    if (error) return Error{fmt::format("{}: {}", path, error.message())};
-    return Ok{};
+    return writeFileSafely(path, text + fmt::format("end {}\n", ticks.size()));
 }
 
 Result<std::vector<Input>> loadReplay(const std::string& path) {
@@ -37,16 +43,24 @@ Result<std::vector<Input>> loadReplay(const std::string& path) {
     if (!std::getline(in, line) || line != kHeader)
         return Error{path + ": it is not a replay of this version"};
     std::vector<Input> ticks;
-    Input i;
-    while (in >> i.forward >> i.right >> i.look.x >> i.look.y >> i.lampFree) {
-        const bool sane = std::abs(i.forward) <= 1 && std::abs(i.right) <= 1 && std::abs(i.look.x) < 1e5f &&
-                          std::abs(i.look.y) < 1e5f && i.lampFree <= 1;
-        if (!sane) return Error{fmt::format("{}: tick {} is out of range", path, ticks.size())};
-        ticks.push_back(i);
-        if (ticks.size() > kMostTicks) return Error{path + ": the replay is longer than the limit"};
+    for (size_t number = 2; std::getline(in, line); ++number) {
+        size_t count = 0, total = 0;
+        int used = 0;
+        Input i;
+        if (std::sscanf(line.c_str(), "end %zu%n", &total, &used) == 1 && size_t(used) == line.size()) {
+            if (total == ticks.size()) return ticks;
+            return Error{
+                fmt::format("{}: {} ticks are missing", path, int64_t(total) - int64_t(ticks.size()))};
+        }
+        if (std::sscanf(line.c_str(), "%zu %f %f %f %f %u%n", &count, &i.forward, &i.right, &i.look.x,
+                        &i.look.y, &i.buttons, &used) != 6 ||
+            size_t(used) != line.size())
+            return Error{fmt::format("{}: line {} is not a tick", path, number)};
+        if (!sane(i) || count == 0) return Error{fmt::format("{}: line {} is out of range", path, number)};
+        if (count > kMostTicks - ticks.size()) return Error{path + ": the replay is longer than the limit"};
+        ticks.insert(ticks.end(), count, i);
     }
-    if (!in.eof()) return Error{fmt::format("{}: line {} is not a tick", path, ticks.size() + 2)};
-    return ticks;
+    return Error{path + ": the replay ends before its last line"};
 }
 
 }  // namespace ag

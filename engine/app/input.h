@@ -10,13 +10,22 @@
 
 namespace ag {
 
+enum Button : uint32_t {  // bits of Input::buttons
+    kButtonLamp = 1,      // the mouse moves the lamp, not the head
+    kButtonJump = 2,
+    kButtonCrouch = 4,
+    kButtonUse = 8,  // picks up, puts down
+    kAllButtons = 15,
+};
+
 struct Input {
     float forward = 0, right = 0;  // -1..1
     glm::vec2 look{0};             // mouse movement in pixels: right, down
-    uint32_t lampFree = 0;         // 1: the mouse moves the lamp, not the head
+    uint32_t buttons = 0;          // held down
 };
 
-// One line a tick after a header; a broken file is refused with a sentence.
+// One line a tick after a header; equal ticks are one line with their number. A broken file is refused with a
+// sentence.
 Status saveReplay(const std::vector<Input>& ticks, const std::string& path);
 Result<std::vector<Input>> loadReplay(const std::string& path);
 

@@ -3,6 +3,10 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 namespace ag {
 namespace {
 
@@ -16,6 +20,28 @@ std::string lastError() {
     return text ? text : "unknown reason";
 }
 
+float stick(float value) {
+    constexpr float kDeadZone = 0.18f;
+    return std::abs(value) < kDeadZone ? 0 : value;
+}
+
+// The first gamepad, if it is one of those GLFW knows.
+void addPad(Input& input, double seconds) {
+    constexpr float kLookSpeed = 750;  // pixels a second at full tilt
+    GLFWgamepadstate pad;
+    if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &pad)) return;
+    input.forward = std::clamp(input.forward - stick(pad.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]), -1.0f, 1.0f);
+    input.right = std::clamp(input.right + stick(pad.axes[GLFW_GAMEPAD_AXIS_LEFT_X]), -1.0f, 1.0f);
+    input.look +=
+        glm::vec2(stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]), stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y])) *
+        (kLookSpeed * float(seconds));
+    for (const auto& [button, bit] : {std::pair(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, kButtonLamp),
+                                      {GLFW_GAMEPAD_BUTTON_A, kButtonJump},
+                                      {GLFW_GAMEPAD_BUTTON_B, kButtonCrouch},
+                                      {GLFW_GAMEPAD_BUTTON_X, kButtonUse}})
+        if (pad.buttons[button]) input.buttons |= bit;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Window>> Window::open(const std::string& title, glm::uvec2 size) {
@@ -24,6 +50,9 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, glm::uvec
     std::unique_ptr<Window> window(new Window);
     window->window_ = glfwCreateWindow(int(size.x), int(size.y), title.c_str(), nullptr, nullptr);
     if (!window->window_) return Error{"no window can be opened: " + lastError()};
+    // A tap shorter than a frame counts all the same.
+    glfwSetInputMode(window->window_, GLFW_STICKY_KEYS, GLFW_TRUE);
+    glfwSetInputMode(window->window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     glfwSetWindowUserPointer(window->window_, window.get());
     window->installCallbacks();
     return window;
@@ -32,6 +61,12 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, glm::uvec
 void Window::installCallbacks() {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
         if (action == GLFW_PRESS) self(w).pressed_.push_back(key);
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+        if (action == GLFW_PRESS) self(w).pressed_.push_back(kMouseCode + button);
+    });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+        if (!focused) self(w).focusLost_ = true;
     });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         Window& window = self(w);
@@ -61,19 +96,44 @@ glm::uvec2 Window::framebufferSize() const {
 
 void Window::poll() {
     glfwPollEvents();
+    notePadPresses();
 }
 
-Input Window::takeInput() {
+Input Window::takeInput(const Bindings& bindings, double seconds) {
     Input input;
-    const auto held = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS ? 1.0f : 0.0f; };
+    const auto held = [&](Action action) {
+        const int code = bindings.codes[size_t(action)];
+        return (code >= kMouseCode ? glfwGetMouseButton(window_, code - kMouseCode)
+                                   : glfwGetKey(window_, code)) == GLFW_PRESS;
+    };
     if (captured_) {
-        input.forward = held(GLFW_KEY_W) - held(GLFW_KEY_S);
-        input.right = held(GLFW_KEY_D) - held(GLFW_KEY_A);
+        input.forward = float(held(Action::kForward)) - float(held(Action::kBack));
+        input.right = float(held(Action::kRight)) - float(held(Action::kLeft));
         input.look = moved_;
-        input.lampFree = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+        for (const auto& [action, button] : {std::pair(Action::kLamp, kButtonLamp),
+                                             {Action::kJump, kButtonJump},
+                                             {Action::kCrouch, kButtonCrouch},
+                                             {Action::kUse, kButtonUse}})
+            if (held(action)) input.buttons |= button;
+        addPad(input, seconds);
     }
     moved_ = {};
     return input;
+}
+
+void Window::notePadPresses() {
+    static constexpr std::pair<int, int> kKeys[] = {
+        {GLFW_GAMEPAD_BUTTON_START, GLFW_KEY_ESCAPE},     {GLFW_GAMEPAD_BUTTON_DPAD_UP, GLFW_KEY_UP},
+        {GLFW_GAMEPAD_BUTTON_DPAD_DOWN, GLFW_KEY_DOWN},   {GLFW_GAMEPAD_BUTTON_DPAD_LEFT, GLFW_KEY_LEFT},
+        {GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, GLFW_KEY_RIGHT}, {GLFW_GAMEPAD_BUTTON_A, GLFW_KEY_ENTER}};
+    GLFWgamepadstate pad;
+    uint32_t now = 0;
+    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &pad))
+        for (size_t i = 0; i < std::size(kKeys); ++i)
+            if (pad.buttons[kKeys[i].first]) now |= 1u << i;
+    for (size_t i = 0; i < std::size(kKeys); ++i)
+        if ((now & ~padBefore_) >> i & 1) pressed_.push_back(kKeys[i].second);
+    padBefore_ = now;
 }
 
 std::vector<int> Window::takePressedKeys() {

@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/app/bindings.h"
 #include "engine/app/input.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/swapchain.h"
@@ -28,22 +30,29 @@ class Window {
     glm::uvec2 framebufferSize() const;
 
     void poll();
-    // Movement keys held and mouse movement since the last call. Nothing while the cursor is free.
-    Input takeInput();
-    // Keys pressed since the last call, as GLFW numbers.
+    // What is held down and mouse movement since the last call, and the first gamepad; `seconds` since then
+    // turn its stick into movement. Nothing while the cursor is free.
+    Input takeInput(const Bindings& bindings, double seconds);
+    // Keys and mouse buttons pressed since the last call, as codes of Bindings; a gamepad's start, cross and
+    // south buttons count as escape, arrows and enter.
     std::vector<int> takePressedKeys();
+    // Whether the window was left for another since the last call.
+    bool takeFocusLost() { return std::exchange(focusLost_, false); }
     void captureCursor(bool captured);
     bool cursorCaptured() const { return captured_; }
 
   private:
     Window() = default;
     void installCallbacks();
+    void notePadPresses();
 
     GLFWwindow* window_ = nullptr;
     bool captured_ = false;
     glm::dvec2 cursor_{0};
     glm::vec2 moved_{0};
     std::vector<int> pressed_;
+    bool focusLost_ = false;
+    uint32_t padBefore_ = 0;  // bits of the gamepad's buttons at the last look
 };
 
 }  // namespace ag

@@ -72,7 +72,8 @@ tinygltf::Primitive primitiveOf(tinygltf::Model& model, const GeometryArrays& g,
     const int buffer = TINYGLTF_TARGET_ARRAY_BUFFER, f = TINYGLTF_COMPONENT_TYPE_FLOAT;
     out.attributes["POSITION"] = addAccessor(model, positions, f, TINYGLTF_TYPE_VEC3, buffer, &p.boundsLocal);
     out.attributes["NORMAL"] = addAccessor(model, normals, f, TINYGLTF_TYPE_VEC3, buffer);
-    out.attributes["TANGENT"] = addAccessor(model, tangents, f, TINYGLTF_TYPE_VEC4, buffer);
+    if (!tangents.empty() && tangents[0] != glm::vec4(0))
+        out.attributes["TANGENT"] = addAccessor(model, tangents, f, TINYGLTF_TYPE_VEC4, buffer);
     out.attributes["TEXCOORD_0"] = addAccessor(model, uvs, f, TINYGLTF_TYPE_VEC2, buffer);
     out.indices = addAccessor(model, indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
@@ -99,6 +100,30 @@ tinygltf::Material materialOf(const Material& m) {
     return out;
 }
 
+void addVector(tinygltf::Value::Object& extras, const char* name, glm::vec3 v) {
+    if (v == glm::vec3(0)) return;
+    extras[name] = tinygltf::Value(
+        tinygltf::Value::Array{number(double(v.x)), number(double(v.y)), number(double(v.z))});
+}
+
+void addGameExtras(const NodeExtras& e, tinygltf::Value::Object& extras) {
+    if (!e.bounces) extras["bounces"] = tinygltf::Value(false);
+    if (!e.castsShadow) extras["castsShadow"] = tinygltf::Value(false);
+    if (!e.tag.empty()) extras["tag"] = tinygltf::Value(e.tag);
+    if (!e.text.empty()) extras["text"] = tinygltf::Value(e.text);
+    if (e.room >= 0) extras["room"] = tinygltf::Value(e.room);
+    addVector(extras, "moveExtent", e.moveExtent);
+    addVector(extras, "wants", e.wants);
+    addVector(extras, "pivot", e.pivot);
+    addVector(extras, "axis", e.axis);
+    for (const auto& [name, value] : {std::pair("amount", e.amount),
+                                      {"mass", e.mass},
+                                      {"least", e.least},
+                                      {"most", e.most},
+                                      {"swing", e.swing}})
+        if (value != 0) extras[name] = number(double(value));
+}
+
 tinygltf::Node nodeOf(const SceneNode& n) {
     tinygltf::Node out;
     out.name = n.name;
@@ -119,12 +144,7 @@ tinygltf::Node nodeOf(const SceneNode& n) {
     if (e.flickerDepth > 0) extras["flickerDepth"] = number(double(e.flickerDepth));
     if (e.flickerPeriod > 0) extras["flickerPeriod"] = number(double(e.flickerPeriod));
     if (e.flickerOff > 0) extras["flickerOff"] = number(double(e.flickerOff));
-    if (e.moveExtent != glm::vec3(0)) {
-        tinygltf::Value::Array extent;
-        for (int i = 0; i < 3; ++i)
-            extent.push_back(number(double(e.moveExtent[i])));
-        extras["moveExtent"] = tinygltf::Value(extent);
-    }
+    addGameExtras(e, extras);
     if (!extras.empty()) out.extras = tinygltf::Value(extras);
     return out;
 }

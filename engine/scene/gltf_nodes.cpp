@@ -42,15 +42,41 @@ NodeTransform transformOf(const tinygltf::Node& n) {
     return out;
 }
 
+bool flagOf(const tinygltf::Value& object, const char* key, bool otherwise) {
+    return object.Has(key) && object.Get(key).IsBool() ? object.Get(key).Get<bool>() : otherwise;
+}
+
+std::string textOf(const tinygltf::Value& object, const char* key) {
+    return object.Has(key) && object.Get(key).IsString() ? object.Get(key).Get<std::string>() : "";
+}
+
+glm::vec3 vectorOf(const tinygltf::Value& object, const char* key) {
+    glm::vec3 out(0);
+    if (object.Has(key) && object.Get(key).IsArray() && object.Get(key).ArrayLen() == 3)
+        for (int i = 0; i < 3; ++i)
+            out[i] = float(object.Get(key).Get(i).GetNumberAsDouble());
+    return out;
+}
+
 NodeExtras extrasOf(const tinygltf::Value& extras) {
     NodeExtras out;
     if (!extras.IsObject()) return out;
-    if (extras.Has("collider") && extras.Get("collider").IsBool())
-        out.collider = extras.Get("collider").Get<bool>();
-    if (extras.Has("moveExtent") && extras.Get("moveExtent").IsArray() &&
-        extras.Get("moveExtent").ArrayLen() == 3)
-        for (int i = 0; i < 3; ++i)
-            out.moveExtent[i] = float(extras.Get("moveExtent").Get(i).GetNumberAsDouble());
+    out.collider = flagOf(extras, "collider", false);
+    out.moveExtent = vectorOf(extras, "moveExtent");
+    out.bounces = flagOf(extras, "bounces", true);
+    out.castsShadow = flagOf(extras, "castsShadow", true);
+    out.tag = textOf(extras, "tag");
+    out.text = textOf(extras, "text");
+    out.room = int32_t(std::clamp(numberOf(extras, "room", -1), -1.0, 1000.0));
+    out.wants = vectorOf(extras, "wants");
+    out.pivot = vectorOf(extras, "pivot");
+    out.axis = vectorOf(extras, "axis");
+    for (const auto& [name, value] : {std::pair("amount", &out.amount),
+                                      {"mass", &out.mass},
+                                      {"least", &out.least},
+                                      {"most", &out.most},
+                                      {"swing", &out.swing}})
+        *value = float(numberOf(extras, name, 0));
     out.movePeriod = float(numberOf(extras, "movePeriod", 0));
     out.spinSpeed = float(numberOf(extras, "spinSpeed", 0));
     out.flickerDepth = std::clamp(float(numberOf(extras, "flickerDepth", 0)), 0.0f, 1.0f);

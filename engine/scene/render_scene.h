@@ -105,6 +105,15 @@ struct RenderLight {
     bool operator==(const RenderLight&) const = default;
 };
 
+// A point whose irradiance is measured for the host.
+struct RenderProbe {
+    glm::vec3 position{0};  // m, relative to the origin
+    glm::vec3 normal{0};    // unit; zero: the mean over all directions
+    uint64_t id = 0;        // stable identity (entity handle)
+
+    bool operator==(const RenderProbe&) const = default;
+};
+
 struct RenderCamera {
     glm::mat4 clipFromWorld{1};  // reversed depth, infinite far plane; relative to the origin
     glm::mat4 worldFromClip{1};
@@ -119,12 +128,14 @@ struct RenderScene {
     glm::dvec3 originWorld{0};
     std::vector<RenderInstance> instances;
     std::vector<RenderLight> lights;
+    std::vector<RenderProbe> probes;
     RenderCamera camera;
     Bounds bounds;  // of all instances
 
     // Versions: equal numbers mean equal contents. Never 0.
     uint64_t instancesVersion = 1;  // any instance row
     uint64_t lightsVersion = 1;
+    uint64_t probesVersion = 1;
     uint64_t cameraVersion = 1;
     uint64_t originVersion = 1;  // the origin moved: histories in world space must be dropped
     // Rows of `instances` that changed since the version before, as half-open ranges; empty with

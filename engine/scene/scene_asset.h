@@ -25,9 +25,23 @@ struct NodeExtras {
     float movePeriod = 0;     // s, 0: stands still
     float spinSpeed = 0;      // rad/s about +Y
     // Of a light
+    bool bounces = true;  // may be among those whose bounced light is found
+    bool castsShadow = true;
     float flickerDepth = 0;   // part of it that comes and goes, 0 to 1
     float flickerPeriod = 0;  // s between turns, 0: burns steadily
     float flickerOff = 0;     // part of the turns in which it is off, 0 to 1
+    // Of a thing in a game
+    std::string tag;     // what it is: "flower", "door", ...
+    std::string text;    // of a hint
+    int32_t room = -1;   // it belongs to
+    glm::vec3 wants{0};  // of a flower: colour of light, the greatest channel 1
+    float amount = 0;    // of a flower: W/m²
+    float mass = 0;      // kg, 0: does not fall
+    glm::vec3 pivot{0};  // m, of a hinge, in the node's frame
+    glm::vec3 axis{0};   // of a hinge, unit; zero: none
+    float least = 0;     // rad, where the hinge stops; least > most: it does not
+    float most = 0;      // rad
+    float swing = 0;     // rad, of a pendulum; its rest is straight down
 };
 
 struct SceneNode {

@@ -16,7 +16,7 @@ constexpr size_t kMostBounceLights = 8;
 std::vector<size_t> strongestLights(const SceneAsset& asset) {
     std::vector<size_t> nodes;
     for (size_t i = 0; i < asset.nodes.size(); ++i)
-        if (asset.nodes[i].light >= 0) nodes.push_back(i);
+        if (asset.nodes[i].light >= 0 && asset.nodes[i].extras.bounces) nodes.push_back(i);
     const auto strength = [&](size_t node) {
         const SceneLight& l = asset.lights[size_t(asset.nodes[node].light)];
         const float mean = (l.intensity.x + l.intensity.y + l.intensity.z) / 3;
@@ -57,8 +57,8 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
         }
         if (node.light >= 0) {
             const SceneLight& l = asset.lights[size_t(node.light)];
-            world.add(entity,
-                      PunctualLight{l.intensity, l.range, l.innerConeAngle, l.outerConeAngle, l.kind, 1});
+            world.add(entity, PunctualLight{l.intensity, l.range, l.innerConeAngle, l.outerConeAngle, l.kind,
+                                            node.extras.castsShadow});
         }
     }
     for (size_t i = 0; i < asset.nodes.size(); ++i)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/scene/projection.h"
 
@@ -43,10 +44,11 @@ float strength(const RenderLight& light) {
     return light.kind == LightKind::kDirectional ? mean * 1e3f : mean;
 }
 
+// Of those that may, the strongest.
 void chooseBounceLights(std::vector<RenderLight>& lights) {
-    std::vector<size_t> order(lights.size());
-    for (size_t i = 0; i < order.size(); ++i)
-        order[i] = i;
+    std::vector<size_t> order;
+    for (size_t i = 0; i < lights.size(); ++i)
+        if (std::exchange(lights[i].bounces, false)) order.push_back(i);
     std::ranges::stable_sort(order,
                              [&](size_t a, size_t b) { return strength(lights[a]) > strength(lights[b]); });
     for (size_t i = 0; i < std::min(order.size(), kMostBounceLights); ++i)
@@ -107,9 +109,12 @@ RenderScene staticScene(const SceneAsset& asset) {
     const std::vector<WorldPlacement> places = placeNodes(asset);
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
-        if (node.light >= 0)
+        if (node.light >= 0) {
             scene.lights.push_back(
                 lightOf(asset.lights[size_t(node.light)], places[i], scene.lights.size() + 1));
+            scene.lights.back().bounces = node.extras.bounces;
+            scene.lights.back().castsShadow = node.extras.castsShadow;
+        }
         if (node.mesh < 0) continue;
         const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
         const glm::mat3& m = places[i].linear;

@@ -252,7 +252,7 @@ TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
 
 // Sampled point lights carry the light maps' flux: each as much as its chance leaves it.
 TEST(VplSampling, LightsCarryTheMapsFlux) {
-    for (const char* name : {"cornell", "gallery"}) {
+    for (const char* name : {"cornell", "hall"}) {
         Bench b(*scenegen::buildScene(name, 0));
         applyPreset("ism", b.settings);
         b.settings.ismAtlas.enabled = false;
@@ -286,7 +286,7 @@ KeptMaps keptMaps(Bench& b) {
 // With a walking camera clusters come to rest, as they follow the view slowly; a wall's step moves the points
 // of all maps.
 TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
-    Bench b(*scenegen::buildScene("gallery", 0));
+    Bench b(*scenegen::buildScene("hall", 0));
     b.output = [](FrameGraph& graph, const GiFrame& f) {
         graph.output(f.vals.vals);
         graph.output(f.isms.states);
@@ -495,7 +495,7 @@ TEST(Frame, SameFramesGiveTheSameBits) {
 }
 
 TEST(Frame, NothingMovesNothingRuns) {
-    Bench b(*scenegen::buildScene("gallery", 0));
+    Bench b(*scenegen::buildScene("hall", 0));
     b.settings.valClustering.settleFrames = 4;
     for (int i = 0; i < 6; ++i)
         b.frame();
@@ -509,7 +509,7 @@ TEST(Frame, NothingMovesNothingRuns) {
 
 // Passes that ran though only the camera moved.
 std::vector<std::string> runByTheCamera(float viewWeight) {
-    Bench b(*scenegen::buildScene("gallery", 0));
+    Bench b(*scenegen::buildScene("hall", 0));
     b.settings.importance.viewWeight = viewWeight;
     b.settings.valClustering.settleFrames = 2;
     for (int i = 0; i < 4; ++i)
@@ -541,7 +541,7 @@ TEST(Frame, CameraAloneLeavesTheLightMapsAlone) {
 
 TEST(Frame, SkippingChangesNoBit) {
     const auto render = [](bool skip) {
-        Bench b(*scenegen::buildScene("gallery", 0));
+        Bench b(*scenegen::buildScene("hall", 0));
         b.options.skip = skip;
         std::vector<glm::vec3> all;
         for (int i = 0; i < 14; ++i) {

@@ -9,6 +9,7 @@
 #include "shaders/direct_lighting/direct_lighting_io.h"
 #include "shaders/importance/importance_io.h"
 #include "shaders/ism_atlas/ism_atlas_io.h"
+#include "shaders/probes/probes_io.h"
 #include "shaders/rsm/rsm_io.h"
 #include "shaders/scene/scene_io.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
@@ -50,6 +51,14 @@ const std::map<std::string, Layout>& layouts() {
          {sizeof(io::ShadowView),
           {AG_MEMBER(ShadowView, clipFromWorld), AG_MEMBER(ShadowView, origin), AG_MEMBER(ShadowView, size),
            AG_MEMBER(ShadowView, texelSize), AG_MEMBER(ShadowView, farDistance)}}},
+        {"Probe",
+         {sizeof(io::Probe),
+          {AG_MEMBER(Probe, position), AG_MEMBER(Probe, idLow), AG_MEMBER(Probe, normal),
+           AG_MEMBER(Probe, idHigh)}}},
+        {"ProbeRow",
+         {sizeof(io::ProbeRow),
+          {AG_MEMBER(ProbeRow, direct), AG_MEMBER(ProbeRow, idLow), AG_MEMBER(ProbeRow, bounced),
+           AG_MEMBER(ProbeRow, idHigh)}}},
         {"RsmFace",
          {sizeof(io::RsmFace),
           {AG_MEMBER(RsmFace, worldFromClip), AG_MEMBER(RsmFace, clipFromWorld), AG_MEMBER(RsmFace, origin),

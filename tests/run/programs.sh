@@ -39,6 +39,12 @@ expect 2 "100000" "$bin/afterglow" render cornell -o "$work/a.png" --lamps 10000
 expect 2 "there is no preset 'best' (there are: none, rsm-brute" "$bin/afterglow" render cornell -o "$work/a.png" --preset best
 expect 2 "there is no built-in scene" "$bin/afterglow" scene nowhere -o "$work/a.glb"
 expect 2 "not a replay" "$bin/afterglow-demo" --headless --replay "$0"
+head -n 50 "$(dirname "$0")/../../game/level/walkthrough.replay" >"$work/cut.replay"
+expect 2 "cut.replay: the replay ends before its last line" "$bin/afterglow-demo" --headless --replay "$work/cut.replay"
+rm "$work/cut.replay"
+expect 2 "a quality is low, medium, high, ultra or auto, not 'best'" "$bin/afterglow-demo" --headless --quality best
+expect 2 "save.txt: the file cannot be opened" "$bin/afterglow-demo" --headless --continue --user "$work"
+expect 2 "a recording starts with the level" "$bin/afterglow-demo" --headless --continue --record "$work/r.replay"
 [[ -z $(ls "$work" | grep -v -E '^(out|err)$') ]] || fail "a refused command left a file behind"
 
 render() { "$bin/afterglow" render "$@" --size 160x90 --frames 12 --validate 2>"$work/err" || fail "render $*: $(cat "$work/err")"; }
@@ -64,8 +70,8 @@ expect 2 "neither .exr nor .pfm" "$bin/afterglow" compare "$0" "$work/a.pfm"
 expect 2 "cannot write" "$bin/afterglow" compare "$work/a.pfm" "$work/a.pfm" --heatmap "$work/none/heat.png"
 
 # Lamps hung in a scene: the same ones for the renderer and the reference, and none where there is no room.
-render gallery -o "$work/lamps.pfm" --layer direct --lamps 30 --no-scene-lights --preset lights-reference
-expect 0 "0 bounces" "$bin/afterglow" reference gallery -o "$work/lamps.exr" --layer direct --bounces 0 --lamps 30 \
+render hall -o "$work/lamps.pfm" --layer direct --lamps 30 --no-scene-lights --preset lights-reference
+expect 0 "0 bounces" "$bin/afterglow" reference hall -o "$work/lamps.exr" --layer direct --bounces 0 --lamps 30 \
   --no-scene-lights --size 160x90
 expect 0 '"rel_rmse"' "$bin/afterglow" compare "$work/lamps.exr" "$work/lamps.pfm" --max-rel-rmse 0.1
 
@@ -101,8 +107,8 @@ expect 0 '"rel_rmse"' "$bin/afterglow" compare "$work/direct.pfm" "$work/again.p
 "$bin/afterglow-demo" --headless --frames 6 --size 160x90 --screenshot "$work/demo.png" --report "$work/report.txt" \
   --validate >/dev/null 2>"$work/err" || fail "the demo: $(cat "$work/err")"
 [[ -s $work/demo.png && -s $work/report.txt ]] || fail "the demo left no picture or report"
-hash1=$("$bin/afterglow-demo" --headless --frames 40 --size 32x18 2>/dev/null | grep hash)
-hash2=$("$bin/afterglow-demo" --headless --frames 40 --size 32x18 --serial 2>/dev/null | grep hash)
+hash1=$("$bin/afterglow-demo" --headless --frames 40 --ticks-per-frame 12 --size 32x18 2>/dev/null | grep hash)
+hash2=$("$bin/afterglow-demo" --headless --frames 40 --ticks-per-frame 12 --size 32x18 --serial 2>/dev/null | grep hash)
 [[ -n $hash1 && $hash1 == "$hash2" ]] || fail "the world differs between one thread and several: $hash1, $hash2"
 
 exit $((failures > 0))

@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# The demo in a real window on a virtual display: injected keys walk, panels open, Escape leaves; validation is silent.
+# The demo in a real window on a virtual display: the menu, walking, picking up a crate, panels, another size, hidden and
+# shown again, left for another window, quit from the menu; validation is silent, and the recording played again without
+# a window ends where the player did.
 set -u
 bin=$1
 work=$(mktemp -d)
@@ -17,50 +19,103 @@ finish() {
 }
 trap finish EXIT
 
-"$bin/afterglow-demo" --size 320x180 --validate --record "$work/run.replay" >"$work/log" 2>&1 &
-demo=$!
-for _ in $(seq 100); do
-  window=$(xdotool search --name Afterglow 2>/dev/null | head -1)
-  [[ -n $window ]] && break
-  sleep 0.2
-done
-[[ -n ${window:-} ]] || { echo "FAILED: no window: $(cat "$work/log")"; exit 1; }
-xdotool mousemove --window "$window" 160 90
-sleep 2
+start_demo() {
+  "$bin/afterglow-demo" --size 320x180 --quality low --validate --user "$work/user" "$@" >"$work/log" 2>&1 &
+  demo=$!
+  for _ in $(seq 100); do
+    window=$(xdotool search --name Afterglow 2>/dev/null | head -1)
+    [[ -n $window ]] && break
+    sleep 0.2
+  done
+  [[ -n ${window:-} ]] || { echo "FAILED: no window: $(cat "$work/log")"; exit 1; }
+  xdotool mousemove --window "$window" 300 170  # keys go to the window under the pointer; off the menu's lines
+  sleep 2
+}
+
+turn() {  # COUNT DX DY
+  for _ in $(seq "$1"); do
+    xdotool mousemove_relative -- "$2" "$3"
+    sleep 0.1
+  done
+}
+
+keys() {
+  for key in "$@"; do
+    xdotool key "$key"
+    sleep 0.4
+  done
+}
+
+await_end() {
+  for _ in $(seq 75); do
+    kill -0 "$demo" 2>/dev/null || break
+    sleep 0.2
+  done
+  if kill -0 "$demo" 2>/dev/null; then
+    kill "$demo"
+    echo "FAILED: $1 did not end the demo"
+    exit 1
+  fi
+  wait "$demo"
+  local code=$?
+  [[ $code == 0 ]] || { echo "FAILED: the demo exited with $code: $(tail -5 "$work/log")"; exit 1; }
+}
+
+start_demo --record "$work/run.replay"
+keys Return  # Play
+turn 5 -52 0
+turn 5 0 50
 xdotool keydown w
-sleep 2
+sleep 0.4
 xdotool keyup w
-for _ in 1 2 3 4 5; do
-  xdotool mousemove_relative 20 4
-  sleep 0.2
-done
-for key in F1 F2 F3 8 9 1 F1 F2 F3; do
-  xdotool key $key
-  sleep 0.3
-done
+keys e  # picks the crate up
+sleep 0.5
+xdotool keydown s
+sleep 1
+xdotool keyup s
+keys F1 F2 F3 F4 8 9 1 F1 F2 F3 F4
 xdotool windowsize "$window" 400 240
 sleep 1
-xdotool key Escape
+xdotool windowunmap "$window"  # minimised
+sleep 1
+xdotool windowmap "$window"
+sleep 1
+xdotool mousemove --window "$window" 380 230
+keys Escape     # the menu, wherever the focus went before
+keys Escape     # and back, or the menu now
 sleep 0.5
-xdotool key Escape
-for _ in $(seq 50); do
-  kill -0 "$demo" 2>/dev/null || break
-  sleep 0.2
-done
-if kill -0 "$demo" 2>/dev/null; then
-  kill "$demo"
-  echo "FAILED: Escape did not end the demo"
-  exit 1
-fi
-wait "$demo"
-code=$?
-[[ $code == 0 ]] || { echo "FAILED: the demo exited with $code: $(tail -5 "$work/log")"; exit 1; }
-walked=$(awk 'NR > 1 && $1 > 0' "$work/run.replay" | wc -l)
-looked=$(awk 'NR > 1 && $3 != 0' "$work/run.replay" | wc -l)
+kill -0 "$demo" 2>/dev/null || { echo "FAILED: the demo ended early: $(tail -5 "$work/log")"; exit 1; }
+xdotool keydown d
+sleep 1
+xdotool keyup d
+xdotool windowsize "$window" 320 180
+sleep 0.5
+xdotool mousemove --window "$window" 300 170
+# To the menu's main page whatever is open, then up from the first line to the last: Quit.
+keys Escape
+[[ -s $work/user/save.txt ]] || { echo "FAILED: the menu saved nothing"; exit 1; }
+keys Up Return
+if kill -0 "$demo" 2>/dev/null; then keys Escape Up Return; fi
+await_end "Quit"
+
+walked=$(awk 'NR > 1 && $2 > 0 { n += $1 } END { print n + 0 }' "$work/run.replay")
+looked=$(awk 'NR > 1 && $4 != 0' "$work/run.replay" | wc -l)
 echo "ticks walked: $walked, ticks looked: $looked"
-# Played again without a window, the recording ends where the walk did: not where it began.
+# Played again without a window, the recording ends where the walk did: not where it began, with the crate.
 start=$("$bin/afterglow-demo" --headless --frames 1 --size 32x18 2>/dev/null | grep 'player at')
-end=$("$bin/afterglow-demo" --headless --replay "$work/run.replay" --size 32x18 2>/dev/null | grep 'player at')
+end=$("$bin/afterglow-demo" --headless --replay "$work/run.replay" --ticks-per-frame 30 --size 32x18 2>/dev/null | grep 'player at')
 echo "start: $start, end: $end"
-[[ -n $end && $start != "$end" ]] || { echo "FAILED: the camera did not move"; exit 1; }
+[[ -n $end && $start != "$end" ]] || { echo "FAILED: the player did not move"; exit 1; }
 ((walked > 20 && looked > 0)) || { echo "FAILED: the keys or the mouse did not reach the game"; exit 1; }
+[[ $end == *crate* ]] || { echo "FAILED: no crate was picked up"; exit 1; }
+
+# Going on with the saved game: it starts where that one ended.
+start_demo --continue --frames 12 --screenshot "$work/on.png"
+await_end "--frames"
+[[ -s $work/on.png ]] || { echo "FAILED: going on left no picture"; exit 1; }
+cp "$work/user/save.txt" "$work/kept.txt"
+head -c 100 "$work/kept.txt" >"$work/user/save.txt"
+"$bin/afterglow-demo" --headless --continue --frames 1 --size 32x18 --user "$work/user" >/dev/null 2>"$work/err"
+[[ $? == 2 && $(grep -c . "$work/err") == 1 ]] || { echo "FAILED: a cut save was not refused with a sentence"; exit 1; }
+[[ $(stat -c %s "$work/user/save.txt") == 100 ]] || { echo "FAILED: the broken save was not kept"; exit 1; }
+exit 0

@@ -14,7 +14,7 @@ namespace {
 TEST(SteadyFrame, AllocatesNothingWhileThingsMove) {
     auto device = gpu::Device::create({});
     ASSERT_TRUE(device) << device.error().message;
-    const SceneAsset asset = *scenegen::buildScene("gallery", 0);
+    const SceneAsset asset = *scenegen::buildScene("hall", 0);
     RenderScene scene = staticScene(asset);
     const glm::uvec2 size(96, 54);
     GiRenderer renderer(**device);

@@ -88,6 +88,40 @@ uint32_t SceneBuilder::box(const std::string& name, glm::vec3 center, glm::vec3 
     return addNode(std::move(node));
 }
 
+uint32_t SceneBuilder::model(const std::string& name, const MeshParts& parts, glm::vec3 center, float yaw) {
+    const uint32_t mesh = beginMesh(name);
+    GeometryArrays& g = asset_.geometry;
+    for (const MeshPart& part : parts) {
+        Primitive p{.firstIndex = uint32_t(g.indices.size()),
+                    .indexCount = uint32_t(part.indices.size()),
+                    .vertexOffset = int32_t(g.positions.size()),
+                    .material = part.material};
+        for (size_t i = 0; i < part.positions.size(); ++i) {
+            g.positions.push_back(part.positions[i]);
+            g.attributes.push_back({part.normals[i], glm::vec4(0), {}});
+            p.boundsLocal.add(part.positions[i]);
+        }
+        g.indices.insert(g.indices.end(), part.indices.begin(), part.indices.end());
+        g.primitives.push_back(p);
+        ++asset_.meshes[mesh].primitiveCount;
+    }
+    const uint32_t node = place(name, center, yaw);
+    asset_.nodes[node].mesh = int32_t(mesh);
+    return node;
+}
+
+uint32_t SceneBuilder::place(const std::string& name, glm::vec3 center, float yaw) {
+    SceneNode node{.name = name};
+    node.local.translation = glm::dvec3(center);
+    node.local.rotation = glm::angleAxis(yaw, glm::vec3(0, 1, 0));
+    return addNode(std::move(node));
+}
+
+void SceneBuilder::attach(uint32_t child, uint32_t parent) {
+    asset_.nodes[child].parent = int32_t(parent);
+    asset_.nodes[child].depth = asset_.nodes[parent].depth + 1;
+}
+
 uint32_t SceneBuilder::copy(uint32_t source, const std::string& name, glm::vec3 center, float yaw) {
     SceneNode node{.name = name, .mesh = asset_.nodes[source].mesh};
     node.local.translation = glm::dvec3(center);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/scene/scene_asset.h"
+#include "tools/scenegen/shapes.h"
 
 namespace ag::scenegen {
 
@@ -20,6 +21,13 @@ class SceneBuilder {
     uint32_t quad(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, uint32_t material);
     // A box about the node's origin, outward faces. Returns the node.
     uint32_t box(const std::string& name, glm::vec3 center, glm::vec3 size, uint32_t material, float yaw = 0);
+    // A mesh of any shape, in its own frame.
+    uint32_t model(const std::string& name, const MeshParts& parts, glm::vec3 center, float yaw = 0);
+    // A node without a mesh: a place, or the parent of others.
+    uint32_t place(const std::string& name, glm::vec3 center, float yaw = 0);
+    // `child` from now on stands in the frame of `parent`, which was added before it.
+    void attach(uint32_t child, uint32_t parent);
+    Material& materialAt(uint32_t index) { return asset_.geometry.materials[index]; }
     // Another node with the mesh of `node`.
     uint32_t copy(uint32_t node, const std::string& name, glm::vec3 center, float yaw = 0);
     // The inside of a room, each face with its own material: -x +x -y +y -z +z; ~0u leaves the face out.

@@ -9,6 +9,7 @@
 #include "common/false_color.h"
 #include "engine/scene/gltf_import.h"
 #include "tools/scenegen/builder.h"
+#include "tools/scenegen/gallery.h"
 
 namespace ag::scenegen {
 namespace {
@@ -74,10 +75,9 @@ void solid(SceneBuilder& b, uint32_t node) {
     b.node(node).extras.collider = true;
 }
 
-// The first room of the level: a dark hall, 12 x 4 x 8 m, with one wall of each colour, columns, and boxes
-// that move. The lamp in the player's hand is the light to play with.
-SceneAsset gallery(uint32_t) {
-    SceneBuilder b("gallery");
+// A dark hall, 12 x 4 x 8 m, with one wall of each colour, columns, and boxes that move. Two lamps.
+SceneAsset hall(uint32_t) {
+    SceneBuilder b("hall");
     const uint32_t red = b.material("red", {0.70f, 0.08f, 0.06f}),
                    green = b.material("green", {0.12f, 0.52f, 0.14f}),
                    blue = b.material("blue", {0.08f, 0.16f, 0.62f}),
@@ -202,13 +202,14 @@ struct Entry {
     SceneAsset (*build)(uint32_t param);
 };
 
-constexpr std::array<Entry, 8> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 9> kScenes = {{{"cornell", cornell},
                                            {"corner", corner},
                                            {"occluder", occluder},
                                            {"corridor", corridor},
                                            {"furnace", furnace},
                                            {"lamps", lamps},
                                            {"crowd", crowd},
+                                           {"hall", hall},
                                            {"gallery", gallery}}};
 constexpr auto kNames = [] {
     std::array<std::string_view, kScenes.size()> names;

@@ -1,0 +1,37 @@
+// What stands over the picture: the room's goal, each flower's wish and what it gets, a hint, and marks over
+// flowers. Each colour has a shape of its own, so that nothing is told by colour alone.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "game/components.h"
+
+namespace ag::game {
+
+// A flower of the room the player is in.
+struct FlowerLine {
+    glm::vec3 wants{1}, received{0};  // of full bars, channel by channel
+    float openness = 0;
+    FlowerMood mood = FlowerMood::kDark;
+    glm::dvec3 position{0};  // m, of its head
+};
+
+struct HudState {
+    std::vector<FlowerLine> flowers;
+    std::string goal, hint, notice;
+    bool carrying = false, crateInReach = false;
+};
+
+enum class Shape : uint32_t { kCircle, kTriangle, kSquare, kDiamond, kStar, kCross, kHexagon };
+Shape shapeOf(glm::vec3 wants);
+const char* shapeName(Shape shape);
+const char* moodText(FlowerMood mood);
+
+HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints);
+// Within an ImGui frame, over a picture of `size` pixels seen through `clipFromWorld` about `origin`.
+void drawHud(const HudState& hud, glm::vec2 size, const glm::mat4& clipFromWorld, glm::dvec3 origin);
+
+}  // namespace ag::game

@@ -1,0 +1,168 @@
+#include "game/menu.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace ag::game {
+namespace {
+
+enum MainLine { kLinePlay, kLineContinue, kLineNew, kLineSettings, kLineKeys, kLineQuit };
+enum SettingLine { kQuality, kSensitivity, kFieldOfView, kExposure, kHints, kInvert, kSettingsBack };
+
+void openPage(Menu& menu, MenuPage page) {
+    menu.page = page;
+    menu.selected = 0;
+}
+
+MenuEvent chooseMain(Menu& menu) {
+    switch (menu.selected) {
+        case kLinePlay:
+            return MenuEvent::kPlay;
+        case kLineContinue:
+            return menu.hasSave ? MenuEvent::kContinue : MenuEvent::kNone;
+        case kLineNew:
+            return MenuEvent::kNewGame;
+        case kLineSettings:
+            openPage(menu, MenuPage::kSettings);
+            return MenuEvent::kNone;
+        case kLineKeys:
+            openPage(menu, MenuPage::kKeys);
+            return MenuEvent::kNone;
+        default:
+            return MenuEvent::kQuit;
+    }
+}
+
+// A step to the right or, with -1, to the left.
+MenuEvent changeSetting(Menu& menu, UserSettings& s, int step) {
+    const auto move = [&](float& value, float by, float least, float most) {
+        value = std::clamp(value + by * float(step), least, most);
+    };
+    switch (menu.selected) {
+        case kQuality:
+            s.quality = Quality((uint32_t(s.quality) + uint32_t(5 + step)) % 5);
+            break;
+        case kSensitivity:
+            move(s.sensitivity, 0.1f, 0.1f, 5);
+            break;
+        case kFieldOfView:
+            move(s.fieldOfView, 5, 40, 100);
+            break;
+        case kExposure:
+            move(s.exposure, 0.5f, -4, 6);
+            break;
+        case kHints:
+            s.hints = !s.hints;
+            break;
+        case kInvert:
+            s.invertLook = !s.invertLook;
+            break;
+        default:
+            openPage(menu, MenuPage::kMain);
+            return MenuEvent::kNone;
+    }
+    return MenuEvent::kSettingsChanged;
+}
+
+MenuEvent choose(Menu& menu, UserSettings& settings) {
+    menu.message.clear();
+    if (menu.page == MenuPage::kMain) return chooseMain(menu);
+    if (menu.page == MenuPage::kSettings) return changeSetting(menu, settings, 1);
+    if (menu.selected >= int(kActionCount))
+        openPage(menu, MenuPage::kMain);
+    else
+        menu.waitsForKey = true;
+    return MenuEvent::kNone;
+}
+
+// Two actions never share a key: the other one takes the key this one had.
+MenuEvent bindKey(Menu& menu, int code, Bindings& keys) {
+    menu.waitsForKey = false;
+    if (code == GLFW_KEY_ESCAPE) return MenuEvent::kNone;
+    if (codeName(code).empty()) {
+        menu.message = "That key cannot be used.";
+        return MenuEvent::kNone;
+    }
+    int& mine = keys.codes[size_t(menu.selected)];
+    for (int& other : keys.codes)
+        if (other == code) other = mine;
+    mine = code;
+    return MenuEvent::kKeysChanged;
+}
+
+}  // namespace
+
+std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, const Bindings& keys) {
+    if (menu.page == MenuPage::kMain)
+        return {menu.started ? "Resume" : "Play",
+                menu.hasSave ? "Continue the saved game" : "Continue (nothing saved yet)",
+                "New game",
+                "Settings",
+                "Keys",
+                "Quit"};
+    if (menu.page == MenuPage::kSettings)
+        return {fmt::format("Quality: {}", qualityName(s.quality)),
+                fmt::format("Mouse: {:.1f}", s.sensitivity),
+                fmt::format("Field of view: {:.0f} degrees", s.fieldOfView),
+                fmt::format("Brightness: {:+.1f} stops", s.exposure),
+                fmt::format("Hints: {}", s.hints ? "on" : "off"),
+                fmt::format("Mouse up looks {}", s.invertLook ? "down" : "up"),
+                "Back"};
+    std::vector<std::string> lines;
+    for (size_t i = 0; i < kActionCount; ++i)
+        lines.push_back(fmt::format(
+            "{}: {}", actionName(Action(i)),
+            menu.waitsForKey && int(i) == menu.selected ? "press a key" : codeName(keys.codes[i])));
+    lines.push_back("Back");
+    return lines;
+}
+
+MenuEvent pressInMenu(Menu& menu, int code, UserSettings& settings, Bindings& keys) {
+    if (menu.waitsForKey) return bindKey(menu, code, keys);
+    const int count = int(menuLines(menu, settings, keys).size());
+    if (code == GLFW_KEY_UP) menu.selected = (menu.selected + count - 1) % count;
+    if (code == GLFW_KEY_DOWN) menu.selected = (menu.selected + 1) % count;
+    if (menu.page == MenuPage::kSettings && menu.selected != kSettingsBack) {
+        if (code == GLFW_KEY_LEFT) return changeSetting(menu, settings, -1);
+        if (code == GLFW_KEY_RIGHT) return changeSetting(menu, settings, 1);
+    }
+    if (code == GLFW_KEY_ENTER || code == GLFW_KEY_KP_ENTER) return choose(menu, settings);
+    if (code == GLFW_KEY_ESCAPE) {
+        if (menu.page != MenuPage::kMain)
+            openPage(menu, MenuPage::kMain);
+        else if (menu.started)
+            return MenuEvent::kPlay;
+    }
+    return MenuEvent::kNone;
+}
+
+MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std::string& footer) {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, size, IM_COL32(0, 0, 0, 120));
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("Afterglow", nullptr,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                     ImGuiWindowFlags_NoNav);
+    MenuEvent event = MenuEvent::kNone;
+    const std::vector<std::string> lines = menuLines(menu, settings, keys);
+    for (int i = 0; i < int(lines.size()); ++i) {
+        ImGui::PushID(i);
+        if (ImGui::Selectable(lines[size_t(i)].c_str(), i == menu.selected, 0, {240, 0}) &&
+            !menu.waitsForKey) {
+            menu.selected = i;
+            event = choose(menu, settings);
+        }
+        ImGui::PopID();
+    }
+    ImGui::Separator();
+    if (!menu.message.empty()) ImGui::TextWrapped("%s", menu.message.c_str());
+    ImGui::TextDisabled("%s", footer.c_str());
+    ImGui::End();
+    return event;
+}
+
+}  // namespace ag::game

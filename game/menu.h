@@ -1,0 +1,33 @@
+// The menu: a list with a selection, moved by arrow keys, mouse or gamepad. It knows no game: what was chosen
+// comes back as an event.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "game/user_files.h"
+
+namespace ag::game {
+
+enum class MenuPage : uint32_t { kMain, kSettings, kKeys };
+enum class MenuEvent : uint32_t { kNone, kPlay, kContinue, kNewGame, kQuit, kSettingsChanged, kKeysChanged };
+
+struct Menu {
+    bool open = true;
+    bool started = false;  // a game is under way: "play" is "resume"
+    bool hasSave = false;
+    MenuPage page = MenuPage::kMain;
+    int selected = 0;
+    bool waitsForKey = false;  // the next key is bound to the selected action
+    std::string message;       // what went wrong, in one sentence
+};
+
+// What can be chosen on a page, top to bottom.
+std::vector<std::string> menuLines(const Menu& menu, const UserSettings& settings, const Bindings& keys);
+
+// Codes as Window::takePressedKeys gives them.
+MenuEvent pressInMenu(Menu& menu, int code, UserSettings& settings, Bindings& keys);
+// Within an ImGui frame; the line that was clicked is chosen.
+MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std::string& footer);
+
+}  // namespace ag::game

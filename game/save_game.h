@@ -1,0 +1,22 @@
+// A game put by and gone on with: where the player stands, what is open, where things lie. Text, checked in
+// whole before anything of it counts.
+#pragma once
+
+#include <string>
+
+#include "engine/core/result.h"
+#include "game/game.h"
+
+namespace ag::game {
+
+std::string saveText(Game& game);
+Status saveGame(Game& game, const std::string& path);
+// Whether the text is a whole save of the game's level.
+Status checkSave(const Game& game, const std::string& text, const std::string& path);
+// What lies at `path` and is no such save is renamed to `path`.broken.
+Status putBrokenSaveAside(const Game& game, const std::string& path);
+// Only for a game fresh from its level; if it fails, the game is as it was.
+Status restoreGame(Game& game, const std::string& text, const std::string& path);
+Status continueGame(Game& game, const std::string& path);
+
+}  // namespace ag::game

@@ -1,0 +1,93 @@
+#include "game/user_files.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "engine/core/safe_file.h"
+
+namespace ag::game {
+namespace {
+
+struct Number {
+    const char* name;
+    float UserSettings::*value;
+    float least, most;
+};
+constexpr Number kNumbers[] = {{"sensitivity", &UserSettings::sensitivity, 0.1f, 5},
+                               {"field_of_view", &UserSettings::fieldOfView, 40, 100},
+                               {"exposure", &UserSettings::exposure, -4, 6}};
+struct Flag {
+    const char* name;
+    bool UserSettings::*value;
+};
+constexpr Flag kFlags[] = {{"hints", &UserSettings::hints}, {"invert_look", &UserSettings::invertLook}};
+
+bool readLine(const std::string& line, UserSettings& s) {
+    std::istringstream in(line);
+    std::string name, value, more;
+    if (!(in >> name >> value) || in >> more) return false;
+    if (name == "quality") {
+        const auto quality = qualityFromName(value);
+        if (quality) s.quality = *quality;
+        return quality.has_value();
+    }
+    for (const Flag& f : kFlags)
+        if (name == f.name) {
+            s.*f.value = value == "on";
+            return value == "on" || value == "off";
+        }
+    for (const Number& n : kNumbers)
+        if (name == n.name) {
+            char* end = nullptr;
+            s.*n.value = std::strtof(value.c_str(), &end);
+            return *end == 0 && s.*n.value >= n.least && s.*n.value <= n.most;
+        }
+    return false;
+}
+
+}  // namespace
+
+std::string defaultUserFolder() {
+    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config)
+        return std::string(config) + "/afterglow";
+    const char* home = std::getenv("HOME");
+    return std::string(home ? home : ".") + "/.config/afterglow";
+}
+
+Status openFolder(const UserFiles& files) {
+    std::error_code error;
+    std::filesystem::create_directories(files.folder, error);
+    if (error) return Error{fmt::format("{}: {}", files.folder, error.message())};
+    return Ok{};
+}
+
+bool fileExists(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::exists(path, error);
+}
+
+Result<UserSettings> loadUserSettings(const std::string& path) {
+    const auto text = readFile(path);
+    if (!text) return text.error();
+    UserSettings settings;
+    std::istringstream lines(*text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number)
+        if (!line.empty() && line[0] != '#' && !readLine(line, settings))
+            return Error{fmt::format("{}: line {} is not a setting", path, number)};
+    return settings;
+}
+
+Status saveUserSettings(const UserSettings& s, const std::string& path) {
+    std::string text = fmt::format("quality {}\n", qualityName(s.quality));
+    for (const Number& n : kNumbers)
+        text += fmt::format("{} {}\n", n.name, s.*n.value);
+    for (const Flag& f : kFlags)
+        text += fmt::format("{} {}\n", f.name, s.*f.value ? "on" : "off");
+    return writeFileSafely(path, text);
+}
+
+}  // namespace ag::game

@@ -1,0 +1,37 @@
+// What a player keeps between runs: the save, the keys and a few wishes, in a folder of their own.
+#pragma once
+
+#include <string>
+
+#include "engine/app/bindings.h"
+#include "engine/core/result.h"
+#include "game/quality.h"
+
+namespace ag::game {
+
+struct UserSettings {
+    Quality quality = Quality::kAutomatic;
+    float sensitivity = 1;   // of the mouse
+    float fieldOfView = 65;  // degrees, upright
+    float exposure = 1;      // stops
+    bool hints = true;
+    bool invertLook = false;
+};
+
+// $XDG_CONFIG_HOME/afterglow, or ~/.config/afterglow.
+std::string defaultUserFolder();
+
+struct UserFiles {
+    std::string folder;
+    std::string save() const { return folder + "/save.txt"; }
+    std::string keys() const { return folder + "/keys.txt"; }
+    std::string settings() const { return folder + "/settings.txt"; }
+};
+
+// Makes the folder if it is not there.
+Status openFolder(const UserFiles& files);
+Result<UserSettings> loadUserSettings(const std::string& path);
+Status saveUserSettings(const UserSettings& settings, const std::string& path);
+bool fileExists(const std::string& path);
+
+}  // namespace ag::game

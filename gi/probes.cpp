@@ -1,0 +1,82 @@
+#include "gi/probes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace ag::gi {
+namespace {
+
+constexpr uint64_t kNoProbe = ~uint64_t(0);  // of rows that fill the buffer up
+
+uint64_t idOf(uint32_t low, uint32_t high) {
+    return uint64_t(high) << 32 | low;
+}
+
+// Rows in powers of two, so that a probe more does not make a new buffer.
+BufferHandle uploadProbes(FrameGraph& graph, std::span<const RenderProbe> probes) {
+    const uint32_t room = std::bit_ceil(std::max(uint32_t(probes.size()), 16u));
+    const BufferHandle buffer = graph.buffer("probes.points", {.sizeBytes = room * sizeof(io::Probe)});
+    static thread_local std::vector<io::Probe> rows;  // keeps its memory from frame to frame
+    rows.clear();
+    for (const RenderProbe& p : probes)
+        rows.push_back({p.position, uint32_t(p.id), p.normal, uint32_t(p.id >> 32)});
+    rows.resize(room, {.idLow = uint32_t(kNoProbe), .idHigh = uint32_t(kNoProbe >> 32)});
+    graph.upload("probes.points", buffer, std::as_bytes(std::span(rows)));
+    return buffer;
+}
+
+}  // namespace
+
+std::optional<ProbeReading> ProbeReadings::of(uint64_t id) const {
+    const auto found = std::ranges::lower_bound(rows_, id, {}, &Row::id);
+    if (found == rows_.end() || found->id != id) return std::nullopt;
+    return found->reading;
+}
+
+void ProbeReadings::set(std::span<const std::byte> rows) {
+    rows_.clear();
+    for (; rows.size() >= sizeof(io::ProbeRow); rows = rows.subspan(sizeof(io::ProbeRow))) {
+        io::ProbeRow row;
+        std::memcpy(&row, rows.data(), sizeof row);
+        const uint64_t id = idOf(row.idLow, row.idHigh);
+        if (id != kNoProbe) rows_.push_back({id, {row.direct, row.bounced}});
+    }
+    std::ranges::sort(rows_, {}, &Row::id);
+}
+
+void ProbeReadings::setDark(std::span<const RenderProbe> probes) {
+    rows_.clear();
+    for (const RenderProbe& p : probes)
+        rows_.push_back({p.id, {}});
+    std::ranges::sort(rows_, {}, &Row::id);
+}
+
+void addProbes(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
+               const IsmAtlas& isms, const ProbeSettings& settings, ProbeReadings& known) {
+    std::span<const RenderProbe> probes = scene.scene->probes;
+    if (probes.empty()) return known.clear();
+    if (rsm.empty() || vals.count == 0) return known.setDark(probes);
+    probes = probes.first(std::min<size_t>(probes.size(), kMostProbes));
+    const BufferHandle points = uploadProbes(graph, probes);
+    const uint64_t room = graph.info(points).sizeBytes / sizeof(io::Probe);
+    const BufferHandle rows = graph.buffer("probes.rows", {.sizeBytes = room * sizeof(io::ProbeRow)});
+    graph.compute("probes.evaluate", "probes/evaluate_probes.comp")
+        .read("vals", vals.vals)
+        .read("shapes", vals.shapes)
+        .read("isms", isms.planes ? isms.planes : vals.vals)
+        .sample("depthMap", rsm.depth)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
+        .read("probes", points)
+        .write("rows", rows)
+        .spec(0, uint32_t(settings.shape))
+        .spec(1, isms.planes ? settings.taps : 0)
+        .spec(3, isms.mapping == IsmMapping::kParaboloid)
+        .push(io::ProbePush{
+            .valCount = vals.count, .faceCount = rsm.atlas.faceCount, .ismTileSize = isms.tileSize})
+        .dispatchGroups(uint32_t(room));
+    known.set(graph.readBack(kProbeCopies, rows));
+}
+
+}  // namespace ag::gi

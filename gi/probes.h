@@ -1,0 +1,55 @@
+// Irradiance at points of the game, for rules and for things that are lit as a whole: bounced light from the
+// same area lights and shadow maps as on screen, direct light from the lights that bounce (those with a light
+// map, by its depth; others do not count). Read back without a stall: what is known is kFramesInFlight frames
+// old.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gi/ism_atlas.h"
+#include "gi/val_shading.h"
+#include "shaders/probes/probes_io.h"
+
+namespace ag::gi {
+
+constexpr uint32_t kMostProbes = 4096;  // further ones are left out
+
+struct ProbeSettings {
+    ValShape shape = ValShape::kPolygon;
+    uint32_t taps = 4;  // of an area light's soft shadow
+};
+
+struct ProbeReading {
+    glm::vec3 direct{0}, bounced{0};  // W/m²
+    bool operator==(const ProbeReading&) const = default;
+};
+
+// What was read back last, by the probes' ids.
+class ProbeReadings {
+  public:
+    // None: it was not measured yet.
+    std::optional<ProbeReading> of(uint64_t id) const;
+    size_t count() const { return rows_.size(); }
+
+    void set(std::span<const std::byte> rows);
+    // Without light there is nothing to measure.
+    void setDark(std::span<const RenderProbe> probes);
+    void clear() { rows_.clear(); }
+
+  private:
+    struct Row {
+        uint64_t id = 0;
+        ProbeReading reading;
+    };
+    std::vector<Row> rows_;  // sorted by id
+};
+
+// Names of the copies that are read back.
+constexpr std::array<std::string_view, kFramesInFlight> kProbeCopies = {"probes.read0", "probes.read1"};
+
+// Measures the scene's probes and updates `known`. Without probes nothing is declared.
+void addProbes(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
+               const IsmAtlas& isms, const ProbeSettings& settings, ProbeReadings& known);
+
+}  // namespace ag::gi

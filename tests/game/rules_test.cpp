@@ -1,0 +1,234 @@
+// Flowers, saves, the menu, keys and quality, without a device.
+#include <gtest/gtest.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "engine/core/safe_file.h"
+#include "engine/physics/physics_system.h"
+#include "engine/scene/components.h"
+#include "engine/scene/gltf_import.h"
+#include "game/hud.h"
+#include "game/menu.h"
+#include "game/save_game.h"
+#include "game/systems/grow_flowers.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::game {
+namespace {
+
+SceneAsset level() {
+    return *importGltf(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
+}
+
+gi::ProbeLight lightOf(glm::vec3 direct, glm::vec3 bounced) {
+    return {direct, bounced, 1};
+}
+
+TEST(Flowers, KnowTheirLight) {
+    const Flower red{.wants = {1, 0.1f, 0.05f}, .amount = 0.1f};
+    EXPECT_EQ(moodIn(red, lightOf({}, {})), FlowerMood::kDark);
+    EXPECT_EQ(moodIn(red, lightOf({}, {0.3f, 0.03f, 0.02f})), FlowerMood::kGrowing);
+    EXPECT_EQ(moodIn(red, lightOf({}, {0.1f, 0.01f, 0.01f})), FlowerMood::kThirsty);
+    EXPECT_EQ(moodIn(red, lightOf({}, {0.3f, 0.3f, 0.25f})), FlowerMood::kWrong) << "white light";
+    EXPECT_EQ(moodIn(red, lightOf({}, {0.02f, 0.05f, 0.4f})), FlowerMood::kWrong) << "blue light";
+    EXPECT_EQ(moodIn(red, lightOf({0.5f, 0.5f, 0.4f}, {0.3f, 0.03f, 0.02f})), FlowerMood::kBlinded);
+}
+
+TEST(Level, IsWhatItsGeneratorMakes) {
+    const SceneAsset shipped = level(), made = *scenegen::buildScene("gallery", 0);
+    ASSERT_EQ(shipped.nodes.size(), made.nodes.size());
+    EXPECT_EQ(triangleCount(shipped), triangleCount(made));
+    EXPECT_LT(triangleCount(shipped), 40000u);
+    for (size_t i = 0; i < made.nodes.size(); ++i) {
+        EXPECT_EQ(shipped.nodes[i].name, made.nodes[i].name);
+        EXPECT_EQ(shipped.nodes[i].extras.tag, made.nodes[i].extras.tag);
+        EXPECT_EQ(shipped.nodes[i].extras.wants, made.nodes[i].extras.wants);
+        EXPECT_LT(glm::length(shipped.nodes[i].local.translation - made.nodes[i].local.translation), 1e-6);
+    }
+    EXPECT_TRUE(shipped.warnings.empty()) << shipped.warnings[0];
+}
+
+TEST(Level, RestsUntilSomebodyComes) {
+    Game game(level(), 1);
+    for (int i = 0; i < 240; ++i)
+        game.tick({});
+    EXPECT_EQ(game.world().resource<Physics>().world->awakeCount(), 1u) << "the pendulum";
+    EXPECT_EQ(game.progress().flowers, 11u);
+    EXPECT_EQ(game.progress().rooms, 4u);
+    EXPECT_EQ(game.progress().room, 0);
+}
+
+// A crate is picked up, carried and put down with the keys.
+TEST(Level, CratesAreCarried) {
+    Game game(level(), 1);
+    game.tick({});
+    game.world().resource<Player>().body.feet = {-1.9, 0, -0.75};
+    game.tick({.look = {-628 - 62, 120}});  // to the stack at -x
+    for (int i = 0; i < 20; ++i)
+        game.tick({});
+    game.tick({.buttons = kButtonUse});
+    ASSERT_TRUE(game.player().carried);
+    const Entity crate = game.player().carried;
+    const glm::dvec3 before = game.world().get<BodyState>(crate)->position;
+    for (int i = 0; i < 90; ++i)
+        game.tick({.forward = -1});
+    for (int i = 0; i < 30; ++i)
+        game.tick({});
+    const glm::dvec3 after = game.world().get<BodyState>(crate)->position;
+    EXPECT_GT(glm::length(after - before), 1.0);
+    EXPECT_LT(glm::length(after - game.player().position), 1.8);
+    game.tick({.buttons = kButtonUse});
+    EXPECT_FALSE(game.player().carried);
+    for (int i = 0; i < 120; ++i)
+        game.tick({});
+    EXPECT_NEAR(game.world().get<BodyState>(crate)->position.y, 0.29, 0.05) << "lies on the floor";
+}
+
+TEST(Save, GoesOnWhereItWas) {
+    Game game(level(), 1);
+    for (int i = 0; i < 60; ++i)
+        game.tick({.forward = 0.7f, .right = 0.2f, .look = {2, 0}});
+    View<Room>(game.world(), {game.world().version(), 0}).each([](Room& room) {
+        room.solved = room.index == 0;
+    });
+    game.tick({});
+    const std::string text = saveText(game);
+    Game other(level(), 1);
+    ASSERT_TRUE(restoreGame(other, text, "save"));
+    other.tick({});
+    EXPECT_LT(glm::length(other.player().position - game.player().position), 0.05);
+    EXPECT_EQ(other.player().yaw, game.player().yaw);
+    EXPECT_EQ(other.progress().roomsSolved, 1u);
+    EXPECT_EQ(other.progress().flowersOpen, 2u);
+    EXPECT_FALSE(restoreGame(*std::make_unique<Game>(*scenegen::buildScene("hall", 0), 1), text, "save"));
+}
+
+TEST(Save, ABrokenOneIsRefusedAndKept) {
+    Game game(level(), 1);
+    game.tick({});
+    const std::string good = saveText(game), path = testing::TempDir() + "/save.txt";
+    const std::string cut = good.substr(0, good.size() / 2);
+    std::string damaged = good;
+    damaged.replace(damaged.find("body"), 8, "body nan");
+    for (const std::string& text :
+         {std::string(), std::string("hello"), cut, damaged, good.substr(0, good.size() - 4)}) {
+        const uint64_t before = game.stateHash();
+        const Status restored = restoreGame(game, text, path);
+        ASSERT_FALSE(restored);
+        EXPECT_NE(restored.error().message.find("save.txt"), std::string::npos);
+        EXPECT_EQ(game.stateHash(), before) << "nothing of it counted";
+        ASSERT_TRUE(writeFileSafely(path, text));
+        ASSERT_TRUE(putBrokenSaveAside(game, path));
+        EXPECT_FALSE(fileExists(path));
+        EXPECT_EQ(*readFile(path + ".broken"), text);
+    }
+    ASSERT_TRUE(saveGame(game, path));
+    ASSERT_TRUE(putBrokenSaveAside(game, path));
+    EXPECT_TRUE(fileExists(path)) << "a good one stays";
+    EXPECT_FALSE(saveGame(game, "/proc/none/save.txt"));
+}
+
+TEST(Keys, AreReadFromAFileAndBoundAnew) {
+    const auto keys = parseBindings("# mine\nforward Up\nuse F\nlamp MouseRight\n", "keys.txt");
+    ASSERT_TRUE(keys);
+    EXPECT_EQ(keys->codes[size_t(Action::kForward)], GLFW_KEY_UP);
+    EXPECT_EQ(keys->codes[size_t(Action::kBack)], GLFW_KEY_S) << "what is not named stays";
+    const std::string path = testing::TempDir() + "/keys.txt";
+    ASSERT_TRUE(saveBindings(*keys, path));
+    EXPECT_EQ(*loadBindings(path), *keys);
+    for (const char* text : {"fly W\n", "forward\n", "forward Nose\n", "forward W W\n"})
+        EXPECT_FALSE(parseBindings(text, "keys.txt")) << text;
+}
+
+TEST(Menu, IsWalkedWithKeys) {
+    Menu menu;
+    UserSettings settings;
+    Bindings keys;
+    const auto press = [&](int code) { return pressInMenu(menu, code, settings, keys); };
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kPlay);
+    EXPECT_EQ(press(GLFW_KEY_ESCAPE), MenuEvent::kNone) << "nothing to go back to yet";
+    press(GLFW_KEY_DOWN);
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kNone) << "nothing is saved";
+    press(GLFW_KEY_DOWN);
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kNewGame);
+    press(GLFW_KEY_DOWN);
+    press(GLFW_KEY_ENTER);
+    EXPECT_EQ(menu.page, MenuPage::kSettings);
+    EXPECT_EQ(press(GLFW_KEY_RIGHT), MenuEvent::kSettingsChanged);
+    EXPECT_EQ(settings.quality, Quality::kLow) << "after automatic";
+    press(GLFW_KEY_ESCAPE);
+    press(GLFW_KEY_UP);
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kQuit);
+    menu.page = MenuPage::kKeys;
+    menu.selected = int(Action::kUse);
+    press(GLFW_KEY_ENTER);
+    EXPECT_EQ(press(GLFW_KEY_W), MenuEvent::kKeysChanged);
+    EXPECT_EQ(keys.codes[size_t(Action::kUse)], GLFW_KEY_W);
+    EXPECT_EQ(keys.codes[size_t(Action::kForward)], GLFW_KEY_E) << "no key does two things";
+}
+
+TEST(Quality, ComesDownWhenSlowAndClimbsWhenFast) {
+    AutoQuality slow(true);
+    const size_t start = slow.rung();
+    for (int i = 0; i < 200; ++i)
+        slow.step(200);
+    EXPECT_EQ(slow.rung(), 0u);
+    EXPECT_LT(slow.rung(), start);
+    for (int i = 0; i < 2000; ++i)
+        slow.step(5);
+    EXPECT_EQ(slow.rung(), 0u) << "it was too slow there before";
+    AutoQuality fast(false);
+    for (int i = 0; i < 2000; ++i)
+        fast.step(4);
+    EXPECT_EQ(fast.rung(), qualityLadder().size() - 1) << "ultra";
+    gi::GiSettings gi;
+    gi.composite.exposure = 2;
+    for (const Quality q : {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra}) {
+        applyQuality(q, gi);
+        EXPECT_EQ(gi.composite.exposure, 2);
+        EXPECT_EQ(qualityFromName(qualityName(q)), q);
+    }
+}
+
+TEST(UserFiles, AreReadAndRefused) {
+    const std::string path = testing::TempDir() + "/settings.txt";
+    UserSettings settings{.quality = Quality::kHigh, .sensitivity = 1.5f, .hints = false};
+    ASSERT_TRUE(saveUserSettings(settings, path));
+    const auto back = loadUserSettings(path);
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->quality, Quality::kHigh);
+    EXPECT_EQ(back->sensitivity, 1.5f);
+    EXPECT_FALSE(back->hints);
+    for (const char* text :
+         {"quality best\n", "sensitivity 99\n", "hints maybe\n", "colour red\n", "hints\n"}) {
+        ASSERT_TRUE(writeFileSafely(path, text));
+        EXPECT_FALSE(loadUserSettings(path)) << text;
+    }
+}
+
+// Each colour of the level has a shape of its own.
+TEST(Hud, ShapesTellTheColoursApart) {
+    const SceneAsset asset = level();
+    std::map<std::string, Shape> shapes;
+    for (const SceneNode& node : asset.nodes)
+        if (node.extras.tag == "flower")
+            shapes[node.name.substr(node.name.rfind(' ') + 1)] = shapeOf(node.extras.wants);
+    EXPECT_EQ(shapes.size(), 7u);
+    EXPECT_EQ(shapes["white"], Shape::kCircle);
+    EXPECT_EQ(shapes["red"], Shape::kTriangle);
+    EXPECT_EQ(shapes["green"], Shape::kSquare);
+    EXPECT_EQ(shapes["blue"], Shape::kDiamond);
+    EXPECT_EQ(shapes["yellow"], Shape::kStar);
+    EXPECT_EQ(shapes["magenta"], Shape::kCross);
+    EXPECT_EQ(shapes["cyan"], Shape::kHexagon);
+    Game game(asset, 1);
+    game.tick({});
+    const HudState hud = readHud(game.world(), game.hints(), true);
+    EXPECT_EQ(hud.flowers.size(), 2u);
+    EXPECT_NE(hud.goal.find("0 of 2"), std::string::npos);
+    EXPECT_FALSE(hud.hint.empty());
+}
+
+}  // namespace
+}  // namespace ag::game

@@ -1,0 +1,32 @@
+// The game with its renderer, tick by tick, without a window: what the headless demo does, for scripts and
+// tests.
+#pragma once
+
+#include "game/game.h"
+#include "game/quality.h"
+#include "gi/gi_components.h"
+#include "gi/gi_renderer.h"
+
+namespace ag::game {
+
+struct Stage {
+    Stage(gpu::Device& device, SceneAsset level, uint32_t ticksPerFrame, glm::uvec2 pixels = {64, 36});
+
+    void tick(const Input& input);
+    Flower flower(size_t index);  // in the order of the level
+    gi::ProbeLight lightAt(size_t index);
+    glm::dvec3 flowerAt(size_t index);  // m, of its head
+
+    Game game;
+    gi::GiSettings settings;
+    FrameGraphOptions options;
+    gi::GiRenderer renderer;
+    glm::uvec2 size;
+    uint32_t perFrame;
+    uint64_t ticks = 0;
+    std::vector<Entity> flowers;
+};
+
+SceneAsset shippedLevel();
+
+}  // namespace ag::game
