@@ -36,11 +36,6 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
         f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, {f.clusters, f.vals, f.isms},
                                      s.stochasticRsm, h.stochasticRsm);
-    const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step;
-    if (s.denoiser.enabled && s.denoiser.motion && f.bounce1.image)
-        f.gbuffer.motion = addMotion(graph, scene, f.gbuffer);
-    const uint64_t light = combineHash(f.rsm.inputsVersion, scene.scene->instancesVersion);
-    f.bounce1 = addDenoiser(graph, scene, f.gbuffer, {f.bounce1, light, steps}, s.denoiser, h.denoiser);
 
     // Light that goes on
     f.indirect = f.bounce1;
@@ -48,6 +43,14 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
         addLaterIrradiance(graph, f.laterLight, f.vals, f.rsm.firstLater(), f.isms, s.laterBounces);
         f.indirect = addValShading(graph, scene, f.gbuffer, f.vals, f.isms, s.valShading, kAllBouncesShading);
     }
+
+    // Steady and smooth
+    if (s.denoiser.enabled && s.denoiser.motion && f.indirect.image)
+        f.gbuffer.motion = addMotion(graph, scene, f.gbuffer);
+    const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
+    const uint64_t light = combineHash(f.rsm.inputsVersion, scene.scene->instancesVersion);
+    f.indirect = addDenoiser(graph, scene, f.gbuffer, {f.indirect, light, steps}, s.denoiser, h.denoiser);
+    if (!f.laterLight.texels) f.bounce1 = f.indirect;  // all there is
 
     // Direct light
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);
