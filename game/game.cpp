@@ -29,11 +29,12 @@ void addGround(World& world, const SceneAsset& level) {
     for (const SceneNode& node : level.nodes)
         solid = solid || (node.extras.collider && node.name == "ground");
     if (solid) return;
-    const Bounds bounds = staticScene(level).bounds;
+    const RenderScene scene = staticScene(level, likelyView(level));
+    const Bounds& bounds = scene.bounds;  // relative to the origin
     if (bounds.empty()) return;
     const glm::vec3 middle = (bounds.min + bounds.max) * 0.5f, half = (bounds.max - bounds.min) * 0.5f;
     const auto wall = [&](glm::vec3 center, glm::vec3 size) {
-        world.create(LocalTransform{.translation = glm::dvec3(center)}, WorldTransform{},
+        world.create(LocalTransform{.translation = glm::dvec3(center) + scene.originWorld}, WorldTransform{},
                      Body{.kind = BodyKind::kStatic, .halfSize = size});
     };
     wall({middle.x, bounds.min.y - 0.5f, middle.z}, {half.x + 1, 0.5f, half.z + 1});

@@ -23,9 +23,13 @@ Sphere sliceSphere(const RenderCamera& camera, float aspect, float near, float f
     return {camera.position + camera.forward * along, std::max(radius, 1e-3f)};
 }
 
-// Up to the next sixteenth of the power of two below.
+// A sixteenth of the power of two below.
+float coarseStep(float length) {
+    return std::exp2(std::floor(std::log2(std::max(length, 1e-3f)))) / 16.0f;
+}
+
 float coarse(float length) {
-    const float step = std::exp2(std::floor(std::log2(std::max(length, 1e-3f)))) / 16.0f;
+    const float step = coarseStep(length);
     return std::ceil(length / step) * step;
 }
 
@@ -50,7 +54,8 @@ Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirect
         const float whole = coarse((scene.seen.max[i] - scene.seen.min[i]) * 1.02f);
         size[i] = std::min(coarse(2 * sphere.radius), whole);
         const float texel = size[i] / float(resolution), slack = 0.5f * (whole - size[i]);
-        const float sceneMiddle = std::floor((scene.seen.min[i] + scene.seen.max[i]) * 8.0f) / 16.0f;
+        const float grid = coarseStep(whole) / 8;
+        const float sceneMiddle = std::floor((scene.seen.min[i] + scene.seen.max[i]) * 0.5f / grid) * grid;
         const float aside = std::clamp(center[i] - sceneMiddle, -slack, slack);
         middle[i] = std::floor((sceneMiddle + aside) / texel) * texel;
     }

@@ -7,7 +7,7 @@ namespace ag::gi {
 namespace {
 
 enum class Show : uint32_t { kLight, kReflectance, kDirection, kDistance, kDisplay };
-enum class Copy : uint32_t { kColor, kSum, kDepth, kDifference };
+enum class Copy : uint32_t { kLight, kSum, kDepth, kDifference, kPlain };
 
 struct LayerInfo {
     std::string_view name;
@@ -39,11 +39,14 @@ ImageHandle addCopy(FrameGraph& graph, const SceneView& scene, ImageHandle first
                     Copy mode) {
     if (!first) return {};
     const ImageHandle out = layerImage(graph, graph.info(first).size);
+    const float unit = mode == Copy::kDepth   ? scene.scene->camera.near * scene.units.length
+                       : mode == Copy::kPlain ? 1
+                                              : scene.units.light;
     graph.fullscreen("debug_view.copy_layer", "debug_view/copy_layer.frag")
         .sample("first", first)
         .sample("second", second ? second : first)
         .spec(0, uint32_t(mode))
-        .push(scene.scene->camera.near)
+        .push(unit)
         .colorClear(out, glm::vec4(0));
     return out;
 }
@@ -89,23 +92,31 @@ ImageHandle addLampClusters(FrameGraph& graph, const SceneView& scene, const GiF
     return out;
 }
 
-ImageHandle addIsmView(FrameGraph& graph, const IsmAtlas& isms) {
+ImageHandle addIsmView(FrameGraph& graph, const SceneView& scene, const IsmAtlas& isms) {
     const uint32_t columns = uint32_t(std::ceil(std::sqrt(float(isms.mapCount))));
     const uint32_t rows = (isms.mapCount + columns - 1) / columns;
     const ImageHandle out = layerImage(graph, glm::uvec2(columns, rows) * isms.tileSize);
+    struct Push {
+        uint32_t mapCount, tileSize, columns;
+        float metres;
+    };
     graph.fullscreen("debug_view.ism", "debug_view/ism.frag")
         .read("planes", isms.planes)
         .spec(3, isms.mapping == IsmMapping::kParaboloid)
-        .push(glm::uvec3(isms.mapCount, isms.tileSize, columns))
+        .push(Push{isms.mapCount, isms.tileSize, columns, scene.units.length})
         .colorClear(out, glm::vec4(0));
     return out;
 }
 
-ImageHandle addRsmView(FrameGraph& graph, const GiFrame& f) {
+ImageHandle addRsmView(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
     const ImageHandle out = layerImage(graph, f.rsm.atlas.size);
+    struct Push {
+        io::RsmAtlas atlas;
+        float light;
+    };
     graph.fullscreen("debug_view.rsm", "debug_view/rsm.frag")
         .read("texels", f.rsm.texels)
-        .push(f.rsm.atlas)
+        .push(Push{f.rsm.atlas, scene.units.light})
         .colorClear(out, glm::vec4(0));
     return out;
 }
@@ -139,30 +150,30 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
     const ImageHandle direct = f.direct.image, bounce = f.indirect.image;
     switch (layer) {
         case Layer::kFinal:
-            return addCopy(graph, scene, f.outputs.display, {}, Copy::kColor);
+            return addCopy(graph, scene, f.outputs.display, {}, Copy::kPlain);
         case Layer::kRadiance:
-            return addCopy(graph, scene, f.outputs.radiance, {}, Copy::kColor);
+            return addCopy(graph, scene, f.outputs.radiance, {}, Copy::kLight);
         case Layer::kDirect:
-            return addCopy(graph, scene, direct, {}, Copy::kColor);
+            return addCopy(graph, scene, direct, {}, Copy::kLight);
         case Layer::kIndirect:
-            return addCopy(graph, scene, bounce, {}, Copy::kColor);
+            return addCopy(graph, scene, bounce, {}, Copy::kLight);
         case Layer::kBounce1:
-            return addCopy(graph, scene, f.bounce1.image, {}, Copy::kColor);
+            return addCopy(graph, scene, f.bounce1.image, {}, Copy::kLight);
         case Layer::kBounce2:
             return f.laterLight.texels
                        ? addCopy(graph, scene, f.indirect.image, f.bounce1.image, Copy::kDifference)
                        : ImageHandle{};
         case Layer::kIrradiance:
             return addCopy(graph, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
-                           direct && bounce ? Copy::kSum : Copy::kColor);
+                           direct && bounce ? Copy::kSum : Copy::kLight);
         case Layer::kAlbedo:
-            return addCopy(graph, scene, f.gbuffer.albedo, {}, Copy::kColor);
+            return addCopy(graph, scene, f.gbuffer.albedo, {}, Copy::kPlain);
         case Layer::kNormal:
-            return addCopy(graph, scene, f.gbuffer.normal, {}, Copy::kColor);
+            return addCopy(graph, scene, f.gbuffer.normal, {}, Copy::kPlain);
         case Layer::kDepth:
             return addCopy(graph, scene, f.gbuffer.depth, {}, Copy::kDepth);
         case Layer::kRsm:
-            return lit ? addRsmView(graph, f) : ImageHandle{};
+            return lit ? addRsmView(graph, scene, f) : ImageHandle{};
         case Layer::kImportance:
             return lit ? addImportanceView(graph, f) : ImageHandle{};
         case Layer::kClusters:
@@ -172,7 +183,7 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
         case Layer::kLampClusters:
             return f.lampLists.lamps ? addLampClusters(graph, scene, f) : ImageHandle{};
         case Layer::kIsm:
-            return f.isms.planes ? addIsmView(graph, f.isms) : ImageHandle{};
+            return f.isms.planes ? addIsmView(graph, scene, f.isms) : ImageHandle{};
         case Layer::kCount:
             break;
     }

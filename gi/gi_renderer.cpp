@@ -1,5 +1,6 @@
 #include "gi/gi_renderer.h"
 
+#include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
@@ -28,6 +29,13 @@ GiRenderer::~GiRenderer() {
 
 void GiRenderer::load(const GeometryArrays& geometry) {
     scene_.load(geometry);
+    if (units_ != RenderUnits{}) ++unitsGeneration_;
+    units_ = {};
+    startAnew();
+}
+
+// Without anything of the frames before.
+void GiRenderer::startAnew() {
     graph_.resetHistory("val_clustering.clusters");
     for (const std::string_view copy : kLampRelevanceCopies)  // of lamps that are gone
         graph_.resetHistory(copy);
@@ -36,7 +44,21 @@ void GiRenderer::load(const GeometryArrays& geometry) {
     history_ = {};
 }
 
-void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSettings& settings,
+const RenderScene& GiRenderer::inOwnUnits(const RenderScene& scene) {
+    const RenderUnits units = chooseUnits(scene, scene_.strongestEmission(), units_);
+    if (units != units_) {
+        units_ = units;
+        ++unitsGeneration_;
+        waitIdle();
+        scene_.useUnits(*scene.geometry, units);
+        startAnew();
+    }
+    if (unitsGeneration_ == 0) return scene;
+    inUnits(scene, units_, unitsGeneration_, converted_);
+    return converted_;
+}
+
+void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSettings& settings,
                         const FrameGraphOptions& options, Finish finish, Present present,
                         FrameSemaphores semaphores) {
     const uint32_t index = uint32_t(frame_++ % kFramesInFlight);
@@ -44,11 +66,14 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     device_.waitFor(slot.submitted);
     AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
 
+    const RenderScene& scene = inOwnUnits(given);
     graph_.beginFrame(options);
     scene_.beginFrame(scene);
-    const SceneView view = scene_.import(graph_, scene, size);
+    SceneView view = scene_.import(graph_, scene, size);
+    view.units = units_;
     GiSettings asked = settings;
     asked.ismAtlas.keepMaps = settings.ismAtlas.keepMaps && options.skip;
+    asked.composite.exposure += std::log2(units_.light);
     const GiFrame frame = addGlobalIllumination(graph_, view, asked, history_);
     finish(graph_, view, frame);
 

@@ -45,9 +45,13 @@ class GiRenderer {
     SceneGpu& scene() { return scene_; }
     gpu::Device& device() { return device_; }
     gpu::PipelineLibrary& pipelines() { return pipelines_; }
+    // Of everything in the frame; the layers of debug_view and the probes' readings are in metres and watts.
+    RenderUnits units() const { return units_; }
     uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
 
   private:
+    void startAnew();
+    const RenderScene& inOwnUnits(const RenderScene& scene);
     struct Slot {
         VkCommandPool pool = VK_NULL_HANDLE;
         VkCommandBuffer commands = VK_NULL_HANDLE;
@@ -58,6 +62,9 @@ class GiRenderer {
     SceneGpu scene_;
     FrameGraph graph_;
     GiHistory history_;
+    RenderUnits units_;
+    uint64_t unitsGeneration_ = 0;
+    RenderScene converted_;  // while the units are not metres and watts
     std::array<Slot, kFramesInFlight> slots_;
     uint64_t frame_ = 0;
 };

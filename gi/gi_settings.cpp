@@ -277,7 +277,8 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"shadow_maps", "resolution", 64, 4096, "texels", "side of a sun's cascade"},
           &gi.shadowMaps.resolution);
     s.add({"shadow_maps", "cascades", 1, 4, "", "cascades of a sun"}, &gi.shadowMaps.cascades);
-    s.add({"shadow_maps", "cascade_distance", 1, 10000, "m", "reach of the last cascade, cut to the scene"},
+    s.add({"shadow_maps", "cascade_distance", 1, 10000, "m",
+           "that the cascades share out; the last one goes on to the scene's end"},
           &gi.shadowMaps.cascadeDistance);
     s.add({"shadow_maps", "cascade_split", 0, 1, "", "0 uniform, 1 logarithmic"},
           &gi.shadowMaps.cascadeSplit);

@@ -34,13 +34,13 @@ std::optional<ProbeReading> ProbeReadings::of(uint64_t id) const {
     return found->reading;
 }
 
-void ProbeReadings::set(std::span<const std::byte> rows) {
+void ProbeReadings::set(std::span<const std::byte> rows, float lightUnit) {
     rows_.clear();
     for (; rows.size() >= sizeof(io::ProbeRow); rows = rows.subspan(sizeof(io::ProbeRow))) {
         io::ProbeRow row;
         std::memcpy(&row, rows.data(), sizeof row);
         const uint64_t id = idOf(row.idLow, row.idHigh);
-        if (id != kNoProbe) rows_.push_back({id, {row.direct, row.bounced}});
+        if (id != kNoProbe) rows_.push_back({id, {row.direct * lightUnit, row.bounced * lightUnit}});
     }
     std::ranges::sort(rows_, {}, &Row::id);
 }
@@ -76,7 +76,7 @@ void addProbes(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, con
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
-    known.set(graph.readBack(kProbeCopies, rows));
+    known.set(graph.readBack(kProbeCopies, rows), scene.units.light);
 }
 
 }  // namespace ag::gi

@@ -32,7 +32,8 @@ class ProbeReadings {
     std::optional<ProbeReading> of(uint64_t id) const;
     size_t count() const { return rows_.size(); }
 
-    void set(std::span<const std::byte> rows);
+    // `lightUnit`: W/m² in one of the rows' numbers.
+    void set(std::span<const std::byte> rows, float lightUnit);
     // Without light there is nothing to measure.
     void setDark(std::span<const RenderProbe> probes);
     void clear() { rows_.clear(); }

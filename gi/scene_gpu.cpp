@@ -25,9 +25,9 @@ io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& g
             .ids = {geometry.primitives[instance.primitive].material, instance.primitive, 0, 0}};
 }
 
-io::Material materialRow(const Material& m) {
+io::Material materialRow(const Material& m, RenderUnits units) {
     return {.baseColor = m.baseColor,
-            .emissive = m.emissive,
+            .emissive = m.emissive / units.light,
             .alphaCutoff = m.alphaMode == AlphaMode::kMask ? m.alphaCutoff : 0.0f,
             .metallic = m.metallic,
             .roughness = m.roughness,
@@ -116,16 +116,25 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     positions_ = loadBuffer(device_, "scene.positions", geometry.positions, true);
     attributes_ = loadBuffer(device_, "scene.attributes", geometry.attributes, true);
     indices_ = loadBuffer(device_, "scene.indices", geometry.indices, true);
+    loadTextures(geometry);
+    useUnits(geometry, {});
+    geometryVersion_ = geometry.version;
+}
+
+void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
+    loadMaterials(geometry, units);
+    instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
+}
+
+void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) {
     std::vector<io::Material> rows;
-    hasEmissive_ = false;
+    strongestEmission_ = 0;
     for (const Material& m : geometry.materials) {
-        rows.push_back(materialRow(m));
-        hasEmissive_ = hasEmissive_ || m.emissive != glm::vec3(0);
+        rows.push_back(materialRow(m, units));
+        strongestEmission_ = std::max({strongestEmission_, m.emissive.x, m.emissive.y, m.emissive.z});
     }
     materials_ = loadBuffer(device_, "scene.materials", rows, false, kVec4Texels);
-    loadTextures(geometry);
-    geometryVersion_ = geometry.version;
-    instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
+    materialsVersion_ = combineHash(geometry.version, hashValue(units.light));
 }
 
 void SceneGpu::loadTextures(const GeometryArrays& geometry) {
@@ -207,7 +216,7 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     reserveBuffers(scene);
     sampleSurfacesAnew(scene);
     noteMovements(scene);
-    SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = hasEmissive_};
+    SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = strongestEmission_ > 0};
     view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
     // Constant versions: what a view draws of them is in its draws' versions.
     view.instances = graph.importBuffer("scene.instances", *instances_, 1);
@@ -216,7 +225,7 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
                          instancesVersion_ + 1 == scene.instancesVersion;
     if (follows) view.moved = scene.changedInstances;
     view.commands = graph.importBuffer("scene.commands", *commands_, 1);
-    view.materials = graph.importBuffer("scene.materials", *materials_, geometryVersion_);
+    view.materials = graph.importBuffer("scene.materials", *materials_, materialsVersion_);
     static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024",
                                               "scene.srgb2048"};
     static constexpr std::array kLinearNames = {"scene.linear256", "scene.linear512", "scene.linear1024",

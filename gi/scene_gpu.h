@@ -11,6 +11,7 @@
 #include "engine/gpu/resources.h"
 #include "engine/scene/render_scene.h"
 #include "gi/draw_lists.h"
+#include "gi/render_units.h"
 #include "shaders/scene/scene_io.h"
 
 namespace ag::gi {
@@ -29,6 +30,7 @@ struct SceneView {
     BufferHandle commands;                                    // indirect draws of all views
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
     glm::uvec2 size{0};                                       // pixels of the camera's image
+    RenderUnits units;                                        // of everything above
     bool hasEmissive = false;
     BufferHandle surfaceSamples;           // io::SurfaceSample; also a texel buffer of vec4
     uint32_t surfaceSampleCount = 0;       // 0: no surface
@@ -52,6 +54,9 @@ class SceneGpu {
 
     // Blocking: geometry, materials and textures of a scene just loaded.
     void load(const GeometryArrays& geometry);
+    // Of the scene loaded: what follows comes in other units. Nothing may be under way.
+    void useUnits(const GeometryArrays& geometry, RenderUnits units);
+    float strongestEmission() const { return strongestEmission_; }  // of its materials, W/(m² sr)
 
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene) { draws_.beginFrame(scene); }
@@ -68,6 +73,7 @@ class SceneGpu {
         std::unique_ptr<gpu::Buffer> buffer;
         uint64_t used = 0;
     };
+    void loadMaterials(const GeometryArrays& geometry, RenderUnits units);
     void loadTextures(const GeometryArrays& geometry);
     void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
                const gpu::Buffer& to, uint64_t offset);
@@ -82,7 +88,8 @@ class SceneGpu {
     gpu::Device& device_;
     DrawLists draws_;
     uint64_t geometryVersion_ = 0;
-    bool hasEmissive_ = false;
+    float strongestEmission_ = 0;
+    uint64_t materialsVersion_ = 0;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;

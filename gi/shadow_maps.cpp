@@ -29,11 +29,13 @@ struct Views {
     uint32_t count = 0;
 };
 
-// The last cascade ends where the scene does.
-float cascadeReach(const RenderScene& scene, const ShadowMapSettings& settings) {
+constexpr float kLeastSplit = 1.0f / 100;  // the first cascade ends no nearer, of the way to the last
+
+// Where the scene ends, seen from the camera.
+float sceneReach(const RenderScene& scene) {
     const glm::vec3 c = scene.camera.position;
     const glm::vec3 far = glm::max(glm::abs(scene.bounds.min - c), glm::abs(scene.bounds.max - c));
-    return std::clamp(glm::length(far), 1.0f, settings.cascadeDistance);
+    return std::max(glm::length(far), 2 * scene.camera.near);
 }
 
 void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowMapSettings& settings,
@@ -41,10 +43,12 @@ void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowM
     const RenderCamera& camera = scene.scene->camera;
     const float aspect = float(scene.size.x) / float(scene.size.y);
     const uint32_t count = std::clamp(settings.cascades, 1u, io::kMaxCascades);
-    const float reach = cascadeReach(*scene.scene, settings);
+    const float whole = sceneReach(*scene.scene), reach = std::min(whole, settings.cascadeDistance);
     float begin = camera.near;
     for (uint32_t i = 0; i < count; ++i) {
-        const float end = cascadeEnd(i, count, std::max(camera.near, 0.5f), reach, settings.cascadeSplit);
+        const float split =
+            cascadeEnd(i, count, std::max(camera.near, kLeastSplit * reach), reach, settings.cascadeSplit);
+        const float end = i + 1 == count ? whole : split;  // beyond it nothing would cast a shadow
         const Cascade c =
             fitCascade(camera, aspect, light.direction, scene.scene->bounds, begin, end, settings.resolution);
         views.items[views.count++] = {

@@ -10,17 +10,13 @@
 namespace ag {
 namespace {
 
-constexpr double kOriginStep = 1024;  // m
-
 glm::mat4x3 relativeTo(const glm::dvec3& origin, const WorldTransform& world) {
     return {world.linear[0], world.linear[1], world.linear[2], glm::vec3(world.translation - origin)};
 }
 
 // True when the origin moved: then every position is another number.
 bool followCamera(RenderScene& scene, ExtractState& state, const glm::dvec3& camera) {
-    const glm::dvec3 away = glm::abs(camera - scene.originWorld);
-    if (state.placed && std::max({away.x, away.y, away.z}) <= kOriginStep) return false;
-    const glm::dvec3 origin = glm::round(camera / kOriginStep) * kOriginStep;
+    const glm::dvec3 origin = state.placed ? followingOrigin(scene.originWorld, camera) : camera;
     const bool moved = !state.placed || origin != scene.originWorld;
     state.placed = true;
     scene.originWorld = origin;

@@ -1,6 +1,5 @@
 // World to RenderScene: the one place where entities become what the renderer sees. Versions move only when
-// contents do. The render origin follows the camera in steps of 1,024 m, so that single precision is always
-// near.
+// contents do. The render origin follows the camera in rare steps, so that single precision is always near.
 #pragma once
 
 #include <unordered_set>

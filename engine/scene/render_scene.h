@@ -125,7 +125,7 @@ struct RenderCamera {
 
 struct RenderScene {
     const GeometryArrays* geometry = nullptr;
-    glm::dvec3 originWorld{0};
+    glm::dvec3 originWorld{0};  // m
     std::vector<RenderInstance> instances;
     std::vector<RenderLight> lights;
     std::vector<RenderProbe> probes;

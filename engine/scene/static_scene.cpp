@@ -27,9 +27,10 @@ Bounds boundsOf(const Bounds& local, const glm::mat4x3& m) {
     return b;
 }
 
-RenderLight lightOf(const SceneLight& light, const WorldPlacement& place, uint64_t id) {
+RenderLight lightOf(const SceneLight& light, const WorldPlacement& place, const glm::dvec3& origin,
+                    uint64_t id) {
     RenderLight out{.kind = light.kind,
-                    .position = glm::vec3(place.translation),
+                    .position = glm::vec3(place.translation - origin),
                     .intensity = light.intensity,
                     .range = light.range,
                     .innerConeAngle = light.innerConeAngle,
@@ -79,6 +80,21 @@ std::vector<WorldPlacement> placeNodes(const SceneAsset& asset) {
     return places;
 }
 
+glm::dvec3 followingOrigin(glm::dvec3 before, glm::dvec3 camera) {
+    const glm::dvec3 away = glm::abs(camera - before);
+    return std::max({away.x, away.y, away.z}) <= kOriginReach ? before : camera;
+}
+
+glm::dvec3 likelyView(const SceneAsset& asset) {
+    const auto firstWith = [&](int32_t SceneNode::*part) {
+        return std::ranges::find_if(asset.nodes, [&](const SceneNode& n) { return n.*part >= 0; });
+    };
+    auto node = firstWith(&SceneNode::camera);
+    if (node == asset.nodes.end()) node = firstWith(&SceneNode::mesh);
+    if (node == asset.nodes.end()) return glm::dvec3(0);
+    return placeNodes(asset)[size_t(node - asset.nodes.begin())].translation;
+}
+
 CameraPose framingCamera(const Bounds& bounds) {
     if (bounds.empty()) return {};
     const glm::vec3 center = (bounds.min + bounds.max) * 0.5f;
@@ -100,25 +116,29 @@ CameraPose cameraOf(const SceneAsset& asset, size_t index) {
         return {places[i].translation, glm::normalize(places[i].linear * glm::vec3(0, 0, -1)),
                 camera.verticalFov, camera.near};
     }
-    return framingCamera(staticScene(asset).bounds);
+    const RenderScene scene = staticScene(asset, likelyView(asset));
+    CameraPose pose = framingCamera(scene.bounds);
+    pose.position += scene.originWorld;
+    return pose;
 }
 
-RenderScene staticScene(const SceneAsset& asset) {
+RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
     RenderScene scene;
     scene.geometry = &asset.geometry;
     const std::vector<WorldPlacement> places = placeNodes(asset);
+    scene.originWorld = originWorld;
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
         if (node.light >= 0) {
-            scene.lights.push_back(
-                lightOf(asset.lights[size_t(node.light)], places[i], scene.lights.size() + 1));
+            scene.lights.push_back(lightOf(asset.lights[size_t(node.light)], places[i], scene.originWorld,
+                                           scene.lights.size() + 1));
             scene.lights.back().bounces = node.extras.bounces;
             scene.lights.back().castsShadow = node.extras.castsShadow;
         }
         if (node.mesh < 0) continue;
         const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
         const glm::mat3& m = places[i].linear;
-        const glm::mat4x3 world(m[0], m[1], m[2], glm::vec3(places[i].translation));
+        const glm::mat4x3 world(m[0], m[1], m[2], glm::vec3(places[i].translation - scene.originWorld));
         for (uint32_t p = mesh.firstPrimitive; p < mesh.firstPrimitive + mesh.primitiveCount; ++p) {
             scene.instances.push_back({world, p});
             scene.bounds.add(boundsOf(asset.geometry.primitives[p].boundsLocal, world));

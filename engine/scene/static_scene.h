@@ -21,12 +21,21 @@ struct WorldPlacement {
 };
 std::vector<WorldPlacement> placeNodes(const SceneAsset& asset);
 
+// The origin that positions are taken relative to: where the camera stood when it was placed, until it is
+// farther off than floats are fine. Not on a grid: a scene that stands elsewhere then has the same numbers.
+constexpr double kOriginReach = 256;  // m: 1/50 mm
+glm::dvec3 followingOrigin(glm::dvec3 before, glm::dvec3 camera);
+
+// Where someone is likely to look from: the first camera, else the first thing there is. An origin for tools.
+glm::dvec3 likelyView(const SceneAsset& asset);
+
 // Camera of the asset by index; one that frames the scene if it has none.
 CameraPose cameraOf(const SceneAsset& asset, size_t index);
 CameraPose framingCamera(const Bounds& bounds);
 
-// Instances, lights (the strongest eight bounce) and bounds. The asset must outlive the result.
-RenderScene staticScene(const SceneAsset& asset);
+// Instances, lights (the strongest eight bounce) and bounds, about an origin. The asset must outlive the
+// result.
+RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld = glm::dvec3(0));
 void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size);
 
 }  // namespace ag

@@ -26,6 +26,7 @@ using std::acos, std::cos, std::exp2, std::log2, std::pow, std::sin, std::sqrt;
 #endif
 
 AG_BEGIN
+const float kMostHalf = 65504.0f;  // of a half float: light that is stored as such ends here
 const float kPi = 3.14159265f;
 const float kInvPi = 0.318309886f;
 AG_END

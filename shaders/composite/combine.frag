@@ -2,6 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Outgoing radiance of Lambert surfaces: albedo / pi times irradiance, and what they emit.
+#include "common/portable.h"
+
 layout(constant_id = 0) const bool kDirect = true;    // compiled out where nothing lights the scene
 layout(constant_id = 1) const bool kIndirect = true;
 layout(constant_id = 2) const bool kEmissive = false;
@@ -20,7 +22,7 @@ void main() {
     vec3 irradiance = vec3(0.0);
     if (kDirect) irradiance += texelFetch(directMap, pixel, 0).rgb;
     if (kIndirect) irradiance += texelFetch(indirectMap, pixel, 0).rgb;
-    vec3 result = texelFetch(albedoMap, pixel, 0).rgb * irradiance * 0.318309886;
+    vec3 result = texelFetch(albedoMap, pixel, 0).rgb * irradiance * kInvPi;
     if (kEmissive) result += texelFetch(emissiveMap, pixel, 0).rgb;
-    radiance = texelFetch(depthMap, pixel, 0).x > 0.0 ? vec4(result, 1.0) : vec4(0.0);
+    radiance = texelFetch(depthMap, pixel, 0).x > 0.0 ? vec4(min(result, vec3(kMostHalf)), 1.0) : vec4(0.0);
 }

@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // An intermediate as plain floats in its own unit, for files and comparison.
-const uint kColor = 0;
+const uint kLight = 0;
 const uint kSum = 1;    // of two images
 const uint kDepth = 2;  // reversed depth to metres along the camera's axis; 0: no surface
 const uint kDifference = 3;
-layout(constant_id = 0) const uint kMode = kColor;
+layout(constant_id = 0) const uint kMode = kLight;
 
-layout(push_constant) uniform Push { float near; } push;
+layout(push_constant) uniform Push { float unit; } push;  // of light; with kDepth: m from the near plane
 layout(set = 0, binding = 0) uniform sampler2D first;
 layout(set = 0, binding = 1) uniform sampler2D second;
 layout(location = 0) in vec2 uv;
@@ -18,6 +18,5 @@ void main() {
     vec3 result = texelFetch(first, pixel, 0).rgb;
     if (kMode == kSum) result += texelFetch(second, pixel, 0).rgb;
     if (kMode == kDifference) result -= texelFetch(second, pixel, 0).rgb;
-    if (kMode == kDepth) result = vec3(result.x > 0.0 ? push.near / result.x : 0.0);
-    value = vec4(result, 1.0);
+    value = vec4(kMode == kDepth ? vec3(result.x > 0.0 ? push.unit / result.x : 0.0) : result * push.unit, 1.0);
 }

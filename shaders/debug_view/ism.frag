@@ -4,7 +4,7 @@
 // The imperfect shadow maps side by side: distance along each texel's direction, m; 0 where nothing was met.
 #include "ism_atlas/ism_map.glsl"
 
-layout(push_constant, scalar) uniform Push { uint mapCount, tileSize, columns; } push;
+layout(push_constant, scalar) uniform Push { uint mapCount, tileSize, columns; float metres; } push;  // metres: unit of length
 layout(set = 0, binding = 0) uniform samplerBuffer planes;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;
@@ -18,5 +18,5 @@ void main() {
         vec3 w = normalize(ismDirection((vec2(texel) + 0.5) / float(push.tileSize)));
         distance_ = plane.w > 0.0 ? min(1.0 / max(dot(plane.xyz, w), 1e-6), 1e3) : 0.0;
     }
-    color = vec4(vec3(distance_), 1.0);
+    color = vec4(vec3(distance_ * push.metres), 1.0);
 }

@@ -4,7 +4,7 @@
 // The light maps as radiosity, flux over area, in W/m².
 #include "rsm/rsm.glsl"
 
-layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
+layout(push_constant, scalar) uniform Push { RsmAtlas atlas; float light; } push;  // light: its unit, W/m²
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;
@@ -13,5 +13,5 @@ void main() {
     uvec2 coord = uvec2(gl_FragCoord.xy);
     uint index = rsmIndexOfCoord(coord, push.atlas.size.x);
     RsmSurface s = AG_RSM_FETCH(texels, index);
-    color = vec4(s.weight > 0.0 ? s.flux / s.area : vec3(0.0), 1.0);
+    color = vec4(s.weight > 0.0 ? push.light * s.flux / s.area : vec3(0.0), 1.0);
 }

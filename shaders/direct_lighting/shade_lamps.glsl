@@ -81,12 +81,12 @@ void main() {
         if (any(greaterThanEqual(at * int(kStep), ivec2(size)))) continue;
         bool there = r[p].depth > 0.0;
 #ifdef AG_QUADS
-        imageStore(shadowed, at, vec4(there ? e[p] : vec3(0.0), 1.0));
-        imageStore(unshadowed, at, vec4(there ? all[p] : vec3(0.0), 1.0));
+        imageStore(shadowed, at, vec4(there ? min(e[p], vec3(kMostHalf)) : vec3(0.0), 1.0));
+        imageStore(unshadowed, at, vec4(there ? min(all[p], vec3(kMostHalf)) : vec3(0.0), 1.0));
 #else
         vec3 sum = there ? e[p] : vec3(0.0);
         if (!kFirst) sum += imageLoad(irradiance, at).rgb;
-        imageStore(irradiance, at, vec4(sum, 1.0));
+        imageStore(irradiance, at, vec4(min(sum, vec3(kMostHalf)), 1.0));
 #endif
     }
 }

@@ -92,6 +92,6 @@ void main() {
         vec3 result = r[p].depth > 0.0 ? e[p] * share : vec3(0.0);
         if (any(greaterThanEqual(pixel, size))) continue;
         if (!kFirst) result += imageLoad(irradiance, ivec2(pixel)).rgb;
-        imageStore(irradiance, ivec2(pixel), vec4(result, 1.0));
+        imageStore(irradiance, ivec2(pixel), vec4(min(result, vec3(kMostHalf)), 1.0));
     }
 }

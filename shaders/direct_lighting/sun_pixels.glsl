@@ -37,5 +37,5 @@ void main() {
 #endif
     if (depth <= 0.0) e = vec3(0.0);
     if (!kFirst) e += imageLoad(irradiance, pixel).rgb;
-    imageStore(irradiance, pixel, vec4(e, 1.0));
+    imageStore(irradiance, pixel, vec4(min(e, vec3(kMostHalf)), 1.0));
 }

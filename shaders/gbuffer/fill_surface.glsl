@@ -18,7 +18,7 @@ layout(location = 2) out vec4 outEmissive;  // W/(m² sr)
 
 void main() {
     SurfaceMaterial m = fetchMaterial(material, uv);
-    vec3 n = normalize(normal);
+    vec3 n = unitNormal(normal);
     if (!gl_FrontFacing) n = -n;
     if (kNormalMaps) n = bentNormal(m, position, n, tangent);
     outNormal = vec4(n, m.roughness);
@@ -26,6 +26,6 @@ void main() {
 #ifdef AG_EMISSIVE
     vec3 emissive = m.emissive;
     if (kTextureClass != 0) emissive *= sampleSrgb(m.uv, m.layers.y).rgb;
-    outEmissive = vec4(emissive, 1.0);
+    outEmissive = vec4(min(emissive, vec3(kMostHalf)), 1.0);
 #endif
 }

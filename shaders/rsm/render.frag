@@ -18,7 +18,7 @@ layout(location = 1) out vec4 outAlbedo;
 
 void main() {
     SurfaceMaterial m = fetchMaterial(material, uv);
-    vec3 n = normalize(normal);
+    vec3 n = unitNormal(normal);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
     outAlbedo = vec4(diffuseAlbedo(m.baseColor.rgb, m.metallic), 1.0);
 }

@@ -4,6 +4,9 @@
 
 #include "scene/scene_io.h"
 
+// Interpolated normals may cancel: zero stays zero.
+vec3 unitNormal(vec3 n) { return n * inversesqrt(max(dot(n, n), 1e-37)); }
+
 #ifdef AG_SCENE_INSTANCES
 layout(set = 0, binding = 0) uniform samplerBuffer instances;
 

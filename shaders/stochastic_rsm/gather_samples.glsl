@@ -159,5 +159,5 @@ void main() {
     vec3 e = depth > 0.0 ? gather(x, texelFetch(normalMap, pixel, 0).xyz, by) : vec3(0.0);
     if (!there) return;
     if (!kFirst) e += imageLoad(irradiance, ivec2(cell)).rgb;
-    imageStore(irradiance, ivec2(cell), vec4(e, 1.0));
+    imageStore(irradiance, ivec2(cell), vec4(min(e, vec3(kMostHalf)), 1.0));
 }

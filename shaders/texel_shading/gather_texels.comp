@@ -60,6 +60,6 @@ void main() {
         if (any(greaterThanEqual(pixel, ivec2(size)))) continue;
         vec3 sum = surface[p] ? e[p] : vec3(0.0);
         if (!kFirst) sum += imageLoad(irradiance, pixel).rgb;
-        imageStore(irradiance, pixel, vec4(sum, 1.0));
+        imageStore(irradiance, pixel, vec4(min(sum, vec3(kMostHalf)), 1.0));
     }
 }

@@ -55,6 +55,6 @@ void main() {
     }
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
-        if (all(lessThan(pixel, ivec2(size)))) imageStore(parts, pixel, vec4(e[p], distance_[p]));
+        if (all(lessThan(pixel, ivec2(size)))) imageStore(parts, pixel, vec4(min(e[p], vec3(kMostHalf)), distance_[p]));
     }
 }

@@ -137,6 +137,6 @@ void main() {
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
         vec3 sum = s[p].depth > 0.0 ? e[p] : vec3(0.0);
-        if (all(lessThan(pixel, size))) imageStore(irradiance, pixel, vec4(sum, 1.0));
+        if (all(lessThan(pixel, size))) imageStore(irradiance, pixel, vec4(min(sum, vec3(kMostHalf)), 1.0));
     }
 }

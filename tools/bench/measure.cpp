@@ -73,7 +73,10 @@ SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::strin
       rays_(scene) {
     const RenderCamera& c = scene.camera;
     setCamera(flickerScene_,
-              {.position = c.position, .forward = c.forward, .verticalFov = c.verticalFov, .near = c.near},
+              {.position = glm::dvec3(c.position) + scene.originWorld,
+               .forward = c.forward,
+               .verticalFov = c.verticalFov,
+               .near = c.near},
               options.flickerSize);
 }
 

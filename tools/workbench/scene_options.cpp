@@ -17,12 +17,12 @@ namespace ag::workbench {
 namespace {
 
 // Comma-separated finite numbers, `least` to `most` of them.
-std::optional<std::vector<float>> parseNumbers(const std::string& text, size_t least, size_t most) {
-    std::vector<float> numbers;
+std::optional<std::vector<double>> parseNumbers(const std::string& text, size_t least, size_t most) {
+    std::vector<double> numbers;
     const char* at = text.data();
     const char* end = at + text.size();
     while (at <= end) {
-        float value = 0;
+        double value = 0;
         const auto [next, error] = std::from_chars(at, end, value);
         if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
         numbers.push_back(value);
@@ -34,14 +34,18 @@ std::optional<std::vector<float>> parseNumbers(const std::string& text, size_t l
     return numbers;
 }
 
+glm::dvec3 vec3At(const std::vector<double>& numbers, size_t first) {
+    return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
 Status addSuns(const SceneOptions& options, RenderScene& scene) {
     for (const std::string& text : options.suns) {
         const auto n = parseNumbers(text, 3, 4);
-        if (!n || glm::length(glm::vec3((*n)[0], (*n)[1], (*n)[2])) < 1e-6f)
+        if (!n || glm::length(vec3At(*n, 0)) < 1e-6)
             return Error{fmt::format("--sun takes DX,DY,DZ[,E], not '{}'", text)};
         scene.lights.push_back({.kind = LightKind::kDirectional,
-                                .direction = glm::normalize(glm::vec3((*n)[0], (*n)[1], (*n)[2])),
-                                .intensity = glm::vec3(n->size() > 3 ? (*n)[3] : 10.0f),
+                                .direction = glm::vec3(glm::normalize(vec3At(*n, 0))),
+                                .intensity = glm::vec3(n->size() > 3 ? float((*n)[3]) : 10.0f),
                                 .bounces = true,
                                 .id = 1000 + scene.lights.size()});
     }
@@ -53,8 +57,8 @@ Status addPoints(const SceneOptions& options, RenderScene& scene) {
         const auto n = parseNumbers(text, 4, 4);
         if (!n) return Error{fmt::format("--point takes X,Y,Z,I, not '{}'", text)};
         scene.lights.push_back({.kind = LightKind::kPoint,
-                                .position = {(*n)[0], (*n)[1], (*n)[2]},
-                                .intensity = glm::vec3((*n)[3]),
+                                .position = glm::vec3(vec3At(*n, 0) - scene.originWorld),
+                                .intensity = glm::vec3(float((*n)[3])),
                                 .bounces = true,
                                 .id = 1000 + scene.lights.size()});
     }
@@ -64,16 +68,16 @@ Status addPoints(const SceneOptions& options, RenderScene& scene) {
 Status addSpots(const SceneOptions& options, RenderScene& scene) {
     for (const std::string& text : options.spots) {
         const auto n = parseNumbers(text, 9, 9);
-        const bool fits = n && glm::length(glm::vec3((*n)[3], (*n)[4], (*n)[5])) > 1e-6f && (*n)[7] >= 0 &&
-                          (*n)[7] <= (*n)[8] && (*n)[8] > 0 && (*n)[8] < 90;
+        const bool fits = n && glm::length(vec3At(*n, 3)) > 1e-6 && (*n)[7] >= 0 && (*n)[7] <= (*n)[8] &&
+                          (*n)[8] > 0 && (*n)[8] < 90;
         if (!fits)
             return Error{fmt::format("--spot takes X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG, not '{}'", text)};
         scene.lights.push_back({.kind = LightKind::kSpot,
-                                .position = {(*n)[0], (*n)[1], (*n)[2]},
-                                .direction = glm::normalize(glm::vec3((*n)[3], (*n)[4], (*n)[5])),
-                                .intensity = glm::vec3((*n)[6]),
-                                .innerConeAngle = glm::radians((*n)[7]),
-                                .outerConeAngle = glm::radians((*n)[8]),
+                                .position = glm::vec3(vec3At(*n, 0) - scene.originWorld),
+                                .direction = glm::vec3(glm::normalize(vec3At(*n, 3))),
+                                .intensity = glm::vec3(float((*n)[6])),
+                                .innerConeAngle = float(glm::radians((*n)[7])),
+                                .outerConeAngle = float(glm::radians((*n)[8])),
                                 .bounces = true,
                                 .id = 1000 + scene.lights.size()});
     }
@@ -85,14 +89,14 @@ Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& a
         const auto n = parseNumbers(options.view, 6, 7);
         if (!n)
             return Error{fmt::format("--view takes PX,PY,PZ,TX,TY,TZ[,VFOV_DEG], not '{}'", options.view)};
-        const glm::vec3 position((*n)[0], (*n)[1], (*n)[2]), target((*n)[3], (*n)[4], (*n)[5]);
-        const float fov = n->size() > 6 ? (*n)[6] : 55.0f;
-        if (glm::length(target - position) < 1e-6f || fov <= 0 || fov >= 170)
+        const glm::dvec3 position = vec3At(*n, 0), target = vec3At(*n, 3);
+        const double fov = n->size() > 6 ? (*n)[6] : 55.0;
+        if (glm::length(target - position) < 1e-6 || fov <= 0 || fov >= 170)
             return Error{fmt::format("--view looks nowhere: '{}'", options.view)};
         CameraPose pose;
         pose.position = position;
-        pose.forward = glm::normalize(target - position);
-        pose.verticalFov = glm::radians(fov);
+        pose.forward = glm::vec3(glm::normalize(target - position));
+        pose.verticalFov = float(glm::radians(fov));
         return pose;
     }
     if (options.camera.empty()) return cameraOf(asset, 0);
@@ -129,7 +133,7 @@ Result<glm::vec3> parseStep(const std::string& text) {
     if (text.empty()) return glm::vec3(0);
     const auto n = parseNumbers(text, 3, 3);
     if (!n) return Error{fmt::format("--walk takes DX,DY,DZ, not '{}'", text)};
-    return glm::vec3((*n)[0], (*n)[1], (*n)[2]);
+    return glm::vec3(vec3At(*n, 0));
 }
 
 Result<glm::uvec2> parseSize(const std::string& text) {
@@ -171,7 +175,9 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     LoadedScene loaded{.asset = std::make_unique<SceneAsset>(std::move(*asset)), .size = *size};
     for (const std::string& warning : loaded.asset->warnings)
         spdlog::warn("{}: {}", options.scene, warning);
-    loaded.scene = staticScene(*loaded.asset);
+    const auto camera = chooseCamera(options, *loaded.asset);
+    if (!camera) return camera.error();
+    loaded.scene = staticScene(*loaded.asset, camera->position);
     if (options.noSceneLights) loaded.scene.lights.clear();
     for (const Status& added :
          {addSuns(options, loaded.scene), addPoints(options, loaded.scene), addSpots(options, loaded.scene)})
@@ -189,8 +195,6 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
                                        .bounces = true,
                                        .id = 1});
     }
-    const auto camera = chooseCamera(options, *loaded.asset);
-    if (!camera) return camera.error();
     setCamera(loaded.scene, *camera, *size);
     return loaded;
 }
