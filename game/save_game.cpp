@@ -2,40 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include "engine/core/hash.h"
 #include "engine/core/safe_file.h"
 #include "engine/physics/physics_system.h"
 #include "engine/scene/components.h"
+#include "game/save_format.h"
 
 namespace ag::game {
 namespace {
-
-constexpr const char* kHeader = "afterglow save 1";
-
-struct SavedRoom {
-    int32_t index = 0;
-    float since = 0;
-};
-struct SavedFlower {
-    uint32_t node = 0;
-    float openness = 0;
-};
-struct SavedBody {
-    uint32_t node = 0;
-    glm::dvec3 position{0};
-    glm::quat rotation{1, 0, 0, 0};
-};
-struct Saved {
-    glm::dvec3 feet{0};
-    float yaw = 0, pitch = 0;
-    std::vector<SavedRoom> rooms;
-    std::vector<SavedFlower> flowers;
-    std::vector<SavedBody> bodies;
-};
 
 // The level it was saved in: things are known by their place in its list.
 uint64_t levelHash(const SceneAsset& level) {
@@ -43,54 +19,6 @@ uint64_t levelHash(const SceneAsset& level) {
     for (const SceneNode& node : level.nodes)
         hash = combineHash(hash, hashBytes(std::as_bytes(std::span(node.name))));
     return hash;
-}
-
-template <class V>
-bool finite(const V& v) {
-    for (int i = 0; i < V::length(); ++i)
-        if (!std::isfinite(v[i])) return false;
-    return true;
-}
-
-// One line; false if it is none.
-bool parseLine(const std::string& line, Saved& saved) {
-    std::istringstream in(line);
-    std::string word, more;
-    in >> word;
-    bool good = false;
-    if (word == "player") {
-        in >> saved.feet.x >> saved.feet.y >> saved.feet.z >> saved.yaw >> saved.pitch;
-        good = finite(saved.feet) && std::abs(saved.yaw) < 10 && std::abs(saved.pitch) < 2;
-    } else if (word == "room") {
-        SavedRoom& r = saved.rooms.emplace_back();
-        in >> r.index >> r.since;
-        good = r.since >= 0;
-    } else if (word == "flower") {
-        SavedFlower& f = saved.flowers.emplace_back();
-        in >> f.node >> f.openness;
-        good = f.openness >= 0 && f.openness <= 1;
-    } else if (word == "body") {
-        SavedBody& b = saved.bodies.emplace_back();
-        in >> b.node >> b.position.x >> b.position.y >> b.position.z >> b.rotation.w >> b.rotation.x >>
-            b.rotation.y >> b.rotation.z;
-        good = finite(b.position) && std::abs(glm::length(b.rotation) - 1) < 1e-2f;
-    }
-    return good && in && !(in >> more);
-}
-
-Result<Saved> parse(const std::string& text, const std::string& path, uint64_t level) {
-    std::istringstream lines(text);
-    std::string line;
-    if (!std::getline(lines, line) || line != kHeader)
-        return Error{path + ": it is not a save of this version"};
-    if (!std::getline(lines, line) || line != fmt::format("level {:016x}", level))
-        return Error{path + ": it was saved in another level"};
-    Saved saved;
-    for (int number = 3; std::getline(lines, line); ++number) {
-        if (line == "end") return saved;
-        if (!parseLine(line, saved)) return Error{fmt::format("{}: line {} is damaged", path, number)};
-    }
-    return Error{path + ": the save ends before its last line"};
 }
 
 void apply(World& world, const Saved& saved) {
@@ -127,7 +55,7 @@ void apply(World& world, const Saved& saved) {
 std::string saveText(Game& game) {
     World& world = game.world();
     const Player& p = game.player();
-    std::string text = fmt::format("{}\nlevel {:016x}\n", kHeader, levelHash(game.level()));
+    std::string text = saveHead(levelHash(game.level()));
     text +=
         fmt::format("player {} {} {} {} {}\n", p.body.feet.x, p.body.feet.y, p.body.feet.z, p.yaw, p.pitch);
     View<const Room>(world, {}).each([&](const Room& r) {
@@ -150,7 +78,7 @@ Status saveGame(Game& game, const std::string& path) {
 }
 
 Status checkSave(const Game& game, const std::string& text, const std::string& path) {
-    const auto saved = parse(text, path, levelHash(game.level()));
+    const auto saved = parseSave(text, path, levelHash(game.level()));
     if (!saved) return saved.error();
     return Ok{};
 }
@@ -165,7 +93,7 @@ Status putBrokenSaveAside(const Game& game, const std::string& path) {
 }
 
 Status restoreGame(Game& game, const std::string& text, const std::string& path) {
-    const auto saved = parse(text, path, levelHash(game.level()));
+    const auto saved = parseSave(text, path, levelHash(game.level()));
     if (!saved) return saved.error();
     apply(game.world(), *saved);
     return Ok{};

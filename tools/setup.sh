@@ -2,6 +2,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=${AFTERGLOW_BUILD:-build}
+package_lists=(tools/packages.txt ${more_packages:-})  # the second where the script that sources this says so
 
 stop() {
   printf 'afterglow: %s\n' "$*" >&2
@@ -14,7 +15,7 @@ install_missing() {
   while read -r package; do
     [[ -z $package || $package == \#* ]] && continue
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
-  done <tools/packages.txt
+  done < <(cat "${package_lists[@]}")
   ((${#missing[@]} == 0)) && return
   local root=()
   if ((EUID != 0)); then

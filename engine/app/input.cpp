@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
+#include <sstream>
 
 #include "engine/core/safe_file.h"
 
@@ -37,8 +37,9 @@ Status saveReplay(const std::vector<Input>& ticks, const std::string& path) {
 }
 
 Result<std::vector<Input>> loadReplay(const std::string& path) {
-    std::ifstream in(path);
-    if (!in) return Error{path + ": the replay cannot be opened"};
+    const auto text = readFile(path);
+    if (!text) return text.error();
+    std::istringstream in(*text);
     std::string line;
     if (!std::getline(in, line) || line != kHeader)
         return Error{path + ": it is not a replay of this version"};

@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/core/safe_file.h"
+
 namespace ag {
 namespace {
 
@@ -107,6 +109,16 @@ Status savePng(const Image& image, const std::string& path) {
     });
 }
 
+constexpr int kMostSide = 1 << 15;
+constexpr uint64_t kMostTexels = uint64_t(1) << 28;
+constexpr int kMostChannels = 32;
+constexpr uint64_t kMostExrBytes = uint64_t(1) << 30;
+
+bool reasonable(int64_t width, int64_t height) {
+    return width > 0 && height > 0 && width <= kMostSide && height <= kMostSide &&
+           uint64_t(width) * uint64_t(height) <= kMostTexels;
+}
+
 Result<Image> loadPfm(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) return Error{path + " cannot be opened"};
@@ -114,8 +126,7 @@ Result<Image> loadPfm(const std::string& path) {
     int width = 0, height = 0;
     float scale = 0;
     in >> magic >> width >> height >> scale;
-    constexpr int kMost = 1 << 15;
-    if (!in || magic != "PF" || width <= 0 || height <= 0 || width > kMost || height > kMost || !(scale < 0))
+    if (!in || magic != "PF" || !reasonable(width, height) || !(scale < 0))
         return Error{path + " is not a little-endian colour PFM image"};
     in.get();
     std::error_code error;
@@ -128,34 +139,87 @@ Result<Image> loadPfm(const std::string& path) {
     return image;
 }
 
-void loadAttributes(const std::string& path, Image& image) {
-    EXRVersion version;
+// What the decoder allocates, given back whatever happens.
+struct ExrFile {
     EXRHeader header;
-    InitEXRHeader(&header);
-    if (ParseEXRVersionFromFile(&version, path.c_str()) != TINYEXR_SUCCESS) return;
-    if (ParseEXRHeaderFromFile(&header, &version, path.c_str(), nullptr) != TINYEXR_SUCCESS) return;
+    EXRImage pixels;
+    const char* message = nullptr;
+    ExrFile() {
+        InitEXRHeader(&header);
+        InitEXRImage(&pixels);
+    }
+    ~ExrFile() {
+        FreeEXRImage(&pixels);
+        FreeEXRHeader(&header);
+        if (message) FreeEXRErrorMessage(message);
+    }
+    ExrFile(const ExrFile&) = delete;
+    ExrFile& operator=(const ExrFile&) = delete;
+};
+
+// Why an image is not even tried: the decoder believes what the header says.
+const char* whyRefused(const EXRVersion& version, const EXRHeader& header) {
+    if (version.multipart || version.non_image || version.tiled) return "it is not one part of scan lines";
+    const EXRBox2i& w = header.data_window;
+    if (!reasonable(int64_t(w.max_x) - w.min_x + 1, int64_t(w.max_y) - w.min_y + 1))
+        return "its size is larger than the limit or none";
+    if (header.num_channels < 1 || header.num_channels > kMostChannels)
+        return "it has too many channels or none";
+    return nullptr;
+}
+
+void takeAttributes(const EXRHeader& header, Image& image) {
     for (int i = 0; i < header.num_custom_attributes; ++i) {
         const EXRAttribute& a = header.custom_attributes[i];
         if (std::string_view(a.type) == "string")
             image.attributes[a.name] = std::string(reinterpret_cast<const char*>(a.value), size_t(a.size));
     }
-    FreeEXRHeader(&header);
+}
+
+// The channel of that name; of a grey image its only one. -1: there is none.
+int channelNamed(const EXRHeader& header, std::string_view name) {
+    if (header.num_channels == 1) return 0;
+    for (int c = 0; c < header.num_channels; ++c)
+        if (name == header.channels[c].name) return c;
+    return -1;
+}
+
+// Empty if all went well.
+std::string decodeExr(const std::string& text, ExrFile& exr) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+    EXRVersion version;
+    if (ParseEXRVersionFromMemory(&version, bytes, text.size()) != TINYEXR_SUCCESS)
+        return "its first bytes are others";
+    const auto said = [&](const char* otherwise) { return exr.message ? exr.message : otherwise; };
+    if (ParseEXRHeaderFromMemory(&exr.header, &version, bytes, text.size(), &exr.message) != TINYEXR_SUCCESS)
+        return said("its header is broken");
+    if (const char* why = whyRefused(version, exr.header)) return why;
+    for (int c = 0; c < exr.header.num_channels; ++c) {
+        if (exr.header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT) return "it holds whole numbers";
+        exr.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
+    }
+    if (LoadEXRImageFromMemory(&exr.pixels, &exr.header, bytes, text.size(), &exr.message) != TINYEXR_SUCCESS)
+        return said("its pixels are broken");
+    return exr.pixels.images ? "" : "it has no pixels";
 }
 
 Result<Image> loadExr(const std::string& path) {
-    float* rgba = nullptr;
-    int width = 0, height = 0;
-    const char* message = nullptr;
-    if (LoadEXR(&rgba, &width, &height, path.c_str(), &message) != TINYEXR_SUCCESS) {
-        const std::string text = message ? message : "unreadable";
-        if (message) FreeEXRErrorMessage(message);
-        return Error{fmt::format("{} is not a readable EXR image: {}", path, text)};
+    const auto text = readFile(path, kMostExrBytes);
+    if (!text) return text.error();
+    ExrFile exr;
+    const auto refuse = [&](const std::string& why) {
+        return Error{fmt::format("{} is not a readable EXR image: {}", path, why)};
+    };
+    if (const std::string fault = decodeExr(*text, exr); !fault.empty()) return refuse(fault);
+    Image image(exr.pixels.width, exr.pixels.height);
+    for (int c = 0; c < 3; ++c) {
+        const int channel = channelNamed(exr.header, std::string_view("RGB").substr(size_t(c), 1));
+        if (channel < 0) return refuse("it lacks one of the channels R, G and B");
+        const auto* values = reinterpret_cast<const float*>(exr.pixels.images[channel]);
+        for (size_t i = 0; i < image.pixels.size(); ++i)
+            image.pixels[i][c] = values[i];
     }
-    Image image(width, height);
-    for (size_t i = 0; i < image.pixels.size(); ++i)
-        image.pixels[i] = {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]};
-    free(rgba);
-    loadAttributes(path, image);
+    takeAttributes(exr.header, image);
     return image;
 }
 

@@ -23,7 +23,12 @@ Status writeFileSafely(const std::string& path, std::string_view text) {
     return Ok{};
 }
 
-Result<std::string> readFile(const std::string& path) {
+Result<std::string> readFile(const std::string& path, uint64_t mostBytes) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+        return Error{path + ": it is not a file"};
+    if (const uint64_t size = std::filesystem::file_size(path, error); !error && size > mostBytes)
+        return Error{path + ": the file is larger than " + std::to_string(mostBytes >> 20) + " MiB"};
     std::ifstream in(path, std::ios::binary);
     if (!in) return Error{path + ": the file cannot be opened"};
     std::string text{std::istreambuf_iterator<char>(in), {}};

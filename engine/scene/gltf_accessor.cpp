@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "engine/scene/gltf_internal.h"
 
@@ -41,6 +43,14 @@ double component(const unsigned char* at, int type, bool normalized) {
     }
 }
 
+template <class T>
+T convert(double value) {
+    if constexpr (std::is_same_v<T, float>)
+        return float(value);
+    else  // of a file's floats or negative numbers, where whole ones belong
+        return T(value >= 0 && value <= double(std::numeric_limits<T>::max()) ? value : 0);
+}
+
 const unsigned char* viewData(const tinygltf::Model& model, int view, size_t offset) {
     const tinygltf::BufferView& v = model.bufferViews[size_t(view)];
     return model.buffers[size_t(v.buffer)].data.data() + v.byteOffset + offset;
@@ -54,7 +64,7 @@ void readElements(const tinygltf::Accessor& a, const unsigned char* at, size_t s
     for (size_t i = 0; i < a.count; ++i)
         for (int c = 0; c < std::min(components, given); ++c)
             out[i * size_t(components) + size_t(c)] =
-                T(component(at + i * stride + size_t(c * size), a.componentType, a.normalized));
+                convert<T>(component(at + i * stride + size_t(c * size), a.componentType, a.normalized));
 }
 
 template <class T>
@@ -99,6 +109,15 @@ double numberOf(const tinygltf::Value& object, const char* key, double fallback)
     if (!object.IsObject() || !object.Has(key)) return fallback;
     const tinygltf::Value& value = object.Get(key);
     return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
+}
+
+float floatOf(double number) {
+    constexpr double kMost = 1e12;
+    return float(std::clamp(number, -kMost, kMost));
+}
+
+float floatOf(const tinygltf::Value& object, const char* key, double fallback) {
+    return floatOf(numberOf(object, key, fallback));
 }
 
 }  // namespace ag::gltf

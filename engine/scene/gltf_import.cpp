@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <stb/stb_image.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -14,10 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What tinygltf's file callbacks know: the one folder they may read, and how much.
+// What tinygltf's file callbacks know: the one folder they may read, and how much is left to be read.
 struct Folder {
     fs::path root;
-    uint64_t limit;
+    uint64_t bytesLeft;
+};
+
+struct ImageBudget {
+    uint32_t side;
+    uint64_t texelsLeft;
 };
 
 // Whether the path stays in the folder once links and dots are resolved.
@@ -39,13 +45,15 @@ std::string expandPath(const std::string& file, void*) {
 }
 
 bool readWhole(std::vector<unsigned char>* out, std::string* error, const std::string& file, void* user) {
-    const Folder& folder = *static_cast<Folder*>(user);
+    Folder& folder = *static_cast<Folder*>(user);
     std::error_code code;
-    const uint64_t size = fs::file_size(file, code);
-    if (!staysInside(folder, file) || code || size > folder.limit) {
+    const bool there = staysInside(folder, file) && fs::is_regular_file(file, code);
+    const uint64_t size = there ? fs::file_size(file, code) : 0;
+    if (!there || code || size > folder.bytesLeft) {
         if (error) *error += file + " lies outside the file's folder, is missing or is too large\n";
         return false;
     }
+    folder.bytesLeft -= size;
     std::ifstream in(file, std::ios::binary);
     out->resize(size);
     in.read(reinterpret_cast<char*>(out->data()), std::streamsize(size));
@@ -59,17 +67,18 @@ bool writeNothing(std::string*, const std::string&, const std::vector<unsigned c
 // Refuses images by their header before decoding them.
 bool decodeImage(tinygltf::Image* image, const int index, std::string* error, std::string*, int, int,
                  const unsigned char* bytes, int size, void* user) {
-    const auto& limits = *static_cast<const ImportLimits*>(user);
+    auto& budget = *static_cast<ImageBudget*>(user);
     int width = 0, height = 0, components = 0;
     if (!stbi_info_from_memory(bytes, size, &width, &height, &components)) {
         if (error) *error += fmt::format("image {} cannot be decoded\n", index);
         return false;
     }
-    const uint64_t side = uint64_t(std::max(width, height));
-    if (side > limits.imageSide || uint64_t(width) * uint64_t(height) > limits.imageTexels) {
+    const uint64_t side = uint64_t(std::max(width, height)), count = uint64_t(width) * uint64_t(height);
+    if (side > budget.side || count > budget.texelsLeft) {
         if (error) *error += fmt::format("image {} is larger than the limit\n", index);
         return false;
     }
+    budget.texelsLeft -= count;
     unsigned char* texels = stbi_load_from_memory(bytes, size, &width, &height, &components, 4);
     if (!texels) {
         if (error) *error += fmt::format("image {} cannot be decoded\n", index);
@@ -90,6 +99,32 @@ std::string firstLine(const std::string& text) {
     return line.empty() ? "it cannot be parsed" : line;
 }
 
+// The JSON of either kind of file; of a broken GLB what there is.
+std::string_view jsonOf(const std::vector<unsigned char>& bytes, bool binary) {
+    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    constexpr size_t kHeader = 20;  // of the file and of its first chunk, whose length stands at 12
+    if (!binary) return all;
+    if (bytes.size() < kHeader) return {};
+    uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return all.substr(kHeader, length);
+}
+
+// How deep brackets stand in brackets: those who read them call themselves as often.
+uint32_t bracketDepth(std::string_view json) {
+    uint32_t depth = 0, deepest = 0;
+    bool text = false;
+    for (size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (c == '"') text = !text;
+        if (text && c == '\\') ++i;
+        if (text) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+    }
+    return deepest;
+}
+
 // A GLB announces itself in its first four bytes.
 bool isBinary(const std::vector<unsigned char>& bytes) {
     return bytes.size() >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F';
@@ -99,25 +134,31 @@ Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limit
     std::error_code code;
     if (!fs::exists(path, code)) return Error{path + ": the file does not exist"};
     if (!fs::is_regular_file(path, code)) return Error{path + ": it is not a file"};
-    Folder folder{fs::weakly_canonical(fs::absolute(path), code).parent_path(), limits.fileBytes};
+    // A link to the file itself may lead elsewhere; what it names may not.
+    const fs::path whole = fs::canonical(path, code);
+    Folder folder{whole.parent_path(), limits.fileBytes};
     std::vector<unsigned char> bytes;
     if (fs::file_size(path, code) > limits.fileBytes)
         return Error{path + ": the file is larger than the limit"};
-    if (!readWhole(&bytes, nullptr, path, &folder)) return Error{path + ": the file cannot be read"};
+    if (!readWhole(&bytes, nullptr, whole.string(), &folder))
+        return Error{path + ": the file cannot be read"};
     if (bytes.empty()) return Error{path + ": the file is empty"};
+    const bool binary = isBinary(bytes);
+    if (bracketDepth(jsonOf(bytes, binary)) > limits.jsonDepth)
+        return Error{fmt::format("{}: its JSON is nested deeper than {}", path, limits.jsonDepth)};
 
     tinygltf::TinyGLTF loader;
-    ImportLimits imageLimits = limits;
-    loader.SetImageLoader(decodeImage, &imageLimits);
+    ImageBudget images{limits.imageSide, limits.imageTexels};
+    loader.SetImageLoader(decodeImage, &images);
     loader.SetFsCallbacks({fileExists, expandPath, readWhole, writeNothing, &folder});
     tinygltf::Model model;
     std::string error, warning;
     const std::string base = folder.root.string();
     const auto size = static_cast<unsigned int>(bytes.size());
     const bool parsed =
-        isBinary(bytes) ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
-                        : loader.LoadASCIIFromString(&model, &error, &warning,
-                                                     reinterpret_cast<const char*>(bytes.data()), size, base);
+        binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
+               : loader.LoadASCIIFromString(&model, &error, &warning,
+                                            reinterpret_cast<const char*>(bytes.data()), size, base);
     if (!parsed) return Error{fmt::format("{}: {}", path, firstLine(error))};
     return model;
 }
@@ -133,10 +174,10 @@ Result<SceneAsset> importGltf(const std::string& path, const ImportLimits& limit
     SceneAsset asset;
     asset.name = fs::path(path).stem().string();
     gltf::importMaterials(model, asset);
-    if (const gltf::Fault f = gltf::importTextures(model, asset)) return fail(f);
-    if (const gltf::Fault f = gltf::importMeshes(model, asset, limits)) return fail(f);
+    if (const gltf::Fault f = gltf::importTextures(model, asset, limits)) return fail(f);
+    if (const gltf::Fault f = gltf::importMeshes(model, asset)) return fail(f);
     splitLargePrimitives(asset);
-    if (const gltf::Fault f = gltf::importNodes(model, asset, limits)) return fail(f);
+    if (const gltf::Fault f = gltf::importNodes(model, asset)) return fail(f);
     if (!model.animations.empty()) asset.warnings.push_back("its animations are not played");
     return asset;
 }

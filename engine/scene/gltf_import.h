@@ -12,13 +12,16 @@ namespace ag {
 
 // What a file may hold at most.
 struct ImportLimits {
-    uint64_t fileBytes = uint64_t(1) << 30;
-    uint64_t vertices = 50'000'000;
+    uint64_t fileBytes = uint64_t(1) << 30;  // of the file and all buffers beside it together
+    uint32_t jsonDepth = 128;                // brackets in brackets
+    uint64_t vertices = 50'000'000;          // of all meshes together, as they are drawn
     uint64_t indices = 150'000'000;
+    uint64_t zeroElements = 1 << 20;  // of an accessor that no data stand behind
     uint32_t nodes = 1'000'000;
     uint32_t nodeDepth = 1024;
     uint32_t imageSide = 16384;
     uint64_t imageTexels = uint64_t(1) << 28;  // of all images together
+    uint64_t layerTexels = uint64_t(1) << 29;  // of all textures, resampled to the sizes of their classes
 };
 
 // The error names the file and the fault in one sentence.

@@ -23,11 +23,14 @@ std::vector<uint32_t> readUints(const tinygltf::Model& model, int accessor, int 
 
 void importMaterials(const tinygltf::Model& model, SceneAsset& asset);
 // After importMaterials: sets every material's class and layers.
-Fault importTextures(const tinygltf::Model& model, SceneAsset& asset);
-Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits);
-Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits);
+Fault importTextures(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits);
+Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset);
+Fault importNodes(const tinygltf::Model& model, SceneAsset& asset);
 
 // A number in an extension's object, or the fallback.
 double numberOf(const tinygltf::Value& object, const char* key, double fallback);
+// The same within the range in which products stay finite.
+float floatOf(const tinygltf::Value& object, const char* key, double fallback);
+float floatOf(double number);
 
 }  // namespace ag::gltf

@@ -30,11 +30,11 @@ glm::mat3x2 uvTransformOf(const tinygltf::ExtensionMap& extensions) {
     glm::mat3x2 m(1, 0, 0, 1, 0, 0);
     const tinygltf::Value* t = extensionOf(extensions, "KHR_texture_transform");
     if (!t) return m;
-    const float angle = float(numberOf(*t, "rotation", 0));
-    const glm::vec2 scale(float(element(*t, "scale", 0, 1)), float(element(*t, "scale", 1, 1)));
+    const float angle = floatOf(*t, "rotation", 0);
+    const glm::vec2 scale(floatOf(element(*t, "scale", 0, 1)), floatOf(element(*t, "scale", 1, 1)));
     m[0] = glm::vec2(std::cos(angle), -std::sin(angle)) * scale.x;
     m[1] = glm::vec2(std::sin(angle), std::cos(angle)) * scale.y;
-    m[2] = {float(element(*t, "offset", 0, 0)), float(element(*t, "offset", 1, 0))};
+    m[2] = {floatOf(element(*t, "offset", 0, 0)), floatOf(element(*t, "offset", 1, 0))};
     return m;
 }
 
@@ -48,16 +48,16 @@ Material materialOf(const tinygltf::Material& m) {
     out.roughness = std::clamp(float(pbr.roughnessFactor), 0.0f, 1.0f);
     float strength = 1;
     if (const tinygltf::Value* e = extensionOf(m.extensions, "KHR_materials_emissive_strength"))
-        strength = std::max(float(numberOf(*e, "emissiveStrength", 1)), 0.0f);
+        strength = std::max(floatOf(*e, "emissiveStrength", 1), 0.0f);
     for (int c = 0; c < 3 && size_t(c) < m.emissiveFactor.size(); ++c)
-        out.emissive[c] = std::max(float(m.emissiveFactor[size_t(c)]), 0.0f) * strength;
+        out.emissive[c] = std::max(floatOf(m.emissiveFactor[size_t(c)]), 0.0f) * strength;
     if (const tinygltf::Value* e = extensionOf(m.extensions, "KHR_materials_specular"))
-        out.specular = std::clamp(float(numberOf(*e, "specularFactor", 1)), 0.0f, 1.0f);
-    out.normalScale = float(m.normalTexture.scale);
+        out.specular = std::clamp(floatOf(*e, "specularFactor", 1), 0.0f, 1.0f);
+    out.normalScale = floatOf(m.normalTexture.scale);
     out.alphaMode = m.alphaMode == "MASK"    ? AlphaMode::kMask
                     : m.alphaMode == "BLEND" ? AlphaMode::kBlend
                                              : AlphaMode::kOpaque;
-    out.alphaCutoff = float(m.alphaCutoff);
+    out.alphaCutoff = floatOf(m.alphaCutoff);
     out.doubleSided = m.doubleSided;
     out.uvTransform = uvTransformOf(pbr.baseColorTexture.extensions);
     return out;
@@ -97,22 +97,33 @@ std::vector<uint8_t> resample(const tinygltf::Image& image, int side, bool srgb)
 // Layers already made, by image, class and encoding.
 class LayerMaker {
   public:
-    LayerMaker(const tinygltf::Model& model, SceneAsset& asset) : model_(model), asset_(asset) {}
+    LayerMaker(const tinygltf::Model& model, SceneAsset& asset, uint64_t texels)
+        : model_(model), asset_(asset), texelsLeft_(texels) {}
 
     int32_t layer(int texture, TextureClass textureClass, bool srgb) {
         if (texture < 0) return -1;
         const int source = model_.textures[size_t(texture)].source;
         const auto [entry, added] = made_.try_emplace({source, textureClass, srgb}, -1);
         if (!added) return entry->second;
+        const uint64_t side = textureClassSize(textureClass);
+        if (side * side > texelsLeft_) {
+            full_ = true;
+            return -1;
+        }
+        texelsLeft_ -= side * side;
         TextureLayers& layers = asset_.geometry.textures[size_t(textureClass)];
         auto& list = srgb ? layers.srgb : layers.linear;
-        list.push_back(resample(model_.images[size_t(source)], int(textureClassSize(textureClass)), srgb));
+        list.push_back(resample(model_.images[size_t(source)], int(side), srgb));
         return entry->second = int32_t(list.size() - 1);
     }
+
+    bool full() const { return full_; }  // there was more than the limit
 
   private:
     const tinygltf::Model& model_;
     SceneAsset& asset_;
+    uint64_t texelsLeft_;
+    bool full_ = false;
     std::map<std::tuple<int, TextureClass, bool>, int32_t> made_;
 };
 
@@ -124,8 +135,8 @@ void importMaterials(const tinygltf::Model& model, SceneAsset& asset) {
     asset.geometry.materials.push_back({.name = "default"});  // for primitives without one
 }
 
-Fault importTextures(const tinygltf::Model& model, SceneAsset& asset) {
-    LayerMaker maker(model, asset);
+Fault importTextures(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits) {
+    LayerMaker maker(model, asset, limits.layerTexels);
     constexpr size_t kMostLayers = 2048;
     for (size_t i = 0; i < model.materials.size(); ++i) {
         const tinygltf::Material& m = model.materials[i];
@@ -145,6 +156,7 @@ Fault importTextures(const tinygltf::Model& model, SceneAsset& asset) {
         out.emissiveLayer = maker.layer(emissive, out.textureClass, true);
         out.normalLayer = maker.layer(normal, out.textureClass, false);
         out.metallicRoughnessLayer = maker.layer(rough, out.textureClass, false);
+        if (maker.full()) return "its textures together are larger than the limit";
     }
     for (const TextureLayers& layers : asset.geometry.textures)
         if (layers.srgb.size() > kMostLayers || layers.linear.size() > kMostLayers)

@@ -9,6 +9,8 @@
 namespace ag::gltf {
 namespace {
 
+constexpr float kFarthest = 1e12f;  // m: squares stay within the range of floats
+
 struct Triangles {
     std::vector<glm::vec3> positions;
     std::vector<VertexAttributes> attributes;
@@ -143,6 +145,8 @@ Fault readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& p, 
     for (size_t i = 0; i < vertices; ++i)
         if (!finite(t.positions[i]))
             return fmt::format("{} has a position that is not finite (vertex {})", what, i);
+        else if (glm::any(glm::greaterThan(glm::abs(t.positions[i]), glm::vec3(kFarthest))))
+            return fmt::format("{} has a position farther off than {:g} m (vertex {})", what, kFarthest, i);
     fill<glm::vec3>(model, attribute(p, "NORMAL"), vertices,
                     [&](size_t i, glm::vec3 v) { t.attributes[i].normal = v; });
     fill<glm::vec4>(model, attribute(p, "TANGENT"), vertices,
@@ -185,7 +189,7 @@ void append(Triangles&& t, uint32_t material, bool skinned, SceneAsset& asset) {
 
 }  // namespace
 
-Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits) {
+Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset) {
     const uint32_t fallback = uint32_t(asset.geometry.materials.size() - 1);
     for (size_t m = 0; m < model.meshes.size(); ++m) {
         SceneMesh mesh{model.meshes[m].name, uint32_t(asset.geometry.primitives.size()), 0};
@@ -199,9 +203,6 @@ Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset, const Import
             append(std::move(triangles), p.material < 0 ? fallback : uint32_t(p.material),
                    !model.skins.empty(), asset);
             ++mesh.primitiveCount;
-            if (asset.geometry.positions.size() > limits.vertices ||
-                asset.geometry.indices.size() > limits.indices)
-                return "it has more vertices or indices than the limit";
         }
         asset.meshes.push_back(std::move(mesh));
     }

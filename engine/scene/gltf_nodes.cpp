@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/scene/gltf_internal.h"
+#include "engine/scene/static_scene.h"
 
 namespace ag::gltf {
 namespace {
@@ -54,7 +55,7 @@ glm::vec3 vectorOf(const tinygltf::Value& object, const char* key) {
     glm::vec3 out(0);
     if (object.Has(key) && object.Get(key).IsArray() && object.Get(key).ArrayLen() == 3)
         for (int i = 0; i < 3; ++i)
-            out[i] = float(object.Get(key).Get(i).GetNumberAsDouble());
+            out[i] = floatOf(object.Get(key).Get(i).GetNumberAsDouble());
     return out;
 }
 
@@ -76,12 +77,12 @@ NodeExtras extrasOf(const tinygltf::Value& extras) {
                                       {"least", &out.least},
                                       {"most", &out.most},
                                       {"swing", &out.swing}})
-        *value = float(numberOf(extras, name, 0));
-    out.movePeriod = float(numberOf(extras, "movePeriod", 0));
-    out.spinSpeed = float(numberOf(extras, "spinSpeed", 0));
-    out.flickerDepth = std::clamp(float(numberOf(extras, "flickerDepth", 0)), 0.0f, 1.0f);
-    out.flickerPeriod = std::max(float(numberOf(extras, "flickerPeriod", 0)), 0.0f);
-    out.flickerOff = std::clamp(float(numberOf(extras, "flickerOff", 0)), 0.0f, 1.0f);
+        *value = floatOf(extras, name, 0);
+    out.movePeriod = floatOf(extras, "movePeriod", 0);
+    out.spinSpeed = floatOf(extras, "spinSpeed", 0);
+    out.flickerDepth = std::clamp(floatOf(extras, "flickerDepth", 0), 0.0f, 1.0f);
+    out.flickerPeriod = std::max(floatOf(extras, "flickerPeriod", 0), 0.0f);
+    out.flickerOff = std::clamp(floatOf(extras, "flickerOff", 0), 0.0f, 1.0f);
     return out;
 }
 
@@ -91,12 +92,12 @@ int lightOf(const tinygltf::Node& n) {
 }
 
 SceneLight lightFrom(const tinygltf::Light& l) {
-    SceneLight out{.name = l.name, .intensity = glm::vec3(float(l.intensity)), .range = float(l.range)};
+    SceneLight out{.name = l.name, .intensity = glm::vec3(floatOf(l.intensity)), .range = floatOf(l.range)};
     out.kind = l.type == "directional" ? LightKind::kDirectional
                : l.type == "spot"      ? LightKind::kSpot
                                        : LightKind::kPoint;
     for (int c = 0; c < 3 && l.color.size() == 3; ++c)
-        out.intensity[c] *= float(l.color[size_t(c)]);
+        out.intensity[c] *= floatOf(l.color[size_t(c)]);
     if (out.kind == LightKind::kSpot) {
         out.innerConeAngle = float(l.spot.innerConeAngle);
         out.outerConeAngle = float(l.spot.outerConeAngle);
@@ -108,8 +109,27 @@ SceneCamera cameraFrom(const tinygltf::Camera& c) {
     SceneCamera out{.name = c.name};
     if (c.type != "perspective") return out;
     if (c.perspective.yfov > 0.01 && c.perspective.yfov < 3.1) out.verticalFov = float(c.perspective.yfov);
-    if (std::isfinite(c.perspective.znear) && c.perspective.znear > 0) out.near = float(c.perspective.znear);
+    if (std::isfinite(c.perspective.znear) && c.perspective.znear > 0)
+        out.near = std::max(floatOf(c.perspective.znear), 1e-9f);
     return out;
+}
+
+// Transforms that are fine one by one may leave the range of floats together.
+Fault checkPlaces(const SceneAsset& asset) {
+    constexpr double kFarthest = 1e12;  // m
+    const std::vector<WorldPlacement> places = placeNodes(asset);
+    for (size_t i = 0; i < places.size(); ++i) {
+        bool near = true;
+        for (int c = 0; c < 3; ++c) {
+            near = near && std::abs(places[i].translation[c]) < kFarthest;
+            for (int r = 0; r < 3; ++r)
+                near = near && std::abs(places[i].linear[c][r]) < float(kFarthest);
+        }
+        if (!near)
+            return fmt::format("node '{}' stands farther off or is larger than {:g} m", asset.nodes[i].name,
+                               kFarthest);
+    }
+    return std::nullopt;
 }
 
 void importSkins(const tinygltf::Model& model, const std::vector<int32_t>& newIndex, SceneAsset& asset) {
@@ -130,7 +150,7 @@ void importSkins(const tinygltf::Model& model, const std::vector<int32_t>& newIn
 
 }  // namespace
 
-Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits&) {
+Fault importNodes(const tinygltf::Model& model, SceneAsset& asset) {
     // Roots: of the default scene, else of the first, else every node without a parent.
     std::vector<std::pair<int, int32_t>> pending;  // node, new index of its parent
     const int scene = model.defaultScene >= 0 ? model.defaultScene : model.scenes.empty() ? -1 : 0;
@@ -167,6 +187,7 @@ Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, const ImportL
         for (auto child = n.children.rbegin(); child != n.children.rend(); ++child)
             pending.push_back({*child, newIndex[size_t(old)]});
     }
+    if (Fault f = checkPlaces(asset)) return f;
     for (const tinygltf::Light& l : model.lights)
         asset.lights.push_back(lightFrom(l));
     for (const tinygltf::Camera& c : model.cameras)

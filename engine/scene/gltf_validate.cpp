@@ -76,6 +76,8 @@ Fault checkAccessors(const tinygltf::Model& model, const ImportLimits& limits) {
         const uint64_t element = uint64_t(component) * uint64_t(components);
         if (a.sparse.isSparse)
             if (Fault f = checkSparse(model, a, element, what)) return f;
+        if (a.bufferView == -1 && a.count > limits.zeroElements)
+            return fmt::format("{} holds {} elements without data, more than the limit", what, a.count);
         if (a.bufferView == -1) continue;  // zeroes, perhaps with sparse values
         if (!inside(a.bufferView, model.bufferViews))
             return fmt::format("{} names buffer view {}, which does not exist", what, a.bufferView);
@@ -118,12 +120,23 @@ Fault checkPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p,
     return std::nullopt;
 }
 
-Fault checkMeshes(const tinygltf::Model& model) {
+// Summed up before anything is read: primitives may share an accessor, so that a small file asks for much.
+Fault checkMeshes(const tinygltf::Model& model, const ImportLimits& limits) {
+    uint64_t vertices = 0, indices = 0;
     for (size_t m = 0; m < model.meshes.size(); ++m)
-        for (size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
-            if (Fault f = checkPrimitive(model, model.meshes[m].primitives[p],
-                                         fmt::format("mesh {} primitive {}", m, p)))
-                return f;
+        for (size_t i = 0; i < model.meshes[m].primitives.size(); ++i) {
+            const tinygltf::Primitive& p = model.meshes[m].primitives[i];
+            if (Fault f = checkPrimitive(model, p, fmt::format("mesh {} primitive {}", m, i))) return f;
+            const uint64_t own = model.accessors[size_t(p.attributes.at("POSITION"))].count;
+            const uint64_t named = p.indices < 0 ? own : model.accessors[size_t(p.indices)].count;
+            const bool shared =
+                p.mode == TINYGLTF_MODE_TRIANGLE_STRIP || p.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+            const uint64_t listed = shared ? 3 * named : named;
+            indices += listed;
+            vertices += p.attributes.contains("NORMAL") ? own : std::max(own, listed);  // flat: one a corner
+            if (vertices > limits.vertices || indices > limits.indices)
+                return "it has more vertices or indices than the limit";
+        }
     return std::nullopt;
 }
 
@@ -209,8 +222,8 @@ Fault checkLights(const tinygltf::Model& model) {
     for (size_t i = 0; i < model.nodes.size(); ++i) {
         const auto found = model.nodes[i].extensions.find("KHR_lights_punctual");
         if (found == model.nodes[i].extensions.end()) continue;
-        const int light = int(numberOf(found->second, "light", -1));
-        if (!inside(light, model.lights))
+        const double light = numberOf(found->second, "light", -1);
+        if (!(light >= 0 && light < double(model.lights.size())))
             return fmt::format("node {} names light {}, which does not exist", i, light);
     }
     for (size_t i = 0; i < model.lights.size(); ++i) {
@@ -261,7 +274,7 @@ Fault validate(const tinygltf::Model& model, const ImportLimits& limits) {
             return fmt::format("it requires the extension {}, which is not supported", name);
     if (Fault f = checkViews(model)) return f;
     if (Fault f = checkAccessors(model, limits)) return f;
-    if (Fault f = checkMeshes(model)) return f;
+    if (Fault f = checkMeshes(model, limits)) return f;
     if (Fault f = checkMaterials(model)) return f;
     if (Fault f = checkNodes(model, limits)) return f;
     if (Fault f = checkSkins(model)) return f;

@@ -225,6 +225,36 @@ TEST(GltfImport, LeavesOutWhatHasNoArea) {
     EXPECT_FALSE(asset->warnings.empty());
 }
 
+// A small file that asks for much is refused by what it says, before anything of it is made.
+TEST(GltfImport, RefusesWhatGrowsBeyondTheLimits) {
+    const auto refuses = [](const json& file, const ImportLimits& limits, const std::string& words) {
+        const auto asset = importGltf(write("large.gltf", file.dump()), limits);
+        ASSERT_FALSE(asset) << words;
+        EXPECT_NE(asset.error().message.find(words), std::string::npos) << asset.error().message;
+    };
+    json shared = triangle();
+    const json primitive = shared["meshes"][0]["primitives"][0];
+    for (int i = 0; i < 400; ++i)
+        shared["meshes"][0]["primitives"].push_back(primitive);
+    refuses(shared, {.vertices = 1000}, "more vertices or indices than the limit");
+    json zeroes = triangle();
+    zeroes["accessors"][0].erase("bufferView");
+    zeroes["accessors"][0]["count"] = 2'000'000;
+    refuses(zeroes, {}, "without data, more than the limit");
+    json far = triangle();
+    far["nodes"][0]["scale"] = {1e9, 1, 1};
+    far["nodes"].push_back({{"children", {0}}, {"scale", {1e9, 1, 1}}});
+    far["scenes"][0]["nodes"] = {int(far["nodes"].size()) - 1};
+    refuses(far, {}, "farther off or is larger");
+    json deep = triangle();
+    json* at = &deep["extras"];
+    for (int i = 0; i < 200; ++i)
+        at = &(*at)["x"];
+    *at = 1;
+    refuses(deep, {}, "nested deeper than 128");
+    refuses(triangle(), {.fileBytes = 10}, "larger than the limit");
+}
+
 TEST(GltfImport, SurvivesRandomDamage) {
     const std::string good = triangle().dump();
     std::mt19937 random(5);

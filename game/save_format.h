@@ -1,0 +1,39 @@
+// The text of a saved game, line by line. Knows no world.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace ag::game {
+
+struct SavedRoom {
+    int32_t index = 0;
+    float since = 0;
+};
+struct SavedFlower {
+    uint32_t node = 0;
+    float openness = 0;
+};
+struct SavedBody {
+    uint32_t node = 0;
+    glm::dvec3 position{0};
+    glm::quat rotation{1, 0, 0, 0};
+};
+struct Saved {
+    glm::dvec3 feet{0};
+    float yaw = 0, pitch = 0;
+    std::vector<SavedRoom> rooms;
+    std::vector<SavedFlower> flowers;
+    std::vector<SavedBody> bodies;
+};
+
+// Its first two lines; `level` is a hash of the level's things.
+std::string saveHead(uint64_t level);
+// The error names the file and the line that is damaged.
+Result<Saved> parseSave(const std::string& text, const std::string& path, uint64_t level);
+
+}  // namespace ag::game

@@ -1,0 +1,22 @@
+// What a player or a command line may set: settings, keys.
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "engine/app/bindings.h"
+#include "engine/core/settings.h"
+#include "gi/gi_settings.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
+    const std::string text(reinterpret_cast<const char*>(bytes), size);
+    ag::gi::GiSettings gi;
+    ag::Settings settings;
+    ag::gi::registerSettings(settings, gi);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        (void)settings.set(line);
+        (void)ag::gi::applyPreset(line, gi);
+    }
+    (void)settings.json();
+    (void)ag::parseBindings(text, "keys");
+    return 0;
+}
