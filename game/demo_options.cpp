@@ -17,6 +17,13 @@ int refuse(const std::string& sentence) {
     return 2;
 }
 
+gpu::DeviceOptions deviceOptions(const Demo& demo, GLFWwindow* window) {
+    return {.validation = demo.options.validate,
+            .window = window,
+            .without = demo.options.without,
+            .fault = demo.fault};
+}
+
 Status loadLevel(Demo& demo) {
     auto level = importGltf(demo.options.scene.empty() ? kLevel : demo.options.scene);
     if (!level) return level.error();

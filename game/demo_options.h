@@ -25,6 +25,8 @@ struct DemoOptions {
     bool resume = false;  // --continue
     bool serial = false;
     bool validate = false;
+    std::vector<std::string> without;  // device features to do without
+    std::string fault;                 // of the device, on purpose
 };
 
 // What every run of the demo needs: the level, the settings, the device.
@@ -39,14 +41,16 @@ struct Demo {
     Bindings keys;
     std::vector<Input> replay;  // empty: none
     std::vector<Input> recorded;
+    gpu::FaultPlan fault;
     std::optional<gi::Layer> layer;  // shown instead of the final image
 };
 
-// Exit codes: 0 good, 1 a check failed, 2 bad arguments or input.
+// Exit codes: 0 good, 1 a check failed, 2 bad arguments or input, 3 the device failed.
 int runHeadless(Demo& demo);
 int runWindowed(Demo& demo);
 int refuse(const std::string& sentence);
 
+gpu::DeviceOptions deviceOptions(const Demo& demo, GLFWwindow* window);
 // The level anew, from its file.
 Status loadLevel(Demo& demo);
 // The preset's settings with what the command line set over them.

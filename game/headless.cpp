@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "engine/core/image.h"
+#include "engine/core/process_memory.h"
 #include "engine/core/safe_file.h"
 #include "game/contact_sheet.h"
 #include "game/demo_options.h"
@@ -40,6 +41,7 @@ class HeadlessRun {
             // The wait of the frame before last is inside show(): the mean is the true rate.
             const auto end = Clock::now();
             note(i, milliseconds(end - begin), milliseconds(end - start));
+            if (i == frames_ / 4) residentBefore_ = residentMib();
             if (sheet_.wants(i)) sheet_.add(gi::readImage(renderer_, shown_));
             if (end - lastLine > std::chrono::seconds(1)) {
                 std::cerr << progressLine(i);
@@ -89,12 +91,12 @@ class HeadlessRun {
                    "device {}\n{} frames of {}x{}, {} ticks each, first after {:.0f} ms (start and shader "
                    "compilation), median {:.1f} ms ({:.1f}/s), p99 {:.1f} ms\nplayer at {:.2f} {:.2f}{}\n"
                    "flowers open: {} of {}, rooms solved: {} of {}{}\nworld hash {:016x}\n"
-                   "device memory {:.1f} MiB\n\n",
+                   "device memory {:.1f} MiB, resident {:.1f} MiB a quarter in and {:.1f} MiB at the end\n\n",
                    device_.info().name, frames_, o.size.x, o.size.y, o.ticksPerFrame, firstMs_, median,
                    median > 0 ? 1000 / median : 0, quantile(frameMs_, 0.99), at.x, at.z,
                    demo_.game->player().carried ? ", carrying a crate" : "", p.flowersOpen, p.flowers,
                    p.roomsSolved, p.rooms, p.won ? ", finished" : "", demo_.game->stateHash(),
-                   double(renderer_.deviceBytes()) / 1048576.0) +
+                   double(renderer_.deviceBytes()) / 1048576.0, residentBefore_, residentMib()) +
                passes_.text();
     }
 
@@ -120,7 +122,7 @@ class HeadlessRun {
     PassLog passes_;
     ContactSheet sheet_;
     std::vector<double> frameMs_;
-    double firstMs_ = 0;
+    double firstMs_ = 0, residentBefore_ = 0;
     uint32_t frames_ = 1;
     ImageHandle shown_;
 };
@@ -128,7 +130,7 @@ class HeadlessRun {
 }  // namespace
 
 int runHeadless(Demo& demo) {
-    auto device = gpu::Device::create({.validation = demo.options.validate});
+    auto device = gpu::Device::create(deviceOptions(demo, nullptr));
     if (!device) return refuse(device.error().message);
     return HeadlessRun(demo, **device).run();
 }

@@ -40,6 +40,10 @@ void addOptions(CLI::App& program, DemoOptions& o) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     program.add_flag("--serial", o.serial, "one thread, systems in order");
+    program.add_option("--without", o.without, "run as if the device lacked this feature")
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    program.add_option("--fault", o.fault, "for tests: make the device fail, KIND:N")->group("");
     program.add_flag("--validate", o.validate, "with Vulkan validation; any message exits with 1");
 }
 
@@ -94,6 +98,9 @@ Status prepare(Demo& demo) {
         demo.layer = gi::layerFromName(o.view);
         if (!demo.layer) return Error{"there is no intermediate named '" + o.view + "'"};
     }
+    const auto fault = gpu::parseFaultPlan(o.fault);
+    if (!fault) return fault.error();
+    demo.fault = *fault;
     if (o.resume && !o.record.empty()) return Error{"a recording starts with the level, not with --continue"};
     if (Status s = readUserFiles(demo); !s) return s;
     if (Status s = readReplay(demo); !s) return s;
@@ -114,6 +121,9 @@ int run(int argc, char** argv) {
         return refuse(error.what());
     }
     if (const Status ready = prepare(demo); !ready) return refuse(ready.error().message);
+    gpu::onDeviceFault([&demo] {
+        if (const Status kept = finishRecording(demo); !kept) spdlog::error("{}", kept.error().message);
+    });
     const int exitCode = demo.options.headless ? runHeadless(demo) : runWindowed(demo);
     if (const Status saved = finishRecording(demo); !saved) return refuse(saved.error().message);
     return exitCode;

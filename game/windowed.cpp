@@ -52,7 +52,12 @@ class WindowedRun {
         menu_.hasSave = fileExists(demo.files.save());
         if (!demo.replay.empty() || demo.options.resume) play();
         usePlayerSettings();
+        gpu::onDeviceFault([this] {
+            autosave();
+            if (const Status kept = finishRecording(demo_); !kept) spdlog::error("{}", kept.error().message);
+        });
     }
+    ~WindowedRun() { gpu::onDeviceFault({}); }
 
     int loop() {
         auto last = Clock::now();
@@ -318,7 +323,7 @@ int runWindowed(Demo& demo) {
     if (const Status folder = openFolder(demo.files); !folder) return refuse(folder.error().message);
     auto window = Window::open("Afterglow", demo.options.size);
     if (!window) return refuse(window.error().message + "; try --headless");
-    auto device = gpu::Device::create({.validation = demo.options.validate, .window = (*window)->handle()});
+    auto device = gpu::Device::create(deviceOptions(demo, (*window)->handle()));
     if (!device) return refuse(device.error().message);
     int exitCode = WindowedRun(demo, **window, **device).loop();
     const int messages = (*device)->validationMessageCount();

@@ -91,9 +91,13 @@ struct Device::Impl {
     std::unique_ptr<MemoryAllocator> memory;
     uint64_t submitted = 0;
     std::deque<Retired> retired;
-    int messagesBefore = 0;
+    int messagesBefore;
+    GLFWwindow* window;
+    FaultCounter faults;
     bool debugNames = false;
 
+    explicit Impl(const DeviceOptions& options)
+        : messagesBefore(gValidationMessages), window(options.window), faults(options.fault) {}
     Status createInstance(const DeviceOptions& options);
     Status createDevice(const DeviceOptions& options);
     void createPipelineCache();
@@ -146,7 +150,7 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
 Status Device::Impl::createDevice(const DeviceOptions& options) {
     if (options.window && glfwCreateWindowSurface(instance, options.window, nullptr, &surface) != VK_SUCCESS)
         return Error{"cannot create a surface for the window"};
-    auto chosen = chooseDevice(instance, surface, options.deviceName);
+    auto chosen = chooseDevice(instance, surface, options.deviceName, options.without);
     if (!chosen) return chosen.error();
     choice = std::move(*chosen);
     auto opened = openDevice(choice, options.window != nullptr);
@@ -162,7 +166,7 @@ Status Device::Impl::createDevice(const DeviceOptions& options) {
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = choice.queueFamily};
     AG_VK(vkCreateCommandPool(device, &pool, nullptr, &oncePool));
-    memory = std::make_unique<MemoryAllocator>(choice.physical, device);
+    memory = std::make_unique<MemoryAllocator>(choice.physical, device, faults);
     createPipelineCache();
     return Ok{};
 }
@@ -190,11 +194,10 @@ void Device::Impl::savePipelineCache() const {
     std::filesystem::rename(temporary, path, ignored);
 }
 
-Device::Device() : impl_(std::make_unique<Impl>()) {}
+Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
-    std::unique_ptr<Device> device(new Device);
-    device->impl_->messagesBefore = gValidationMessages;
+    std::unique_ptr<Device> device(new Device(options));
     if (Status made = device->impl_->createInstance(options); !made) return made.error();
     if (Status made = device->impl_->createDevice(options); !made) return made.error();
     return device;
@@ -235,6 +238,16 @@ uint32_t Device::queueFamily() const {
 VkSurfaceKHR Device::surface() const {
     return impl_->surface;
 }
+Status Device::renewSurface() {
+    vkDestroySurfaceKHR(impl_->instance, impl_->surface, nullptr);
+    impl_->surface = VK_NULL_HANDLE;
+    if (glfwCreateWindowSurface(impl_->instance, impl_->window, nullptr, &impl_->surface) != VK_SUCCESS)
+        return Error{"the window's surface was lost, and another one cannot be made"};
+    return Ok{};
+}
+bool Device::strikes(Fault kind) {
+    return impl_->faults.strikes(kind);
+}
 VkPipelineCache Device::pipelineCache() const {
     return impl_->pipelineCache;
 }
@@ -265,7 +278,9 @@ uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore waitBinary, VkSema
                              .pCommandBufferInfos = &buffer,
                              .signalSemaphoreInfoCount = signalBinary ? 2u : 1u,
                              .pSignalSemaphoreInfos = signals};
-    AG_VK(vkQueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE));
+    const bool lost = strikes(Fault::kSubmit);
+    checkVk(lost ? VK_ERROR_DEVICE_LOST : vkQueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE),
+            "vkQueueSubmit2");
     return impl_->submitted;
 }
 
@@ -347,12 +362,6 @@ void Device::setDebugName(VkObjectType type, uint64_t handle, const std::string&
                                              .objectHandle = handle,
                                              .pObjectName = name.c_str()};
     vkSetDebugUtilsObjectNameEXT(impl_->device, &info);
-}
-
-void checkVk(VkResult result, const char* call) {
-    if (result >= 0) return;  // success codes such as VK_INCOMPLETE are the caller's business
-    spdlog::critical("{} failed: {}", call, string_VkResult(result));
-    std::abort();
 }
 
 }  // namespace ag::gpu

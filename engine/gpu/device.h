@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/gpu/device_faults.h"
 #include "engine/gpu/memory.h"
 
 struct GLFWwindow;
@@ -23,6 +24,8 @@ struct DeviceOptions {
     bool validation = false;       // core and synchronization validation; messages are counted
     GLFWwindow* window = nullptr;  // null: headless, no surface or swapchain extension
     std::string deviceName;        // part of a device name to prefer; empty: discrete, integrated, then CPU
+    std::vector<std::string> without;  // features and extensions to do without, as if the device lacked them
+    FaultPlan fault;                   // for tests
 };
 
 struct DeviceInfo {
@@ -50,6 +53,9 @@ class Device {
     VkQueue queue() const;
     uint32_t queueFamily() const;
     VkSurfaceKHR surface() const;  // null when headless
+    // After it was lost: another one of the same window. Nothing may be under way, no swapchain may be left.
+    Status renewSurface();
+    bool strikes(Fault kind);  // see DeviceOptions::fault
     VkPipelineCache pipelineCache() const;
     const DeviceInfo& info() const;
 
@@ -77,16 +83,12 @@ class Device {
     void setDebugName(VkObjectType type, uint64_t handle, const std::string& name);
 
   private:
-    Device();
+    explicit Device(const DeviceOptions& options);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
 
 // Validation messages of all devices ever made in this process, also those reported while one is destroyed.
 int totalValidationMessages();
-
-// Fatal with the call's text and the result's name: a Vulkan call that fails is not recoverable here.
-void checkVk(VkResult result, const char* call);
-#define AG_VK(call) ::ag::gpu::checkVk((call), #call)
 
 }  // namespace ag::gpu

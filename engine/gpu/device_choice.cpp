@@ -1,5 +1,6 @@
 #include "engine/gpu/device_choice.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -39,6 +40,8 @@ const std::array kRequired = {AG_FEATURE(core.features, multiDrawIndirect),
                               AG_FEATURE(v13, synchronization2),
                               AG_FEATURE(v13, maintenance4)};
 
+constexpr const char* kSubgroupOperations = "subgroup shuffle, ballot and arithmetic";
+
 std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -73,7 +76,7 @@ DeviceInfo describe(VkPhysicalDevice physical) {
         VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
     const bool has = (subgroup.supportedOperations & kSubgroup) == kSubgroup &&
                      (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
-    (has ? info.enabled : info.missing).push_back("subgroup shuffle, ballot and arithmetic");
+    (has ? info.enabled : info.missing).push_back(kSubgroupOperations);
     return info;
 }
 
@@ -89,6 +92,29 @@ void listFeatures(VkPhysicalDevice physical, DeviceInfo& info) {
         (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
 }
 
+constexpr const char* kTimestamps = "timestamps";
+
+bool isFeature(std::string_view name) {
+    return name == kTimestamps || name == kSubgroupOperations ||
+           std::ranges::any_of(kRequired, [&](const RequiredFeature& f) { return name == f.name; });
+}
+
+std::string featureNames() {
+    std::string names = std::string(kTimestamps) + ", " + kSubgroupOperations;
+    for (const RequiredFeature& f : kRequired)
+        names += std::string(", ") + f.name;
+    return names;
+}
+
+void leaveOut(std::span<const std::string> without, DeviceInfo& info) {
+    for (const std::string& name : without) {
+        if (name == kTimestamps)
+            info.timestampPeriodNs = 0;  // passes then have no times of their own
+        else if (std::erase(info.enabled, name) > 0)
+            info.missing.push_back(name);
+    }
+}
+
 int score(VkPhysicalDevice physical, const DeviceInfo& info, const std::string& preferredName) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical, &properties);
@@ -101,8 +127,12 @@ int score(VkPhysicalDevice physical, const DeviceInfo& info, const std::string& 
 
 }  // namespace
 
-Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface,
-                                  const std::string& preferredName) {
+Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName,
+                                  std::span<const std::string> without) {
+    for (const std::string& name : without)
+        if (!isFeature(name))
+            return Error{"there is no feature '" + name + "' to do without (there are: " + featureNames() +
+                         ")"};
     uint32_t count = 0;
     vkEnumeratePhysicalDevices(instance, &count, nullptr);
     std::vector<VkPhysicalDevice> devices(count);
@@ -113,6 +143,7 @@ Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface,
     for (VkPhysicalDevice physical : devices) {
         DeviceChoice choice{.physical = physical, .info = describe(physical)};
         listFeatures(physical, choice.info);
+        leaveOut(without, choice.info);
         const auto family = findQueueFamily(physical, surface);
         if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");
         if (!choice.info.missing.empty()) {

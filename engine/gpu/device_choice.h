@@ -1,6 +1,8 @@
 // Picking a physical device and the features it is opened with.
 #pragma once
 
+#include <span>
+
 #include "engine/gpu/device.h"
 
 namespace ag::gpu {
@@ -11,9 +13,10 @@ struct DeviceChoice {
     DeviceInfo info;
 };
 
-// The best device that has everything required; otherwise a sentence saying what each one lacks.
-Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface,
-                                  const std::string& preferredName);
+// The best device that has everything required; otherwise a sentence saying what each one lacks. `without`:
+// features to take as missing.
+Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName,
+                                  std::span<const std::string> without);
 
 // Device with one queue of the chosen family and the required features.
 Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain);

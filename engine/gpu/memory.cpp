@@ -16,7 +16,8 @@ uint64_t alignUp(uint64_t value, uint64_t alignment) {
 
 }  // namespace
 
-MemoryAllocator::MemoryAllocator(VkPhysicalDevice physical, VkDevice device) : device_(device) {
+MemoryAllocator::MemoryAllocator(VkPhysicalDevice physical, VkDevice device, FaultCounter& faults)
+    : device_(device), faults_(faults) {
     vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
 }
 
@@ -79,6 +80,7 @@ uint32_t MemoryAllocator::addBlock(uint64_t sizeBytes, uint32_t type, bool hostV
 MemoryRange MemoryAllocator::allocate(const VkMemoryRequirements& requirements, bool hostVisible,
                                       MemoryUse use) {
     const std::lock_guard lock(mutex_);
+    if (faults_.strikes(Fault::kAllocation)) checkVk(VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory");
     const uint32_t type = findType(requirements.memoryTypeBits, hostVisible);
     MemoryRange range;
     liveBytes_ += requirements.size;

@@ -9,6 +9,8 @@
 #include <mutex>
 #include <vector>
 
+#include "engine/gpu/device_faults.h"
+
 namespace ag::gpu {
 
 // A piece of a memory block. Value type; given back by whoever took it.
@@ -26,12 +28,13 @@ enum class MemoryUse : uint32_t { kBuffer, kImage };
 
 class MemoryAllocator {
   public:
-    MemoryAllocator(VkPhysicalDevice physical, VkDevice device);
+    // `faults` may make an allocation fail.
+    MemoryAllocator(VkPhysicalDevice physical, VkDevice device, FaultCounter& faults);
     ~MemoryAllocator();
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
 
-    // Fatal when the device is out of memory.
+    // Ends the program when the device is out of memory.
     MemoryRange allocate(const VkMemoryRequirements& requirements, bool hostVisible, MemoryUse use);
     void free(const MemoryRange& range);
     uint64_t liveBytes() const;
@@ -54,6 +57,7 @@ class MemoryAllocator {
     uint32_t addBlock(uint64_t sizeBytes, uint32_t type, bool hostVisible, MemoryUse use);
 
     VkDevice device_;
+    FaultCounter& faults_;
     VkPhysicalDeviceMemoryProperties properties_{};
     std::vector<Block> blocks_;
     uint64_t liveBytes_ = 0;

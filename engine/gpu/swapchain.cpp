@@ -113,15 +113,31 @@ void Swapchain::create(glm::uvec2 wanted) {
     nextAcquire_ = 0;
 }
 
+VkResult Swapchain::tryAcquire(VkSemaphore acquired, uint32_t& index) {
+    if (device_.strikes(Fault::kOutOfDate)) return VK_ERROR_OUT_OF_DATE_KHR;
+    if (device_.strikes(Fault::kSurfaceLost)) return VK_ERROR_SURFACE_LOST_KHR;
+    return vkAcquireNextImageKHR(device_.handle(), handle_, UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
+}
+
+// A lost surface takes its swapchain with it; without another one there is nothing to go on with.
+void Swapchain::renewSurface() {
+    device_.waitIdle();
+    destroyImages();
+    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    handle_ = VK_NULL_HANDLE;
+    if (const Status renewed = device_.renewSurface(); !renewed)
+        checkVk(VK_ERROR_SURFACE_LOST_KHR, renewed.error().message.c_str());
+}
+
 std::optional<SwapchainImage> Swapchain::acquire(glm::uvec2 windowSize) {
     if (windowSize.x == 0 || windowSize.y == 0) return std::nullopt;
     if (stale_ || windowSize != requested_) create(windowSize);
     for (int attempt = 0; attempt < 2 && size_.x > 0 && size_.y > 0; ++attempt) {
         const VkSemaphore acquired = acquired_[nextAcquire_];
         uint32_t index = 0;
-        const VkResult result =
-            vkAcquireNextImageKHR(device_.handle(), handle_, UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
-        if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+        const VkResult result = tryAcquire(acquired, index);
+        if (result == VK_ERROR_SURFACE_LOST_KHR) renewSurface();
+        if (result == VK_ERROR_SURFACE_LOST_KHR || result == VK_ERROR_OUT_OF_DATE_KHR) {
             create(windowSize);
             continue;
         }
@@ -141,8 +157,10 @@ void Swapchain::present(const SwapchainImage& image) {
                                 .pSwapchains = &handle_,
                                 .pImageIndices = &image.index};
     const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
-        stale_ = true;
+    // A lost surface says so again when the next image is asked for.
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
+        result == VK_ERROR_SURFACE_LOST_KHR)
+        stale_ = result != VK_ERROR_SURFACE_LOST_KHR;
     else
         checkVk(result, "vkQueuePresentKHR");
 }

@@ -35,6 +35,8 @@ class Swapchain {
     glm::uvec2 size() const { return size_; }
 
   private:
+    VkResult tryAcquire(VkSemaphore acquired, uint32_t& index);
+    void renewSurface();
     void create(glm::uvec2 size);
     void destroyImages();
 

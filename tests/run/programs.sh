@@ -47,6 +47,29 @@ expect 2 "save.txt: the file cannot be opened" "$bin/afterglow-demo" --headless 
 expect 2 "a recording starts with the level" "$bin/afterglow-demo" --headless --continue --record "$work/r.replay"
 [[ -z $(ls "$work" | grep -v -E '^(out|err)$') ]] || fail "a refused command left a file behind"
 
+# Devices that lack something, fail or are lost.
+expect 2 "lacks timelineSemaphore" "$bin/afterglow" info --without timelineSemaphore
+for feature in multiDrawIndirect drawIndirectFirstInstance scalarBlockLayout hostQueryReset dynamicRendering synchronization2 maintenance4 "subgroup shuffle, ballot and arithmetic"; do
+  expect 2 "lacks $feature" "$bin/afterglow-demo" --headless --frames 1 --without "$feature"
+done
+expect 2 "there is no feature 'rays'" "$bin/afterglow" info --without rays
+expect 0 "timestamps         none" "$bin/afterglow" info --without timestamps
+expect 0 "frames of 32x18" "$bin/afterglow-demo" --headless --frames 3 --size 32x18 --without timestamps --validate
+expect 2 "not 'fire:1'" "$bin/afterglow-demo" --headless --frames 1 --fault fire:1
+expect 3 "the graphics device was lost (in vkQueueSubmit2)" "$bin/afterglow-demo" --headless --frames 60 --size 32x18 --record "$work/lost.replay" --fault submit:40
+[[ $(tail -n 1 "$work/lost.replay") == "end "* ]] || fail "the recording of a lost device's run was lost, too"
+rm -f "$work/lost.replay"
+n=1
+while :; do  # every allocation of a run fails once, until there are no more
+  "$bin/afterglow" render cornell -o "$work/a.png" --size 32x18 --frames 2 --fault allocation:$n >"$work/out" 2>"$work/err"
+  got=$?
+  [[ $got == 0 ]] && break
+  [[ $got == 3 && $(grep -c "out of memory" "$work/err") == 1 ]] || { fail "allocation $n failing exited with $got: $(head -c 300 "$work/err")"; break; }
+  n=$((n + 1 + n / 8))
+done
+((n > 20)) || fail "only $n allocations were tried"
+rm -f "$work/a.png"
+
 render() { "$bin/afterglow" render "$@" --size 160x90 --frames 12 --validate 2>"$work/err" || fail "render $*: $(cat "$work/err")"; }
 render cornell -o "$work/a.png"
 render cornell -o "$work/b.png"
@@ -107,8 +130,17 @@ expect 0 '"rel_rmse"' "$bin/afterglow" compare "$work/direct.pfm" "$work/again.p
 "$bin/afterglow-demo" --headless --frames 6 --size 160x90 --screenshot "$work/demo.png" --report "$work/report.txt" \
   --validate >/dev/null 2>"$work/err" || fail "the demo: $(cat "$work/err")"
 [[ -s $work/demo.png && -s $work/report.txt ]] || fail "the demo left no picture or report"
-hash1=$("$bin/afterglow-demo" --headless --frames 40 --ticks-per-frame 12 --size 32x18 2>/dev/null | grep hash)
-hash2=$("$bin/afterglow-demo" --headless --frames 40 --ticks-per-frame 12 --size 32x18 --serial 2>/dev/null | grep hash)
-[[ -n $hash1 && $hash1 == "$hash2" ]] || fail "the world differs between one thread and several: $hash1, $hash2"
+# The same replay: the same world and the same picture, with any number of threads, with everything run or skipped.
+play() {  # PICTURE [OPTION...]
+  "$bin/afterglow-demo" --headless --frames 40 --ticks-per-frame 12 --size 64x36 --screenshot "$work/$1" "${@:2}" \
+    2>/dev/null | grep hash
+}
+hash=$(play many.png)
+[[ -n $hash ]] || fail "the demo reported no world hash"
+[[ $hash == "$(play one.png --serial)" ]] || fail "the world differs between one thread and several"
+[[ $hash == "$(play all.png --set engine.skip=off)" ]] || fail "the world differs with everything run"
+for other in one.png all.png; do
+  cmp "$work/many.png" "$work/$other" || fail "many.png and $other differ"
+done
 
 exit $((failures > 0))

@@ -46,7 +46,7 @@ keys() {
   done
 }
 
-await_end() {
+await_end() {  # WHAT [CODE]
   for _ in $(seq 75); do
     kill -0 "$demo" 2>/dev/null || break
     sleep 0.2
@@ -58,7 +58,7 @@ await_end() {
   fi
   wait "$demo"
   local code=$?
-  [[ $code == 0 ]] || { echo "FAILED: the demo exited with $code: $(tail -5 "$work/log")"; exit 1; }
+  [[ $code == "${2:-0}" ]] || { echo "FAILED: the demo exited with $code: $(tail -5 "$work/log")"; exit 1; }
 }
 
 start_demo --record "$work/run.replay"
@@ -118,4 +118,17 @@ head -c 100 "$work/kept.txt" >"$work/user/save.txt"
 "$bin/afterglow-demo" --headless --continue --frames 1 --size 32x18 --user "$work/user" >/dev/null 2>"$work/err"
 [[ $? == 2 && $(grep -c . "$work/err") == 1 ]] || { echo "FAILED: a cut save was not refused with a sentence"; exit 1; }
 [[ $(stat -c %s "$work/user/save.txt") == 100 ]] || { echo "FAILED: the broken save was not kept"; exit 1; }
+
+# A swapchain that no longer fits and a lost surface are made anew; a lost device ends the game with all that was won.
+rm -f "$work/user/save.txt"
+for fault in out_of_date:3 surface_lost:3; do
+  start_demo --frames 12 --screenshot "$work/$fault.png" --fault "$fault"
+  await_end "$fault"
+  [[ -s $work/$fault.png ]] || { echo "FAILED: $fault left no picture"; exit 1; }
+done
+start_demo --fault submit:600
+keys Return  # Play
+await_end "a lost device" 3
+grep -q "the graphics device was lost" "$work/log" || { echo "FAILED: a lost device said nothing: $(cat "$work/log")"; exit 1; }
+[[ $(tail -n 1 "$work/user/save.txt") == end ]] || { echo "FAILED: a lost device lost the game"; exit 1; }
 exit 0

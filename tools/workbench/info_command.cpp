@@ -8,8 +8,8 @@
 namespace ag::workbench {
 namespace {
 
-int runInfo() {
-    auto device = gpu::Device::create({});
+int runInfo(const std::vector<std::string>& without) {
+    auto device = gpu::Device::create({.without = without});
     if (!device) return refuse(device.error().message);
     const gpu::DeviceInfo& info = (*device)->info();
     const VkPhysicalDeviceLimits& limits = info.limits;
@@ -35,7 +35,10 @@ int runInfo() {
 
 void addInfoCommand(CLI::App& program, int& exitCode) {
     CLI::App* command = program.add_subcommand("info", "device, driver, features and limits");
-    command->callback([&exitCode] { exitCode = runInfo(); });
+    const auto without = std::make_shared<std::vector<std::string>>();
+    command->add_option("--without", *without, "as if the device lacked this feature")
+        ->allow_extra_args(false);
+    command->callback([without, &exitCode] { exitCode = runInfo(*without); });
 }
 
 }  // namespace ag::workbench

@@ -26,6 +26,8 @@ struct RenderOptions {
     bool times = false;
     std::string walk;  // DX,DY,DZ
     bool validate = false;
+    std::vector<std::string> without;
+    std::string fault;
 };
 
 struct RenderSettings {
@@ -131,7 +133,10 @@ int runRender(const RenderOptions& options) {
     if (!walk) return refuse(walk.error().message);
     auto loaded = loadScene(options.scene);
     if (!loaded) return refuse(loaded.error().message);
-    auto device = gpu::Device::create({.validation = options.validate});
+    const auto fault = gpu::parseFaultPlan(options.fault);
+    if (!fault) return refuse(fault.error().message);
+    auto device =
+        gpu::Device::create({.validation = options.validate, .without = options.without, .fault = *fault});
     if (!device) return refuse(device.error().message);
 
     gi::GiRenderer renderer(**device);
@@ -185,6 +190,9 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->add_option("--walk", options->walk,
                         "with --times: DX,DY,DZ, m the camera moves in each frame measured");
     command->add_flag("--times", options->times, "print each pass's process CPU time and the memory used");
+    command->add_option("--without", options->without, "run as if the device lacked this feature")
+        ->allow_extra_args(false);
+    command->add_option("--fault", options->fault, "for tests: make the device fail, KIND:N")->group("");
     command->add_flag("--validate", options->validate, "with Vulkan validation; any message exits with 1");
     command->callback([options, &exitCode] { exitCode = runRender(*options); });
 }
