@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
     ag::workbench::addBenchCommand(program, exitCode);
     ag::workbench::addEcsBenchCommand(program, exitCode);
     ag::workbench::addSweepCommand(program, exitCode);
+    ag::workbench::addStressCommand(program, exitCode);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
