@@ -10,7 +10,7 @@ RenderScene sceneOf(float diagonal, float irradiance) {
     RenderScene scene;
     scene.bounds = {glm::vec3(0), glm::vec3(diagonal, 0, 0)};
     scene.lights = {{.kind = LightKind::kDirectional, .intensity = glm::vec3(irradiance)},
-                    {.kind = LightKind::kPoint, .position = {0.3f, 0, 0}, .intensity = glm::vec3(1e-9f)}};
+                    {.kind = LightKind::kPoint, .position = {0.3f, 0, 0}, .intensity = glm::vec3(0)}};
     scene.instances = {{}};
     return scene;
 }
@@ -35,6 +35,7 @@ TEST(RenderUnits, OthersComeNearOne) {
 
 TEST(RenderUnits, ConversionIsExactAndLeavesTheImageWhereItIs) {
     RenderScene scene = sceneOf(3000, 5);
+    scene.lights[1].intensity = glm::vec3(7, 8, 9);
     scene.instances[0].worldFromLocal[3] = {0.1f, 0.2f, 0.3f};
     scene.camera.clipFromWorld = glm::mat4(1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, -1, 0.7f, 0.3f, 0.05f, 4);
     scene.camera.worldFromClip = glm::inverse(scene.camera.clipFromWorld);
