@@ -198,8 +198,11 @@ std::string decodeExr(const std::string& text, ExrFile& exr) {
         if (exr.header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT) return "it holds whole numbers";
         exr.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
     }
-    if (LoadEXRImageFromMemory(&exr.pixels, &exr.header, bytes, text.size(), &exr.message) != TINYEXR_SUCCESS)
+    if (LoadEXRImageFromMemory(&exr.pixels, &exr.header, bytes, text.size(), &exr.message) !=
+        TINYEXR_SUCCESS) {
+        InitEXRImage(&exr.pixels);  // the decoder gave it back already
         return said("its pixels are broken");
+    }
     return exr.pixels.images ? "" : "it has no pixels";
 }
 
