@@ -55,7 +55,7 @@ void sameImage(const Bench& bench, const std::string& name, const SceneAsset& ba
     if (!bench.wants(name)) return;
     auto read = throughFile(bad);
     if (!read) return bench.report({name, "relative RMSE", 1, 0, read.error().message});
-    const Still truth = renderStill(bench, cornell()), still = renderStill(bench, *read);
+    const Still truth = renderStill(bench, throughFile(cornell()).value()), still = renderStill(bench, *read);
     bench.report({name, "relative RMSE", relativeRmse(truth.image, still.image), 1e-3, still.fault});
 }
 

