@@ -49,6 +49,23 @@ void setIsm(GiSettings& gi) {
     gi.valShading = {.shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .taps = 1};
 }
 
+// 256 point lights and as many of the second bounce, 4x4 pixels share them; the edge-aware Gaussian is a
+// round of the denoiser's filter over one frame.
+void setSsvp(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kSsvp;
+    gi.valClustering.count = 256;
+    gi.valShading = {
+        .shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .interleave = 4, .taps = 1};
+    gi.denoiser = {.enabled = true,
+                   .leastShare = 1,
+                   .rounds = 1,
+                   .separable = false,
+                   .adaptive = false,
+                   .motion = false,
+                   .lightTolerance = 0};
+    gi.composite.tonemap = Tonemap::kReinhard;
+}
+
 void setRsmc(GiSettings& gi) {
     gi.ismAtlas.enabled = false;
     gi.valShading.interleave = 1;
@@ -122,12 +139,13 @@ struct Preset {
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 16> kPresets = {{{"none", setNone},
+constexpr std::array<Preset, 17> kPresets = {{{"none", setNone},
                                               {"rsm-brute", setRsmBrute},
                                               {"rsm-400", setRsm400},
                                               {"irsm", setIrsm},
                                               {"stochastic", setStochastic},
                                               {"ism", setIsm},
+                                              {"ssvp", setSsvp},
                                               {"rsmc", setRsmc},
                                               {"acrsm", setAcrsm},
                                               {"afterglow", setAfterglow},
@@ -165,7 +183,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
            0,
            "",
            "where indirect light comes from",
-           {"none", "area_lights", "point_lights", "texels", "stochastic_rsm"}},
+           {"none", "area_lights", "point_lights", "texels", "stochastic_rsm", "ssvp"}},
           &gi.firstBounce);
     s.add({"rsm", "resolution", 0, 1024, "texels",
            "side of a light map, rounded down to a power of two; 0: as each light says"},
@@ -228,6 +246,14 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"ism_atlas", "keep_maps", 0, 0, "", "do not splat again for lights that stand still"},
           &gi.ismAtlas.keepMaps);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
+    s.add({"ssvp", "clusters", 1, 64, "clusters", "of point lights, each with a paraboloid map"},
+          &gi.ssvp.clusters);
+    s.add({"ssvp", "second_count", 0, 4096, "lights", "of the second bounce"}, &gi.ssvp.secondCount);
+    s.add({"ssvp", "rounds", 1, 20, "rounds", "of k-means a frame"}, &gi.ssvp.rounds);
+    s.add({"ssvp", "map_size", 16, 512, "texels", "side of a paraboloid's square, a multiple of 16"},
+          &gi.ssvp.mapSize);
+    s.add({"ssvp", "disk", 0, 0, "", "sample the paraboloids' disks; off: the squares round them"},
+          &gi.ssvp.disk);
     s.add({"later_bounces", "enabled", 0, 0, "", "light goes on after its first bounce"},
           &gi.laterBounces.enabled);
     s.add({"later_bounces", "feedback", 0, 0, "", "and after its second; off: no more than two"},

@@ -50,6 +50,7 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
         .spec(1, g.isms.planes ? taps : 0)
         .spec(2, g.interleave)
         .spec(3, g.isms.mapping == IsmMapping::kParaboloid)
+        .spec(4, g.isms.shared)
         .push(g.push)
         .dispatchThreads(g.push.tiles.x * g.push.tiles.y * g.push.tileSize * g.push.tileSize / 4);
     return pass;
@@ -75,7 +76,7 @@ Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffe
                  .tiles = tiles,
                  .nearReach = settings.nearReach,
                  .ismTileSize = isms.tileSize},
-        .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * io::kMaxVals * 4,
+        .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * vals.count * 4,
                                             .texelFormat = VK_FORMAT_R32_UINT}),
         .counts = graph.buffer(names.counts, {.sizeBytes = tileCount * 8}),
         .interleave = n};

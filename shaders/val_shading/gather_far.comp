@@ -36,7 +36,7 @@ void main() {
         e[p] = vec3(0.0);
     }
     const uint kParts = kInterleave * kInterleave;
-    uint start = listStart(block.tile, kFarList), count = counts.items[block.tile].y;
+    uint start = listStart(block.tile, kFarList, push.p.valCount), count = counts.items[block.tile].y;
     if (kLaneParallel) {
         for (uint base = block.part; base < count; base += kSubgroupSize * kParts) {
             uint entry = base + gl_SubgroupInvocationID * kParts;

@@ -116,7 +116,7 @@ void main() {
         e[p] = kInterleave == 1 ? texelFetch(parts, pixel, 0).rgb : vec3(0.0);
     }
     if (kInterleave > 1) addFarIrradiance(bounds, pixelOf(block, 0), s, e);
-    uint start = listStart(block.tile, kNearList), count = counts.items[block.tile].x;
+    uint start = listStart(block.tile, kNearList, push.p.valCount), count = counts.items[block.tile].x;
     if (kLaneParallel) {
         for (uint base = 0; base < count; base += kSubgroupSize) {
             AreaLight mine = loadLight(texelFetch(lists, int(start + min(base + gl_SubgroupInvocationID, count - 1))).x);
