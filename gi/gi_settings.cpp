@@ -97,6 +97,11 @@ void setLow(GiSettings& gi) {
 
 void setAfterglow(GiSettings&) {}
 
+void setAfterglowBounces(GiSettings& gi) {
+    gi.laterBounces.enabled = true;
+    gi.valClustering.count = 256;
+}
+
 void setHigh(GiSettings& gi) {
     gi.rsm.resolution = 512;
     gi.valClustering.count = 256;
@@ -139,7 +144,7 @@ struct Preset {
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 17> kPresets = {{{"none", setNone},
+constexpr std::array<Preset, 18> kPresets = {{{"none", setNone},
                                               {"rsm-brute", setRsmBrute},
                                               {"rsm-400", setRsm400},
                                               {"irsm", setIrsm},
@@ -150,6 +155,7 @@ constexpr std::array<Preset, 17> kPresets = {{{"none", setNone},
                                               {"acrsm", setAcrsm},
                                               {"afterglow", setAfterglow},
                                               {"medium", setAfterglow},
+                                              {"afterglow-bounces", setAfterglowBounces},
                                               {"low", setLow},
                                               {"high", setHigh},
                                               {"ultra", setUltra},

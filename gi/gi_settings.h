@@ -57,10 +57,10 @@ struct GiSettings {
 // Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
 // "rsm-400" (Dachsbacher & Stamminger 2005), "irsm" (few samples and a denoiser, as published), "stochastic"
 // (that, ours), "ism" (Ritschel et al. 2008), "ssvp" (two bounces, as published), "rsmc" (RSM clustering) and
-// "acrsm" (with adaption and shadows) as published, "afterglow" (the default), and that by budget: "low",
-// "medium" (the same), "high", "ultra". For the direct light of lamps, without bounces: "lights-reference" (a
-// shadow map each), "lightcluster" as published, "afterglow-lights" (the default's). False if there is no
-// such preset.
+// "acrsm" (with adaption and shadows) as published, "afterglow" (the default), "afterglow-bounces" (with
+// every later bounce), and the default by budget: "low", "medium" (the same), "high", "ultra". For the direct
+// light of lamps, without bounces: "lights-reference" (a shadow map each), "lightcluster" as published,
+// "afterglow-lights" (the default's). False if there is no such preset.
 bool applyPreset(std::string_view name, GiSettings& gi);
 std::span<const std::string_view> presetNames();
 

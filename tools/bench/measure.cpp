@@ -78,10 +78,11 @@ SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::strin
 }
 
 reference::ReferenceSettings SceneBench::referenceSettings(std::string_view term) const {
-    return {.paths = {.bounces = term == "direct" ? 0u : 1u},
+    const uint32_t bounces = term == "direct" ? 0 : term == "all" ? 2 : 1;
+    return {.paths = {.bounces = bounces},
             .samplesPerPixel = options_.referenceSamples,
             .maxError = options_.referenceError,
-            .layer = std::string(term)};
+            .layer = std::string(layerOfTerm(term))};
 }
 
 Result<const Image*> SceneBench::reference(std::string_view term) {
@@ -198,7 +199,7 @@ Status SceneBench::measureGpu(const Technique& technique, const Variant& variant
         const size_t equals = assignment.find('=');
         row.settings[assignment.substr(0, equals)] = assignment.substr(equals + 1);
     }
-    const auto layer = gi::layerFromName(row.term);
+    const auto layer = gi::layerFromName(layerOfTerm(row.term));
     if (!layer) return Error{fmt::format("there is no layer '{}'", row.term)};
     renderer_.load(*scene_.geometry);
     Frame frame{renderer_, options_.size, *layer};
@@ -241,7 +242,7 @@ Row SceneBench::tracePaths(const Row& row, const Image& truth) {
                                                    row.gpuMsMedian * 1e-3, runner_);
     paths.gpuMsMedian = paths.gpuMsP99 = row.gpuMsMedian;
     paths.frames = 1;
-    const Image& image = *reference::layerOf(traced, row.term);
+    const Image& image = *reference::layerOf(traced, layerOfTerm(row.term));
     if (const auto difference = compareImages(truth, image)) paths.error = *difference;
     paths.flip = meanFlip(truth, image);
     return paths;

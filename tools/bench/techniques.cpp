@@ -33,6 +33,25 @@ std::vector<Variant> ours() {
     return variants;
 }
 
+std::vector<Variant> twoBounces() {
+    std::vector<Variant> variants;
+    for (const int count : {128, 256})
+        variants.push_back({fmt::format("{}, map 512²", count),
+                            {fmt::format("val_clustering.count={}", count), "rsm.resolution=512",
+                             "later_bounces.feedback=off"}});
+    return variants;
+}
+
+std::vector<Variant> paraboloids() {
+    std::vector<Variant> variants;
+    for (const int count : {4, 8, 16, 32})
+        variants.push_back({fmt::format("{} clusters", count), {fmt::format("ssvp.clusters={}", count)}});
+    variants.push_back({"32 clusters, 1024 lights", {"ssvp.clusters=32", "ssvp.second_count=1024"}});
+    variants.push_back(
+        {"the same, squares", {"ssvp.clusters=32", "ssvp.second_count=1024", "ssvp.disk=off"}});
+    return variants;
+}
+
 std::vector<Variant> lampBudgets() {
     std::vector<Variant> variants;
     for (const int count : {10, 26})
@@ -77,6 +96,14 @@ std::vector<Technique> makeTechniques() {
         {.name = "low", .description = "ours, least work", .variants = {{"", {}}}},
         {.name = "high", .description = "ours, for more accuracy", .variants = {{"", {}}}},
         {.name = "ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},
+        {.name = "ssvp",
+         .description = "point lights and what their clusters see, two bounces (Aranha et al.)",
+         .term = "all",
+         .variants = paraboloids()},
+        {.name = "afterglow-bounces",
+         .description = "ours, two bounces",
+         .term = "all",
+         .variants = twoBounces()},
         {.name = "lights-reference",
          .description = "direct light of lamps, a shadow map each",
          .term = "direct",
@@ -97,6 +124,10 @@ std::vector<Technique> makeTechniques() {
 std::span<const Technique> techniques() {
     static const std::vector<Technique> all = makeTechniques();
     return all;
+}
+
+std::string_view layerOfTerm(std::string_view term) {
+    return term == "all" ? "indirect" : term;
 }
 
 const Technique* findTechnique(std::string_view name) {

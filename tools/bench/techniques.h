@@ -22,10 +22,12 @@ struct Technique {
     std::string_view name;  // of the preset, too
     std::string_view description;
     Runner runner = Runner::kGpu;
-    std::string_view term = "bounce1";  // which layer its error is measured on
+    std::string_view term = "bounce1";  // of light, that its error is measured on; "all": both of two bounces
     std::vector<Variant> variants;
 };
 
+// The layer, of renderer and reference, that holds a term.
+std::string_view layerOfTerm(std::string_view term);
 std::span<const Technique> techniques();
 const Technique* findTechnique(std::string_view name);
 
