@@ -272,6 +272,9 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.valShading.taps);
     s.add({"val_shading", "far_taps", 1, 64, "taps", "of far lights' soft shadows; 1: hard ones"},
           &gi.valShading.farTaps);
+    s.add({"val_shading", "glossy", 0, 0, "",
+           "area lights shine on materials by their roughness; off: all are Lambert"},
+          &gi.valShading.glossy);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},
           &gi.stochasticRsm.samples);
     s.add({"stochastic_rsm", "radius", 0.001, 2, "map widths",

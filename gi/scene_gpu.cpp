@@ -117,10 +117,11 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     attributes_ = loadBuffer(device_, "scene.attributes", geometry.attributes, true);
     indices_ = loadBuffer(device_, "scene.indices", geometry.indices, true);
     std::vector<io::Material> rows;
-    hasEmissive_ = false;
+    hasEmissive_ = hasGlossy_ = false;
     for (const Material& m : geometry.materials) {
         rows.push_back(materialRow(m));
         hasEmissive_ = hasEmissive_ || m.emissive != glm::vec3(0);
+        hasGlossy_ = hasGlossy_ || m.metallic > 0 || m.specular > 0;
     }
     materials_ = loadBuffer(device_, "scene.materials", rows, false, kVec4Texels);
     loadTextures(geometry);
@@ -207,7 +208,11 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     reserveBuffers(scene);
     sampleSurfacesAnew(scene);
     noteMovements(scene);
-    SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = hasEmissive_};
+    SceneView view{.scene = &scene,
+                   .draws = &draws_,
+                   .size = size,
+                   .hasEmissive = hasEmissive_,
+                   .hasGlossy = hasGlossy_};
     view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
     // Constant versions: what a view draws of them is in its draws' versions.
     view.instances = graph.importBuffer("scene.instances", *instances_, 1);

@@ -30,6 +30,7 @@ struct SceneView {
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
     glm::uvec2 size{0};                                       // pixels of the camera's image
     bool hasEmissive = false;
+    bool hasGlossy = false;                // a material that is not Lambert
     BufferHandle surfaceSamples;           // io::SurfaceSample; also a texel buffer of vec4
     uint32_t surfaceSampleCount = 0;       // 0: no surface
     uint32_t stillSampleCount = 0;         // the first ones are on what stands still
@@ -82,7 +83,7 @@ class SceneGpu {
     gpu::Device& device_;
     DrawLists draws_;
     uint64_t geometryVersion_ = 0;
-    bool hasEmissive_ = false;
+    bool hasEmissive_ = false, hasGlossy_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;

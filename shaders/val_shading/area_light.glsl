@@ -18,7 +18,11 @@ const uint kShapePolygon = 4;     // of the farthest texels, by its edges
 layout(constant_id = 4) const bool kSharedMaps = false;
 const bool kPolygon = kShape == kShapePolygon;
 const bool kSoft = kVisibilityTaps > 1;  // else shadows are hard, or with 0 taps none
+#ifdef AG_GLOSSY
+const bool kRectangle = true;
+#else
 const bool kRectangle = kShape == kShapeRectangle || kSoft || kSharedMaps;
+#endif
 const uint kNoMap = 0xffffu;  // nothing stands in the light's way
 
 struct AreaLight {

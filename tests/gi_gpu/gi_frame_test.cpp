@@ -570,5 +570,19 @@ TEST(Frame, WithoutLightThereIsNoGlobalIllumination) {
             << pass.name;
 }
 
+// Materials are Lambert in the one and have coats in the other.
+TEST(Glossy, RunsOnlyWhereAMaterialIs) {
+    for (const char* name : {"cornell", "glossy"}) {
+        Bench b(*scenegen::buildScene(name, 0), {64, 36});
+        b.frame();
+        const bool glossy = std::string_view(name) == "glossy";
+        EXPECT_EQ(bool(b.last.gbuffer.reflectance), glossy);
+        EXPECT_EQ(bool(b.last.indirect.coat), glossy);
+        b.settings.valShading.glossy = false;
+        b.frame();
+        EXPECT_FALSE(b.last.indirect.coat);
+    }
+}
+
 }  // namespace
 }  // namespace ag::gi
