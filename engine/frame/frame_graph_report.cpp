@@ -44,6 +44,13 @@ std::span<const PassRecord> FrameGraph::nullRecords() const {
     return impl_->records;
 }
 
+uint64_t FrameGraph::frame() const {
+    return impl_->frame;
+}
+FrameSpans FrameGraph::spans() const {
+    return {impl_->spansFrame, impl_->spans};
+}
+
 uint64_t FrameGraph::transientBytes() const {
     uint64_t bytes = 0;
     for (const AliasBucket& bucket : impl_->buckets)

@@ -97,8 +97,9 @@ void FrameGraph::Impl::placeScratch() {
         overlap = overlap || r.firstPass + 1 <= buckets[b].busyUntil;
         buckets[b].busyUntil = std::max(buckets[b].busyUntil, r.lastPass + 1);
     }
-    if (!bucketsStale && !overlap) return;
+    if (!bucketsStale && !overlap && placedAliased == options.alias) return;
     bucketsStale = false;
+    placedAliased = options.alias;
 
     for (AliasBucket& bucket : buckets) {
         for (uint32_t slot : bucket.slots) {

@@ -333,6 +333,17 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
     vkFreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
 }
 
+std::optional<ClockPair> Device::readClocks() const {
+    if (!info().calibrated) return std::nullopt;
+    const VkCalibratedTimestampInfoEXT clocks[] = {
+        {.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT, .timeDomain = VK_TIME_DOMAIN_DEVICE_EXT},
+        {.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT,
+         .timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT}};
+    uint64_t times[2] = {0, 0}, deviation = 0;
+    AG_VK(vkGetCalibratedTimestampsEXT(impl_->device, 2, clocks, times, &deviation));
+    return ClockPair{times[0], times[1]};
+}
+
 int Device::validationMessageCount() const {
     return gValidationMessages - impl_->messagesBefore;
 }

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,10 +32,16 @@ struct DeviceInfo {
     uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
     float timestampPeriodNs = 0;  // 0: no timestamps
+    bool calibrated = false;      // the device's clock can be read together with the host's
     bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
     VkPhysicalDeviceLimits limits{};
     std::vector<std::string> enabled;  // feature and extension names switched on
     std::vector<std::string> missing;  // "name: what is done without it"
+};
+
+// The same moment on the device's clock and on the host's (std::chrono::steady_clock).
+struct ClockPair {
+    uint64_t deviceTicks = 0, hostNs = 0;
 };
 
 class Device {
@@ -68,6 +75,9 @@ class Device {
     // collect()).
     void retire(std::function<void()> destroy);
     void collect();
+
+    // Nothing where the driver cannot tell (DeviceInfo::calibrated).
+    std::optional<ClockPair> readClocks() const;
 
     // Records with `record`, submits and waits: for loading and tests.
     void runOnce(const std::function<void(VkCommandBuffer)>& record);

@@ -1,5 +1,6 @@
 #include "engine/gpu/device_choice.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -89,6 +90,26 @@ void listFeatures(VkPhysicalDevice physical, DeviceInfo& info) {
         (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
 }
 
+bool hasExtension(VkPhysicalDevice physical, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::ranges::any_of(
+        extensions, [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+// Whether its timestamps can be put on the clock of the host's spans; done without where not.
+bool sharesClock(VkPhysicalDevice physical) {
+    if (!hasExtension(physical, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
+    uint32_t count = 0;
+    vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, nullptr);
+    std::vector<VkTimeDomainEXT> domains(count);
+    vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, domains.data());
+    return std::ranges::count(domains, VK_TIME_DOMAIN_DEVICE_EXT) > 0 &&
+           std::ranges::count(domains, VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT) > 0;
+}
+
 int score(VkPhysicalDevice physical, const DeviceInfo& info, const std::string& preferredName) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical, &properties);
@@ -125,7 +146,11 @@ Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface,
             best = std::move(choice);
         }
     }
-    if (bestScore > 0) return best;
+    if (bestScore > 0) {
+        best.info.calibrated = sharesClock(best.physical);
+        if (best.info.calibrated) best.info.enabled.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+        return best;
+    }
     if (devices.empty())
         return Error{"no Vulkan device found (on Debian, mesa-vulkan-drivers brings a software device)"};
     return Error{"no usable Vulkan 1.3 device:" + lacks};
@@ -140,13 +165,15 @@ Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain) {
                                         .queueFamilyIndex = choice.queueFamily,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
-    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    std::vector<const char*> extensions;
+    if (withSwapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (choice.info.calibrated) extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.core,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
-                                  .enabledExtensionCount = withSwapchain ? 1u : 0u,
-                                  .ppEnabledExtensionNames = &swapchain};
+                                  .enabledExtensionCount = uint32_t(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data()};
     VkDevice device = VK_NULL_HANDLE;
     const VkResult result = vkCreateDevice(choice.physical, &info, nullptr, &device);
     if (result != VK_SUCCESS)

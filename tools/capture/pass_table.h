@@ -1,0 +1,45 @@
+// What each pass cost over a capture's frames: passes.csv.
+#pragma once
+
+#include "engine/core/result.h"
+#include "tools/capture/capture.h"
+
+namespace ag::capture {
+
+// Of times in ms; all 0 where there are none.
+struct Spread {
+    uint32_t count = 0;
+    double p25 = 0, median = 0, p75 = 0, p99 = 0;
+};
+Spread spreadOf(std::vector<double> values);
+
+struct PassRow {
+    std::string name;
+    Spread ms;      // of the frames in which it ran
+    Spread forced;  // of the warm-up, which runs it whether it needs to or not; the first frame is left out
+    uint32_t ran = 0, skipped = 0, dropped = 0;  // frames
+    std::string outcome, reason;                 // in the last frame
+    uint64_t work = 0;
+    std::string unit;
+    uint64_t resourceBytes = 0;
+    std::string reads, writes;  // names with semicolons between
+
+    double skippedShare() const {
+        const uint32_t frames = ran + skipped + dropped;
+        return frames ? double(skipped) / frames : 0;
+    }
+};
+
+// In the order of the frame; every pass that any frame declared has a row.
+std::vector<PassRow> makeTable(const Capture& capture);
+std::string tableCsv(const std::vector<PassRow>& rows);
+Result<std::vector<PassRow>> readTable(const std::string& path);
+
+// Without the row of quotes that CSV also knows: cells hold neither commas nor line ends.
+struct CsvFile {
+    std::vector<std::string> header;
+    std::vector<std::vector<std::string>> rows;  // as long as the header
+};
+Result<CsvFile> readCsv(const std::string& path);
+
+}  // namespace ag::capture
