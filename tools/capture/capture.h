@@ -40,13 +40,21 @@ struct Picture {
     Image pixels;
 };
 
+// What pictures need to be shown as the frame itself was.
+struct Look {
+    float cameraNear = 0.1f;  // m; gives depths their distances
+    float exposure = 0;       // stops
+    uint32_t tonemap = 0;     // gi::Tonemap
+};
+
 struct Capture {
     std::string scene, device, driver, settings, clock;  // clock: how both sides' times were brought together
     glm::uvec2 size{0};
-    float cameraNear = 0.1f;  // m; gives depths their distances
+    Look look;
     std::vector<Frame> frames;
     std::vector<ResourceDescription> resources;  // of the last frame; its passes' reads and writes point here
     std::vector<Picture> pictures;
+    std::string frameDot, scheduleDot;                       // for Graphviz
     std::vector<std::string> systems;                        // of the schedule, in order
     std::vector<std::pair<uint32_t, uint32_t>> systemEdges;  // before, after
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "common/tonemap.h"
 #include "engine/core/hash.h"
 
 namespace ag::capture {
@@ -129,6 +130,7 @@ Image mapped(const Image& image, F&& color) {
 
 Shown howShown(const Picture& picture) {
     const std::string& name = picture.name;
+    if (name == "reference") return Shown::kRadiance;
     if (name == "gbuffer.depth" || name == "view.ism") return Shown::kDistance;
     if (picture.format == "d32f" || picture.format == "r32f") return Shown::kScalar;
     if (endsWith(name, ".normal") || endsWith(name, ".surface")) return Shown::kDirection;
@@ -139,11 +141,15 @@ Shown howShown(const Picture& picture) {
     return drawn || picture.format == "rgba8" ? Shown::kDisplay : Shown::kLight;
 }
 
-Image displayOf(const Picture& picture, float cameraNear) {
+Image displayOf(const Picture& picture, const Look& look) {
     const Image& image = picture.pixels;
     switch (howShown(picture)) {
         case Shown::kDisplay:
             return mapped(image, [](glm::vec3 p) { return p; });
+        case Shown::kRadiance:
+            return mapped(image, [&](glm::vec3 p) {
+                return io::applyTonemap(p, std::exp2(look.exposure), look.tonemap);
+            });
         case Shown::kLight:
             return enlarged(lightDisplay(image));
         case Shown::kReflectance:
@@ -161,9 +167,9 @@ Image displayOf(const Picture& picture, float cameraNear) {
         }
         case Shown::kDistance: {
             std::vector<float> values = firstChannel(image);
-            // Reversed depth: near over distance.
+            // Reversed depth: near over distance. A texel of a map of distances that sees nothing holds 1000.
             for (float& v : values)
-                if (picture.name == "gbuffer.depth") v = v > 0 ? cameraNear / v : 0;
+                v = picture.name == "gbuffer.depth" ? (v > 0 ? look.cameraNear / v : 0) : (v >= 999 ? 0 : v);
             return scalarDisplay(image, values, 0, "m");
         }
     }

@@ -6,12 +6,12 @@
 
 namespace ag::capture {
 
-enum class Shown { kDisplay, kLight, kReflectance, kDirection, kMotion, kDistance, kScalar };
+enum class Shown { kDisplay, kRadiance, kLight, kReflectance, kDirection, kMotion, kDistance, kScalar };
 
 Shown howShown(const Picture& picture);
 // Values in [0, 1] for a PNG. Small pictures are enlarged by a whole factor; false colour gets a strip below
 // with the least and the greatest value shown (the 1st and 99th percentile, in m for depths of the camera).
-Image displayOf(const Picture& picture, float cameraNear);
+Image displayOf(const Picture& picture, const Look& look);
 // No larger than `most` along a side, by leaving pixels out: for the report.
 Image shrunk(const Image& image, int most);
 

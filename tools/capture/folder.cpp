@@ -51,12 +51,12 @@ Status said(const Status& status, const std::string& waiting, const std::string&
 }  // namespace
 
 Status Folder::writeText(const std::string& name, std::string_view text) {
-    names_.push_back(name);
+    names_.insert(name);
     return said(writeFileSafely(waiting_ + "/" + name, text), waiting_, path_);
 }
 
 Status Folder::writeImage(const std::string& name, const Image& image) {
-    names_.push_back(name);
+    names_.insert(name);
     return said(saveImage(image, waiting_ + "/" + name), waiting_, path_);
 }
 

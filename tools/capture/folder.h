@@ -2,9 +2,9 @@
 // leaves the folder as it was.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "engine/core/image.h"
 
@@ -27,7 +27,7 @@ class Folder {
     Folder() = default;
     std::string path_, waiting_;
     bool made_ = false;  // the folder was not there before
-    std::vector<std::string> names_;
+    std::set<std::string> names_;
 };
 
 }  // namespace ag::capture

@@ -89,6 +89,7 @@ void recordFrames(gi::GiRenderer& renderer, NextScene next, const RecordSettings
         noteCounters(renderer, declared, frame);
         capture.frames.push_back(std::move(frame));
     }
+    capture.frameDot = renderer.graph().graphviz();
     renderer.waitIdle();
     const auto end = device.readClocks();
     const ClockMap clocks = start && end ? ClockMap{*start, *end}

@@ -81,7 +81,9 @@ void recordPictures(gi::GiRenderer& renderer, const RenderScene& scene, const Re
                     [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& f) {
                         graph.output(f.outputs.display);
                     });
-    capture.cameraNear = scene.camera.near;
+    capture.look = {.cameraNear = scene.camera.near,
+                    .exposure = settings.gi.composite.exposure,
+                    .tonemap = uint32_t(settings.gi.composite.tonemap)};
     const FrameDescription frame = renderer.graph().describe();
     for (uint32_t i = 0; i < frame.resources.size(); ++i) {
         const ResourceDescription& r = frame.resources[i];

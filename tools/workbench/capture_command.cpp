@@ -4,11 +4,15 @@
 #include <iostream>
 
 #include "engine/core/settings.h"
+#include "tools/capture/diff.h"
 #include "tools/capture/display.h"
 #include "tools/capture/folder.h"
-#include "tools/capture/pass_table.h"
+#include "tools/capture/graph_picture.h"
 #include "tools/capture/record.h"
+#include "tools/capture/report.h"
 #include "tools/capture/trace.h"
+#include "tools/capture/world_source.h"
+#include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/scene_options.h"
 
@@ -24,6 +28,11 @@ struct CaptureOptions {
     std::string walk;    // DX,DY,DZ
     std::string repeat;  // PASS=N
     bool exr = false, validate = false;
+    bool schedule = false;
+    bool reference = false;
+    uint32_t referenceSpp = 64;
+    std::vector<std::string> diff;  // two folders
+    capture::DiffSettings diffSettings;
 };
 
 // Status of everything the options say beyond the scene.
@@ -64,22 +73,66 @@ std::string settingsText(const CaptureOptions& o) {
                        fmt::join(o.assignments, ", "), o.walk.empty() ? "" : ", walking " + o.walk);
 }
 
-Status writePictures(capture::Folder& folder, const capture::Capture& seen, bool exr) {
+constexpr int kReportPixels = 1024;  // along a picture's side in the report; its file has all
+
+Result<std::vector<capture::ReportPicture>> writePictures(capture::Folder& folder,
+                                                          const capture::Capture& seen, bool exr) {
+    std::vector<capture::ReportPicture> written;
     for (const capture::Picture& picture : seen.pictures) {
-        const Image shown = capture::displayOf(picture, seen.cameraNear);
-        if (const Status s = folder.writeImage(picture.name + ".png", shown); !s) return s;
+        const Image shown = capture::displayOf(picture, seen.look);
+        const std::string name = picture.name + ".png";
+        // First as the report has it, then over that as a file of its own.
+        if (const Status s = folder.writeImage(name, capture::shrunk(shown, kReportPixels)); !s)
+            return s.error();
+        auto png = folder.readBack(name);
+        if (!png) return png.error();
+        written.push_back({picture.name, picture.pass, std::move(*png)});
+        if (const Status s = folder.writeImage(name, shown); !s) return s.error();
         if (!exr) continue;
-        if (const Status s = folder.writeImage(picture.name + ".exr", picture.pixels); !s) return s;
+        if (const Status s = folder.writeImage(picture.name + ".exr", picture.pixels); !s) return s.error();
     }
-    return folder.writeText("pictures.csv", capture::picturesCsv(seen.pictures));
+    if (const Status s = folder.writeText("pictures.csv", capture::picturesCsv(seen.pictures)); !s)
+        return s.error();
+    return written;
 }
 
 Status writeCapture(capture::Folder& folder, const capture::Capture& seen,
                     const std::vector<capture::PassRow>& table, bool exr) {
-    if (const Status s = folder.writeText("passes.csv", capture::tableCsv(table)); !s) return s;
-    if (const Status s = folder.writeText("trace.json", capture::traceJson(seen)); !s) return s;
-    if (const Status s = writePictures(folder, seen, exr); !s) return s;
+    const auto pictures = writePictures(folder, seen, exr);
+    if (!pictures) return pictures.error();
+    std::vector<std::pair<std::string, std::string>> files = {
+        {"passes.csv", capture::tableCsv(table)},
+        {"trace.json", capture::traceJson(seen)},
+        {"frame_graph.dot", seen.frameDot},
+        {"frame_graph.svg", capture::frameGraphSvg(seen)},
+        {"report.html", capture::reportHtml(seen, table, *pictures)}};
+    if (!seen.systems.empty()) {
+        files.push_back({"schedule.dot", seen.scheduleDot});
+        files.push_back({"schedule.svg", capture::scheduleSvg(seen)});
+    }
+    for (const auto& [name, text] : files)
+        if (const Status s = folder.writeText(name, text); !s) return s;
     return folder.commit();
+}
+
+// What the frame would look like without any error, by path tracing with one bounce.
+void addReference(const CaptureOptions& o, const RenderScene& scene, capture::Capture& seen) {
+    reference::ReferenceSettings settings;
+    settings.samplesPerPixel = o.referenceSpp;
+    JobRunner runner;
+    const reference::RayScene rays(scene);
+    reference::Reference truth = reference::makeReference(rays, seen.size, settings, runner, [](double) {});
+    seen.pictures.push_back({.name = "reference", .format = "rgb32f", .pixels = std::move(truth.radiance)});
+}
+
+int runDiff(const CaptureOptions& o) {
+    const auto a = capture::readCapture(o.diff[0]);
+    if (!a) return refuse(a.error().message);
+    const auto b = capture::readCapture(o.diff[1]);
+    if (!b) return refuse(b.error().message);
+    const capture::Diff diff = capture::compareCaptures(*a, *b, o.diffSettings);
+    std::cout << capture::diffText(diff);
+    return diff.slower.empty() && diff.changed.empty() ? 0 : 1;
 }
 
 // The five that cost most, by what they take when they run.
@@ -94,19 +147,49 @@ void printSummary(const CaptureOptions& o, const capture::Capture& seen,
                                  cost(table[i]), 100 * table[i].skippedShare());
 }
 
+// Frames, pictures, graphs of the scene as it is or as entities.
+void captureScene(const CaptureOptions& o, LoadedScene& loaded, gi::GiRenderer& renderer, glm::vec3 walk,
+                  const capture::RecordSettings& settings, capture::Capture& seen) {
+    if (o.schedule) {
+        capture::WorldSource source(*loaded.asset, loaded.scene, loaded.size, walk);
+        const RenderScene* last = nullptr;
+        const auto next = [&](std::vector<capture::Span>& systems) -> const RenderScene& {
+            return *(last = &source.next(systems));
+        };
+        capture::recordFrames(renderer, next, settings, seen);
+        source.describe(seen);
+        capture::recordPictures(renderer, *last, settings, seen);
+        if (o.reference) addReference(o, *last, seen);
+        return;
+    }
+    const auto next = [&](std::vector<capture::Span>&) -> const RenderScene& {
+        if (walk != glm::vec3(0)) moveCamera(loaded.scene, walk);
+        return loaded.scene;
+    };
+    capture::recordFrames(renderer, next, settings, seen);
+    capture::recordPictures(renderer, loaded.scene, settings, seen);
+    if (o.reference) addReference(o, loaded.scene, seen);
+}
+
 int runCapture(const CaptureOptions& o) {
+    if (!o.diff.empty()) return runDiff(o);
+    if (o.scene.scene.empty()) return refuse("capture needs a SCENE");
     if (o.output.empty()) return refuse("capture needs -o DIR");
     capture::RecordSettings settings;
     std::string repeatPass;
     if (const Status read = readSettings(o, settings, repeatPass); !read) return refuse(read.error().message);
     const auto walk = parseStep(o.walk);
     if (!walk) return refuse(walk.error().message);
+    const SceneOptions& s = o.scene;
+    if (o.schedule &&
+        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.lamps || s.noSceneLights))
+        return refuse("--schedule takes the lights of the scene's file: leave the light options out");
     auto loaded = loadScene(o.scene);
     if (!loaded) return refuse(loaded.error().message);
-    auto device = gpu::Device::create({.validation = o.validate});
-    if (!device) return refuse(device.error().message);
     auto folder = capture::Folder::open(o.output);
     if (!folder) return refuse(folder.error().message);
+    auto device = gpu::Device::create({.validation = o.validate});
+    if (!device) return refuse(device.error().message);
 
     gi::GiRenderer renderer(**device);
     renderer.load(loaded->asset->geometry);
@@ -116,12 +199,7 @@ int runCapture(const CaptureOptions& o) {
                           .driver = (*device)->info().driver,
                           .settings = settingsText(o),
                           .size = loaded->size};
-    const auto next = [&](std::vector<capture::Span>&) -> const RenderScene& {
-        if (*walk != glm::vec3(0)) moveCamera(loaded->scene, *walk);
-        return loaded->scene;
-    };
-    capture::recordFrames(renderer, next, settings, seen);
-    capture::recordPictures(renderer, loaded->scene, settings, seen);
+    captureScene(o, *loaded, renderer, *walk, settings, seen);
     const std::vector<capture::PassRow> table = capture::makeTable(seen);
     if (!repeatPass.empty() && std::ranges::count(table, repeatPass, &capture::PassRow::name) == 0)
         return refuse(fmt::format("no pass of the frame is named '{}'", repeatPass));
@@ -138,6 +216,7 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
     CLI::App* command = program.add_subcommand(
         "capture", "where a frame's time goes: a trace, a table of passes, every intermediate");
     addSceneOptions(*command, o->scene);
+    command->get_option("scene")->required(false);
     command->add_option("-o,--output", o->output, "DIR to write into; made if need be");
     command->add_option("--frames", o->frames, "frames to measure")
         ->check(CLI::Range(1u, 10000u))
@@ -153,6 +232,22 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
     command->add_option("--walk", o->walk, "DX,DY,DZ, m the camera moves in each frame");
     command->add_option("--repeat", o->repeat,
                         "PASS=N: do a pass's work N times over, to see what making it slower does");
+    command->add_flag("--schedule", o->schedule,
+                      "the scene as entities: a schedule moves the camera and extracts each frame");
+    command->add_flag("--reference", o->reference, "the frame by path tracing, too, to compare with");
+    command->add_option("--reference-spp", o->referenceSpp, "its paths a pixel")
+        ->check(CLI::Range(2u, 1000000u))
+        ->capture_default_str();
+    command
+        ->add_option("--diff", o->diff,
+                     "A B: compare two captures; exits with 1 if a pass got slower or "
+                     "changed its picture")
+        ->expected(2);
+    command
+        ->add_option("--diff-ratio", o->diffSettings.leastRatio,
+                     "how many times slower than the other passes counts")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
     command->add_flag("--exr", o->exr, "every intermediate as EXR, too");
     command->add_flag("--validate", o->validate, "with Vulkan validation; any message exits with 1");
     command->callback([o, &exitCode] { exitCode = runCapture(*o); });
