@@ -20,7 +20,7 @@ Result<Saved> readCapture(const std::string& folder);
 
 struct DiffSettings {
     double leastRatio = 1.5;  // of a pass's times, beyond what all passes together changed
-    double leastMs = 0.1;      // and what that must come to
+    double leastMs = 0.1;     // and what that must come to
 };
 
 struct TimeChange {
