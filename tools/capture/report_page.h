@@ -11,7 +11,8 @@ table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nu
 th { position: sticky; top: 0; background: #eef2f6; cursor: pointer; white-space: nowrap; user-select: none }
 th, td { padding: 3px 8px; text-align: right; border-bottom: 1px solid #e7ebef; vertical-align: top }
 th:first-child, td:first-child, td.words { text-align: left }
-td.words { font-size: 12px; color: #5a6b7d; max-width: 280px; overflow-wrap: anywhere }
+td.words { font-size: 12px; color: #5a6b7d; max-width: 230px; overflow: hidden; text-overflow: ellipsis;
+  white-space: nowrap }
 th[data-way="up"]::after { content: " \25b2" } th[data-way="down"]::after { content: " \25bc" }
 #strip { display: flex; align-items: flex-end; height: 90px; gap: 1px; border-bottom: 1px solid #aab4bf }
 #strip div { flex: 1; background: #7ba7d0; min-height: 1px; cursor: pointer }
@@ -20,7 +21,7 @@ th[data-way="up"]::after { content: " \25b2" } th[data-way="down"]::after { cont
 #gantt div.bars { position: relative; flex: 1; background: #f4f6f8; border-bottom: 1px solid #fff }
 #gantt i { position: absolute; top: 1px; bottom: 1px; background: #3c7fb8; min-width: 1px } #gantt i.cpu { background: #d9a12b }
 #gantt i.system { background: #5aa86b } #gantt .left-out { color: #98a3af }
-#slider { position: relative; display: inline-block; max-width: 100%; margin-top: 8px; background: #000 }
+#slider { position: relative; display: inline-block; width: 100%; max-width: 960px; margin-top: 8px; background: #000 }
 #slider img { display: block; width: 100%; image-rendering: pixelated }
 #slider img.over { position: absolute; inset: 0; height: 100% }
 #slider b { position: absolute; top: 0; bottom: 0; width: 2px; background: #fff }
@@ -57,8 +58,11 @@ function fill(rows) {
   body.replaceChildren();
   for (const row of rows) {
     const tr = make('tr', body);
-    row.forEach((v, i) => make('td', tr, columns[i].words ? v : v.toLocaleString('en', { maximumFractionDigits: 3 }),
-                               columns[i].words && i ? 'words' : ''));
+    row.forEach((v, i) => {
+      const words = columns[i].words;
+      const td = make('td', tr, words ? v : v.toLocaleString('en', { maximumFractionDigits: 3 }), words && i ? 'words' : '');
+      if (words && i) td.title = v;
+    });
   }
 }
 fill(capture.rows);
