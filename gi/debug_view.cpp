@@ -7,7 +7,7 @@ namespace ag::gi {
 namespace {
 
 enum class Show : uint32_t { kLight, kReflectance, kDirection, kDistance, kDisplay };
-enum class Copy : uint32_t { kColor, kSum, kDepth };
+enum class Copy : uint32_t { kColor, kSum, kDepth, kDifference };
 
 struct LayerInfo {
     std::string_view name;
@@ -19,6 +19,7 @@ constexpr std::array<LayerInfo, size_t(Layer::kCount)> kLayers = {{{"final", Sho
                                                                    {"direct", Show::kLight},
                                                                    {"indirect", Show::kLight},
                                                                    {"bounce1", Show::kLight},
+                                                                   {"bounce2", Show::kLight},
                                                                    {"irradiance", Show::kLight},
                                                                    {"albedo", Show::kReflectance},
                                                                    {"normal", Show::kDirection},
@@ -135,7 +136,7 @@ std::optional<Layer> layerFromName(std::string_view name) {
 
 ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f, Layer layer) {
     const bool lit = !f.rsm.empty();
-    const ImageHandle direct = f.direct.image, bounce = f.bounce1.image;
+    const ImageHandle direct = f.direct.image, bounce = f.indirect.image;
     switch (layer) {
         case Layer::kFinal:
             return addCopy(graph, scene, f.outputs.display, {}, Copy::kColor);
@@ -144,8 +145,13 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
         case Layer::kDirect:
             return addCopy(graph, scene, direct, {}, Copy::kColor);
         case Layer::kIndirect:
-        case Layer::kBounce1:
             return addCopy(graph, scene, bounce, {}, Copy::kColor);
+        case Layer::kBounce1:
+            return addCopy(graph, scene, f.bounce1.image, {}, Copy::kColor);
+        case Layer::kBounce2:
+            return f.laterLight.texels
+                       ? addCopy(graph, scene, f.indirect.image, f.bounce1.image, Copy::kDifference)
+                       : ImageHandle{};
         case Layer::kIrradiance:
             return addCopy(graph, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
                            direct && bounce ? Copy::kSum : Copy::kColor);

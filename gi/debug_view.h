@@ -15,6 +15,7 @@ enum class Layer : uint32_t {
     kDirect,      // irradiance straight from lights, W/m²
     kIndirect,    // irradiance of all bounces, W/m²
     kBounce1,     // irradiance of the first bounce, W/m²
+    kBounce2,     // of all after the first (of the second alone with later_bounces.feedback=off), W/m²
     kIrradiance,  // direct and indirect, W/m²
     kAlbedo,
     kNormal,

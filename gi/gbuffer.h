@@ -12,7 +12,7 @@ struct GBuffer {
     ImageHandle albedo;    // rgba16f: diffuse albedo; metallic
     ImageHandle emissive;  // rgba16f, W/(m² sr); invalid when no material emits
     ImageHandle motion;    // rgba16f: m to where the surface was a frame ago; invalid when nothing moved
-    const ViewDraws* draws = nullptr;
+    const ViewDraws* draws = nullptr;  // what the camera draws, for addMotion
     glm::uvec2 size{0};
 };
 

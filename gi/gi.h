@@ -17,6 +17,7 @@ namespace ag::gi {
 struct GiHistory {
     ValClusteringHistory valClustering;
     Settling stochasticRsm;
+    Settling laterBounces;
     DenoiserHistory denoiser;
     LightClusterHistory lightClusters;
     LampShadowHistory lampShadows;
@@ -29,6 +30,7 @@ struct GiHistory {
 struct GiFrame {
     GBuffer gbuffer;
     BufferHandle viewPoints;
+    LaterLight laterLight;
     RsmSet rsm;
     Importance importance;
     Clusters clusters;
@@ -39,6 +41,7 @@ struct GiFrame {
     LampShadows lampShadows;
     LampLists lampLists;
     Irradiance direct, bounce1;
+    Irradiance indirect;  // of all bounces
     GiOutputs outputs;
 };
 

@@ -13,7 +13,9 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.viewPoints = addViewPoints(graph, scene, f.gbuffer);
 
     // First bounce: where light lands, as few lights
-    f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count);
+    if (s.firstBounce == FirstBounce::kAreaLights)
+        f.laterLight = addLaterLight(graph, scene, s.laterBounces, h.laterBounces);  // of the frame before
+    f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count, f.laterLight);
     f.importance = addImportance(graph, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
                                   h.valClustering);
@@ -27,17 +29,28 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
 
     // Gather on screen
     if (s.firstBounce == FirstBounce::kAreaLights || s.firstBounce == FirstBounce::kPointLights)
-        f.bounce1 = addValShading(graph, scene, f.gbuffer, f.vals, f.isms, s.valShading);
+        f.bounce1 = addValShading(graph, scene, f.gbuffer, firstVals(f.vals, f.rsm.firstLater()), f.isms,
+                                  s.valShading);
     else if (s.firstBounce == FirstBounce::kTexels)
         f.bounce1 = addTexelShading(graph, scene, f.gbuffer, f.rsm);
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
         f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, {f.clusters, f.vals, f.isms},
                                      s.stochasticRsm, h.stochasticRsm);
-    const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step;
-    if (s.denoiser.enabled && s.denoiser.motion && f.bounce1.image)
+
+    // Light that goes on
+    f.indirect = f.bounce1;
+    if (f.laterLight.texels) {
+        addLaterIrradiance(graph, f.laterLight, f.vals, f.rsm.firstLater(), f.isms, s.laterBounces);
+        f.indirect = addValShading(graph, scene, f.gbuffer, f.vals, f.isms, s.valShading, kAllBouncesShading);
+    }
+
+    // Steady and smooth
+    if (s.denoiser.enabled && s.denoiser.motion && f.indirect.image)
         f.gbuffer.motion = addMotion(graph, scene, f.gbuffer);
+    const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, scene.scene->instancesVersion);
-    f.bounce1 = addDenoiser(graph, scene, f.gbuffer, {f.bounce1, light, steps}, s.denoiser, h.denoiser);
+    f.indirect = addDenoiser(graph, scene, f.gbuffer, {f.indirect, light, steps}, s.denoiser, h.denoiser);
+    if (!f.laterLight.texels) f.bounce1 = f.indirect;  // all there is
 
     // Direct light
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);
@@ -53,7 +66,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     addProbes(graph, scene, f.rsm, f.vals, f.isms, s.probes, h.probes);
 
     // To the eye
-    f.outputs = addComposite(graph, f.gbuffer, f.direct, f.bounce1, s.composite);
+    f.outputs = addComposite(graph, f.gbuffer, f.direct, f.indirect, s.composite);
     return f;
 }
 

@@ -228,6 +228,14 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"ism_atlas", "keep_maps", 0, 0, "", "do not splat again for lights that stand still"},
           &gi.ismAtlas.keepMaps);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
+    s.add({"later_bounces", "enabled", 0, 0, "", "light goes on after its first bounce"},
+          &gi.laterBounces.enabled);
+    s.add({"later_bounces", "feedback", 0, 0, "", "and after its second; off: no more than two"},
+          &gi.laterBounces.feedback);
+    s.add({"later_bounces", "share", 0.05, 0.8, "", "of all clusters"}, &gi.laterBounces.share);
+    s.add({"later_bounces", "settle_frames", 1, 1000000, "frames",
+           "light goes on bouncing after anything last changed"},
+          &gi.laterBounces.settleFrames);
     s.add({"val_shading", "taps", 1, 64, "taps", "of near lights' soft shadows; 1: hard ones"},
           &gi.valShading.taps);
     s.add({"val_shading", "far_taps", 1, 64, "taps", "of far lights' soft shadows; 1: hard ones"},

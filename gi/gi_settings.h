@@ -10,6 +10,7 @@
 #include "gi/importance.h"
 #include "gi/ism_atlas.h"
 #include "gi/lamp_lighting.h"
+#include "gi/later_bounces.h"
 #include "gi/probes.h"
 #include "gi/rsm.h"
 #include "gi/shadow_maps.h"
@@ -38,6 +39,7 @@ struct GiSettings {
     ImportanceSettings importance;
     ValClusteringSettings valClustering;
     IsmAtlasSettings ismAtlas;
+    LaterBouncesSettings laterBounces;
     ValShadingSettings valShading;
     StochasticRsmSettings stochasticRsm;
     DenoiserSettings denoiser;

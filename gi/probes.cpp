@@ -74,7 +74,7 @@ void addProbes(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, con
         .spec(1, isms.planes ? settings.taps : 0)
         .spec(3, isms.mapping == IsmMapping::kParaboloid)
         .push(io::ProbePush{
-            .valCount = vals.count, .faceCount = rsm.atlas.faceCount, .ismTileSize = isms.tileSize})
+            .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
     known.set(graph.readBack(kProbeCopies, rows));
 }

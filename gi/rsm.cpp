@@ -22,7 +22,7 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
     pass.colorClear(rsm.normal, glm::vec4(0)).colorClear(rsm.albedo, glm::vec4(0)).depthClear(rsm.depth);
     pass.geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
-    for (uint32_t f = 0; f < rsm.atlas.faceCount; ++f) {
+    for (uint32_t f = 0; f < rsm.lightFaceCount; ++f) {
         const io::RsmFace& face = rsm.faceInfo[f];
         const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), face.clipFromWorld);
         rsm.inputsVersion = combineHash(rsm.inputsVersion, draws.version);
@@ -33,12 +33,14 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
 
 }  // namespace
 
-RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings,
-              uint32_t clusterBudget) {
+RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
+              const LaterLight& later) {
     RsmSet rsm;
-    const RsmLayout layout = layoutRsm(*scene.scene, settings, clusterBudget);
+    const RsmLayout layout = layoutRsm(*scene.scene, settings, clusterBudget, later.side, later.share);
     if (layout.mapCount == 0 || scene.scene->instances.empty()) return rsm;
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
+    rsm.lightMapCount = layout.mapCount - (later.side > 0);
+    rsm.lightFaceCount = layout.faceCount - (later.side > 0);
     rsm.mapInfo = layout.maps;
     rsm.faceInfo = layout.faces;
     rsm.largestFace = layout.largestFace;
@@ -77,6 +79,7 @@ RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& sett
         .read("tileMaps", rsm.tileMaps)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
+        .read("later", later.texels ? later.texels : whole)
         .write("trimmed", rsm.texels)
         .push(rsm.atlas)
         .dispatchGroups(rsm.tileCount);

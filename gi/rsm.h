@@ -6,6 +6,7 @@
 
 #include <array>
 
+#include "gi/later_bounces.h"
 #include "gi/scene_gpu.h"
 #include "shaders/rsm/rsm_io.h"
 
@@ -27,12 +28,19 @@ struct RsmSet {
     uint32_t tileCount = 0;
     uint32_t largestFace = 0;    // texels
     uint64_t inputsVersion = 0;  // changes when the texels do
-    std::array<io::RsmMap, io::kMaxBounceLights> mapInfo{};
+    std::array<io::RsmMap, io::kMaxRsmMaps> mapInfo{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faceInfo{};
+    uint32_t lightMapCount = 0, lightFaceCount = 0;  // the first ones; one of surfaces may follow
+    // Of the clusters, the first that is of surfaces.
+    uint32_t firstLater() const {
+        return lightMapCount < atlas.mapCount ? mapInfo[lightMapCount].firstCluster : ~0u;
+    }
     bool empty() const { return atlas.mapCount == 0; }
 };
 
-// `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each.
-RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget);
+// `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each. `later`: one more
+// map.
+RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
+              const LaterLight& later);
 
 }  // namespace ag::gi

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gi/light_views.h"
+#include "shaders/val_clustering/val_clustering_io.h"
 
 namespace ag::gi {
 namespace {
@@ -82,10 +83,34 @@ void shareClusters(RsmLayout& layout, std::span<const float> flux, uint32_t budg
         map.clusterCount =
             layout.mapCount == 1 ? budget : std::clamp(rounded, std::min(kMinClustersPerMap, most), most);
         next += map.clusterCount;
+        if (map.kind == io::kMapOfSurfaces) {  // neighbours in space may lie anywhere in it
+            map.clusterCount = std::min(map.clusterCount, io::kMaxCandidates);
+            map.candidateRadius = layout.faces[map.firstFace].size / io::kRsmTileSize;
+            continue;
+        }
         const float side = float(layout.faces[map.firstFace].size) * std::sqrt(float(map.faceCount));
         const float cell = side / std::sqrt(float(map.clusterCount));
         map.candidateRadius = std::max(1u, uint32_t(std::ceil(2.0f * cell / float(io::kRsmTileSize))));
     }
+}
+
+// Returns the weight that gives it its share.
+float addSurfaceMap(RsmLayout& layout, std::span<const float> flux, uint32_t side, float share) {
+    float total = 0;
+    for (const float f : flux.first(layout.mapCount))
+        total += f;
+    io::RsmMap& map = layout.maps[layout.mapCount];
+    map = {.kind = io::kMapOfSurfaces,
+           .direction = {0, -1, 0},
+           .intensity = glm::vec3(std::max(total, 1e-20f)),  // a texel's part of it is much
+           .tanHalf = 0.5f,
+           .firstFace = layout.faceCount,
+           .faceCount = 1,
+           .lightIdLow = ~0u};
+    layout.faces[layout.faceCount++] = {
+        .worldFromClip = glm::mat4(1), .clipFromWorld = glm::mat4(1), .size = side, .map = layout.mapCount};
+    layout.largestFace = std::max(layout.largestFace, side);
+    return total * share / std::max(1 - share, 0.01f);
 }
 
 }  // namespace
@@ -101,9 +126,10 @@ float emittedFlux(const RenderLight& light, const Bounds& sceneBounds) {
     return mean * 4 * half * half;
 }
 
-RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget) {
+RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget,
+                    uint32_t surfaceSide, float surfaceShare) {
     RsmLayout layout;
-    std::array<float, io::kMaxBounceLights> flux{};
+    std::array<float, io::kMaxRsmMaps> flux{};
     for (const RenderLight& light : scene.lights) {
         const bool dark = light.intensity == glm::vec3(0);
         if (!light.bounces || dark || layout.mapCount == io::kMaxBounceLights) continue;
@@ -123,6 +149,8 @@ RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint3
         flux[layout.mapCount++] = emittedFlux(light, scene.bounds) * light.budgetShare;
     }
     if (layout.mapCount == 0) return layout;
+    if (surfaceSide > 0) flux[layout.mapCount] = addSurfaceMap(layout, flux, surfaceSide, surfaceShare);
+    layout.mapCount += surfaceSide > 0;
     placeFaces(layout);
     shareClusters(layout, {flux.data(), layout.mapCount}, clusterBudget);
     return layout;

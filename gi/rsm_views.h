@@ -6,7 +6,7 @@
 namespace ag::gi {
 
 struct RsmLayout {
-    std::array<io::RsmMap, io::kMaxBounceLights> maps{};
+    std::array<io::RsmMap, io::kMaxRsmMaps> maps{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faces{};
     uint32_t mapCount = 0, faceCount = 0;
     glm::uvec2 atlasSize{0};
@@ -14,7 +14,9 @@ struct RsmLayout {
 };
 
 // At most kMaxBounceLights lights with a BounceLight; faces are powers of two and aligned to their size.
-RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget);
+// `surfaceSide`: texels along the map of surfaces, 0: none; it gets `surfaceShare` of the clusters.
+RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget,
+                    uint32_t surfaceSide = 0, float surfaceShare = 0);
 
 // Emitted flux of a light in W, for sharing budgets (mean of the channels; sun: onto the scene's bounds).
 float emittedFlux(const RenderLight& light, const Bounds& sceneBounds);

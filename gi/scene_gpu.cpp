@@ -5,6 +5,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/gpu/device.h"
+#include "gi/bounce_points.h"
 #include "gi/light_clusters.h"
 #include "gi/surface_sampling.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint32_t kSurfaceSamples = 1u << 17;  // over the whole scene
+constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounces on
 
 io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
     const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
@@ -176,12 +178,17 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
     stillSampleCount_ = chosen.stillCount;
     stillArea_ = chosen.stillArea;
     movableArea_ = chosen.movableArea;
-    if (samples_) {
-        std::shared_ptr<gpu::Buffer> retired = std::move(samples_);
+    for (auto* old : {&samples_, &bouncePoints_}) {
+        if (!*old) continue;
+        std::shared_ptr<gpu::Buffer> retired = std::move(*old);
         device_.retire([retired]() mutable { retired.reset(); });
     }
-    if (sampleCount_ > 0)
-        samples_ = loadBuffer(device_, "scene.surface_samples", chosen.samples, false, kVec4Texels);
+    bouncePointCount_ = 0;
+    if (sampleCount_ == 0) return;
+    samples_ = loadBuffer(device_, "scene.surface_samples", chosen.samples, false, kVec4Texels);
+    const auto points = chooseBouncePoints(scene, chosen, kBouncePoints);
+    bouncePointCount_ = uint32_t(points.size());
+    bouncePoints_ = loadBuffer(device_, "scene.bounce_points", points, false);
 }
 
 void SceneGpu::noteMovements(const RenderScene& scene) {
@@ -221,6 +228,8 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     if (sampleCount_ > 0) {
         view.surfaceSamples = graph.importBuffer("scene.surface_samples", *samples_, sampledSet_);
         view.surfaceSampleCount = sampleCount_;
+        view.bouncePoints = graph.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
+        view.bouncePointCount = bouncePointCount_;
         view.stillSampleCount = stillSampleCount_;
         view.stillArea = stillArea_;
         view.movableArea = movableArea_;
@@ -311,8 +320,9 @@ void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, uint32_t 
 
 uint64_t SceneGpu::deviceBytes() const {
     uint64_t bytes = 0;
-    for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(),
-                               instances_.get(), previousInstances_.get(), commands_.get(), samples_.get()})
+    for (const auto* buffer :
+         {positions_.get(), attributes_.get(), indices_.get(), materials_.get(), instances_.get(),
+          previousInstances_.get(), commands_.get(), samples_.get(), bouncePoints_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes;
 }

@@ -34,6 +34,8 @@ struct SceneView {
     uint32_t surfaceSampleCount = 0;       // 0: no surface
     uint32_t stillSampleCount = 0;         // the first ones are on what stands still
     float stillArea = 0, movableArea = 0;  // m²
+    BufferHandle bouncePoints;             // io::BouncePoint: some of the samples
+    uint32_t bouncePointCount = 0;         // a square of a power of two, or 0
     uint64_t stillVersion = 0;             // changes when an instance that is not movable may have moved
     mutable uint32_t viewsClaimed = 0;
     mutable bool readsPrevious = false;  // a pass does, so that previousInstances must be kept
@@ -84,7 +86,8 @@ class SceneGpu {
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
-    std::unique_ptr<gpu::Buffer> samples_;
+    std::unique_ptr<gpu::Buffer> samples_, bouncePoints_;
+    uint32_t bouncePointCount_ = 0;
     uint32_t sampleCount_ = 0;
     uint32_t stillSampleCount_ = 0;
     float stillArea_ = 0, movableArea_ = 0;

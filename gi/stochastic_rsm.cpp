@@ -142,18 +142,18 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
                     .settings = settings};
 
     if (!settings.interpolate) {
-        for (uint32_t m = 0; m < rsm.atlas.mapCount; ++m)
+        for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
             addGather(graph, kGatherNames[m], in, m, result.image, 1, false, m > 0)
                 .dispatchThreads(gbuffer.size.x * gbuffer.size.y);
         return result;
     }
     const glm::uvec2 coarseSize = (gbuffer.size + kCoarseStep - 1u) / kCoarseStep;
     const ImageHandle coarse = graph.image("stochastic_rsm.coarse", {.format = format, .size = coarseSize});
-    for (uint32_t m = 0; m < rsm.atlas.mapCount; ++m)
+    for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
         addGather(graph, kGatherNames[m], in, m, coarse, kCoarseStep, false, m > 0)
             .dispatchThreads(coarseSize.x * coarseSize.y);
     const BufferHandle groups = addInterpolation(graph, in, coarse, result.image);
-    for (uint32_t m = 0; m < rsm.atlas.mapCount; ++m)
+    for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
         addGather(graph, kListedNames[m], in, m, result.image, 1, true, true).dispatchIndirect(groups);
     return result;
 }

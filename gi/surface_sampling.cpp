@@ -159,18 +159,21 @@ glm::vec3 barycentrics(const std::array<glm::vec3, 3>& c, glm::vec3 p) {
     return {u, v, 1 - u - v};
 }
 
-// Whether an alpha-masked surface is cut out at a point of a triangle.
-bool cutOut(const GeometryArrays& g, const Primitive& p, uint32_t triangle, glm::vec3 weights) {
+glm::vec2 uvOn(const GeometryArrays& g, const Primitive& p, uint32_t triangle, glm::vec3 weights) {
+    glm::vec2 uv(0);
+    for (uint32_t i = 0; i < 3; ++i)
+        uv += weights[int(i)] *
+              g.attributes[size_t(int64_t(p.vertexOffset) + g.indices[p.firstIndex + 3 * triangle + i])].uv;
+    return uv;
+}
+
+// Whether an alpha-masked surface is cut out at a place of its texture.
+bool cutOut(const GeometryArrays& g, const Primitive& p, glm::vec2 vertexUv) {
     const Material& m = g.materials[p.material];
     if (m.alphaMode != AlphaMode::kMask) return false;
     float alpha = m.baseColor.w;
     if (m.baseColorLayer >= 0) {
-        glm::vec2 uv(0);
-        for (uint32_t i = 0; i < 3; ++i)
-            uv +=
-                weights[int(i)] *
-                g.attributes[size_t(int64_t(p.vertexOffset) + g.indices[p.firstIndex + 3 * triangle + i])].uv;
-        uv = m.uvTransform * glm::vec3(uv, 1);
+        const glm::vec2 uv = m.uvTransform * glm::vec3(vertexUv, 1);
         const uint32_t side = textureClassSize(m.textureClass);
         const glm::uvec2 texel(glm::fract(uv) * (float(side) - 0.5f));
         const auto& layer = g.textures[size_t(m.textureClass)].srgb[size_t(m.baseColorLayer)];
@@ -206,7 +209,7 @@ double areaOf(const std::vector<CurveTriangle>& curve) {
 
 // `count` points at equal steps of all triangles' area laid end to end.
 void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& curve, double area,
-                 uint32_t count, std::vector<io::SurfaceSample>& samples) {
+                 uint32_t count, SurfaceSamples& out) {
     std::unordered_map<uint32_t, std::vector<uint8_t>> sharp;  // by primitive
     const double step = area / count;
     double before = 0;
@@ -228,9 +231,11 @@ void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& cur
                                      .bendLocal = c.bend};
             noteEdges(c, sample);
             // Its place on the curve is kept, so that the others stay evenly spread.
-            if (cutOut(*scene.geometry, p, t.triangle, barycentrics(c.local, sample.positionLocal)))
-                sample.edgesLocal[0] = {glm::vec3(0), -1};
-            samples.push_back(sample);
+            const glm::vec2 uv =
+                uvOn(*scene.geometry, p, t.triangle, barycentrics(c.local, sample.positionLocal));
+            if (cutOut(*scene.geometry, p, uv)) sample.edgesLocal[0] = {glm::vec3(0), -1};
+            out.samples.push_back(sample);
+            out.uvs.push_back(uv);
         }
     }
 }
@@ -250,10 +255,10 @@ SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
         if (stillArea > 0) out.stillCount = std::max(out.stillCount, io::kSegmentPoints);
     }
     out.samples.reserve(count);
-    if (out.stillCount > 0) sampleCurve(scene, still, stillArea, out.stillCount, out.samples);
+    if (out.stillCount > 0) sampleCurve(scene, still, stillArea, out.stillCount, out);
     if (movableArea > 0)
         sampleCurve(scene, movable, movableArea,
-                    std::max(count, out.stillCount + io::kSegmentPoints) - out.stillCount, out.samples);
+                    std::max(count, out.stillCount + io::kSegmentPoints) - out.stillCount, out);
     return out;
 }
 

@@ -12,6 +12,7 @@ struct SurfaceSamples {
     // Along two curves: neighbours in the list are neighbours in space. First those of all that stands still,
     // whole segments of kSegmentPoints, then those of movable instances.
     std::vector<io::SurfaceSample> samples;
+    std::vector<glm::vec2> uvs;  // of the vertices, parallel to the samples
     uint32_t stillCount = 0;
     float stillArea = 0, movableArea = 0;  // m² of the sampled surfaces, one side
 };

@@ -1,5 +1,7 @@
 #include "gi/val_fit.h"
 
+#include <algorithm>
+
 namespace ag::gi {
 
 Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view shapes, uint32_t count) {
@@ -10,6 +12,11 @@ Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view sha
     v.shapes = graph.buffer(shapes, {.sizeBytes = v.count * sizeof(io::ValShapeVectors),
                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     return v;
+}
+
+Vals firstVals(Vals vals, uint32_t end) {
+    vals.count = std::min(vals.count, end);
+    return vals;
 }
 
 Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters) {

@@ -17,6 +17,9 @@ struct Vals {
 // Room for `count` lights and the padding.
 Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view shapes, uint32_t count);
 
+// The same without those from `end` on.
+Vals firstVals(Vals vals, uint32_t end);
+
 Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters);
 
 }  // namespace ag::gi

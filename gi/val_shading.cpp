@@ -23,8 +23,8 @@ struct Gather {
     uint32_t interleave;
 };
 
-void addClassification(const Gather& g) {
-    g.graph.compute("val_shading.classify", "val_shading/classify_lights.comp")
+void addClassification(const Gather& g, std::string_view name) {
+    g.graph.compute(name, "val_shading/classify_lights.comp")
         .sample("depthMap", g.gbuffer.depth)
         .read("camera", g.scene.camera)
         .read("vals", g.vals.vals)
@@ -58,33 +58,34 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
 }  // namespace
 
 Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
-                         const IsmAtlas& isms, const ValShadingSettings& settings) {
+                         const IsmAtlas& isms, const ValShadingSettings& settings,
+                         const ValShadingNames& names) {
     if (vals.count == 0) return {};
     const uint32_t n = std::clamp(settings.interleave, 1u, 4u), tileSize = tileSizeFor(n);
     const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
     const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
-    const Gather g{.graph = graph,
-                   .scene = scene,
-                   .gbuffer = gbuffer,
-                   .vals = vals,
-                   .isms = isms,
-                   .push = {.valCount = vals.count,
-                            .tileSize = tileSize,
-                            .tiles = tiles,
-                            .nearReach = settings.nearReach,
-                            .ismTileSize = isms.tileSize},
-                   .lists = graph.buffer("val_shading.lists",
-                                         {.sizeBytes = tileCount * io::kLightLists * io::kMaxVals * 4,
-                                          .texelFormat = VK_FORMAT_R32_UINT}),
-                   .counts = graph.buffer("val_shading.counts", {.sizeBytes = tileCount * 8}),
-                   .interleave = n};
+    const Gather g{
+        .graph = graph,
+        .scene = scene,
+        .gbuffer = gbuffer,
+        .vals = vals,
+        .isms = isms,
+        .push = {.valCount = vals.count,
+                 .tileSize = tileSize,
+                 .tiles = tiles,
+                 .nearReach = settings.nearReach,
+                 .ismTileSize = isms.tileSize},
+        .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * io::kMaxVals * 4,
+                                            .texelFormat = VK_FORMAT_R32_UINT}),
+        .counts = graph.buffer(names.counts, {.sizeBytes = tileCount * 8}),
+        .interleave = n};
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
-    const ImageHandle parts = graph.image("val_shading.parts", info);
-    const Irradiance result{graph.image("val_shading.irradiance", info)};
-    addClassification(g);
-    addGather(g, "val_shading.far", "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
+    const ImageHandle parts = graph.image(names.parts, info);
+    const Irradiance result{graph.image(names.irradiance, info)};
+    addClassification(g, names.classify);
+    addGather(g, names.far, "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
         .write("parts", parts);
-    addGather(g, "val_shading.near", "val_shading/gather_near.comp", settings.shape, settings.taps)
+    addGather(g, names.near, "val_shading/gather_near.comp", settings.shape, settings.taps)
         .sample("parts", parts)
         .write("irradiance", result.image);
     return result;

@@ -29,7 +29,19 @@ struct Irradiance {
     ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add
 };
 
+// Passes and resources of one gathering; literals, because the graph keeps views of them.
+struct ValShadingNames {
+    std::string_view classify, far, near, lists, counts, parts, irradiance;
+};
+constexpr ValShadingNames kFirstBounceShading = {
+    "val_shading.classify", "val_shading.far",   "val_shading.near",      "val_shading.lists",
+    "val_shading.counts",   "val_shading.parts", "val_shading.irradiance"};
+constexpr ValShadingNames kAllBouncesShading = {
+    "val_shading.classify_all", "val_shading.far_all",   "val_shading.near_all",      "val_shading.lists_all",
+    "val_shading.counts_all",   "val_shading.parts_all", "val_shading.irradiance_all"};
+
 Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
-                         const IsmAtlas& isms, const ValShadingSettings& settings);
+                         const IsmAtlas& isms, const ValShadingSettings& settings,
+                         const ValShadingNames& names = kFirstBounceShading);
 
 }  // namespace ag::gi

@@ -2,20 +2,16 @@
 
 #include <algorithm>
 
+#include "engine/ecs/columns.h"
+
 namespace ag {
 namespace {
 
 template <class F>
 void forChildren(const World& world, F&& f) {  // f(child, living parent) in storage order
-    for (const Archetype& archetype : world.archetypes()) {
-        const uint8_t column = archetype.columnOf[componentId<Parent>()];
-        if (column == Archetype::kNoColumn) continue;
-        for (const auto& chunk : archetype.chunks) {
-            const auto* parents = reinterpret_cast<const Parent*>(chunk->columns[column]);
-            for (uint32_t row = 0; row < chunk->rows; ++row)
-                if (world.alive(parents[row].entity)) f(chunk->entities[row], parents[row].entity);
-        }
-    }
+    forRowsOf<Parent>(world, [&](Entity child, const Parent& parent) {
+        if (world.alive(parent.entity)) f(child, parent.entity);
+    });
 }
 
 uint32_t depthOf(const World& world, Entity entity) {

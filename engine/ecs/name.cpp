@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/hash.h"
+#include "engine/ecs/columns.h"
 
 namespace ag {
 namespace {
@@ -30,15 +31,9 @@ void NameIndex::refresh(const World& world) {
     editCount_ = world.editCount();
     version_ = version;
     entries_.clear();
-    for (const Archetype& archetype : world.archetypes()) {
-        const uint8_t column = archetype.columnOf[componentId<Name>()];
-        if (column == Archetype::kNoColumn) continue;
-        for (const auto& chunk : archetype.chunks) {
-            const auto* names = reinterpret_cast<const Name*>(chunk->columns[column]);
-            for (uint32_t row = 0; row < chunk->rows; ++row)
-                entries_.push_back({hashText(names[row].text), chunk->entities[row]});
-        }
-    }
+    forRowsOf<Name>(world, [&](Entity entity, const Name& name) {
+        entries_.push_back({hashText(name.text), entity});
+    });
     std::ranges::stable_sort(entries_, {}, &Entry::first);
 }
 

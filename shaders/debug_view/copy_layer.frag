@@ -4,6 +4,7 @@
 const uint kColor = 0;
 const uint kSum = 1;    // of two images
 const uint kDepth = 2;  // reversed depth to metres along the camera's axis; 0: no surface
+const uint kDifference = 3;
 layout(constant_id = 0) const uint kMode = kColor;
 
 layout(push_constant) uniform Push { float near; } push;
@@ -16,6 +17,7 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec3 result = texelFetch(first, pixel, 0).rgb;
     if (kMode == kSum) result += texelFetch(second, pixel, 0).rgb;
+    if (kMode == kDifference) result -= texelFetch(second, pixel, 0).rgb;
     if (kMode == kDepth) result = vec3(result.x > 0.0 ? push.near / result.x : 0.0);
     value = vec4(result, 1.0);
 }

@@ -73,7 +73,8 @@ void main() {
     uvec2 coord = rsmTexelCoord(tile, gl_LocalInvocationID.x, push.atlas.size.x);
     uint face = findFace(coord);
     RsmTexel texel = darkTexel();
-    if (face < push.atlas.faceCount) texel = makeTexel(coord, face);
+    bool ofLight = face < push.atlas.faceCount && maps.items[faces.items[min(face, push.atlas.faceCount - 1)].map].kind != kMapOfSurfaces;
+    if (ofLight) texel = makeTexel(coord, face);
     texels.items[rsmTexelIndex(tile, gl_LocalInvocationID.x)] = texel;
     if (gl_LocalInvocationID.x == 0)
         tileMaps.items[tile] = face < push.atlas.faceCount ? faces.items[face].map : 0xffffffffu;

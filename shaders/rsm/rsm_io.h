@@ -9,8 +9,10 @@ namespace ag::io {
 #endif
 
 const uint kMaxBounceLights = 8;
-const uint kMaxRsmFaces = 48;
-const uint kRsmTileSize = 16;  // texels; faces start and end on tile borders
+const uint kMaxRsmMaps = kMaxBounceLights + 1;  // and one of surfaces, for later bounces
+const uint kMaxRsmFaces = 49;
+const uint kMapOfSurfaces = 3;  // kind of a map whose texels are points on all surfaces: none projects to it
+const uint kRsmTileSize = 16;   // texels; faces start and end on tile borders
 
 struct RsmFace {  // 9 vec4
     mat4 worldFromClip;
@@ -22,7 +24,7 @@ struct RsmFace {  // 9 vec4
 
 struct RsmMap {     // all faces of one bounce light
     vec3 position;  // m
-    uint kind;      // kLightDirectional, kLightPoint, kLightSpot
+    uint kind;      // kLightDirectional, kLightPoint, kLightSpot, kMapOfSurfaces
     vec3 direction;
     float range;
     vec3 intensity;  // W/sr; directional: W/m²

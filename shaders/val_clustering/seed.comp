@@ -26,6 +26,8 @@ layout(set = 0, binding = 5, scalar) writeonly buffer Seeds { ClusterSeed items[
 
 // The tile a world position falls into, kNoCluster outside all faces of the map.
 uint projectToTile(vec3 position, RsmMap map) {
+    if (map.kind == kMapOfSurfaces)  // all of its tiles are near
+        return rsmTileOfCoord(faces.items[map.firstFace].origin, push.settings.atlasSize.x);
     uint tile = kNoCluster;
     for (uint i = 0; i < map.faceCount; ++i) {
         RsmFace face = faces.items[map.firstFace + i];

@@ -9,6 +9,7 @@
 #include "shaders/direct_lighting/direct_lighting_io.h"
 #include "shaders/importance/importance_io.h"
 #include "shaders/ism_atlas/ism_atlas_io.h"
+#include "shaders/later_bounces/later_bounces_io.h"
 #include "shaders/probes/probes_io.h"
 #include "shaders/rsm/rsm_io.h"
 #include "shaders/scene/scene_io.h"
@@ -55,6 +56,11 @@ const std::map<std::string, Layout>& layouts() {
          {sizeof(io::Probe),
           {AG_MEMBER(Probe, position), AG_MEMBER(Probe, idLow), AG_MEMBER(Probe, normal),
            AG_MEMBER(Probe, idHigh)}}},
+        {"BouncePoint",
+         {sizeof(io::BouncePoint),
+          {AG_MEMBER(BouncePoint, positionLocal), AG_MEMBER(BouncePoint, instance),
+           AG_MEMBER(BouncePoint, normalLocal), AG_MEMBER(BouncePoint, area),
+           AG_MEMBER(BouncePoint, albedo)}}},
         {"ProbeRow",
          {sizeof(io::ProbeRow),
           {AG_MEMBER(ProbeRow, direct), AG_MEMBER(ProbeRow, idLow), AG_MEMBER(ProbeRow, bounced),

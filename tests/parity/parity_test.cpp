@@ -99,6 +99,21 @@ TEST(Parity, FirstBounceWithoutVisibility) {
     }
 }
 
+TEST(Parity, SecondBounce) {
+    for (const char* name : {"cornell", "corridor"}) {
+        Parity p(name);
+        const Image truth = p.trace({.paths = {.bounces = 2}, .samplesPerPixel = 1024}).bounces[2];
+        GiSettings settings;
+        settings.laterBounces.enabled = true;
+        settings.laterBounces.feedback = false;
+        const ImageDifference d = differ(truth, p.render(Layer::kBounce2, settings, 80));
+        std::printf("%s, second bounce: mean ratio %.4f, relative RMSE %.3f\n", name, d.meanRatio,
+                    d.relativeRmse);
+        EXPECT_NEAR(d.meanRatio, 1, 0.06) << name;  // corridor's folds: 0.995 with 256 clusters
+        EXPECT_LT(d.relativeRmse, 0.35) << name;    // about half of it is the path tracer's own noise
+    }
+}
+
 // What is left is within a few hundredths of the truth's mean, and no energy is lost or won.
 TEST(Parity, FirstBounceThroughImperfectShadowMaps) {
     for (const char* name : {"cornell", "occluder"}) {

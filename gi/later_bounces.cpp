@@ -1,0 +1,58 @@
+#include "gi/later_bounces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/hash.h"
+#include "gi/val_shading.h"
+#include "shaders/rsm/rsm_io.h"
+
+namespace ag::gi {
+
+LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterBouncesSettings& s,
+                         Settling& settling) {
+    if (!s.enabled || scene.bouncePointCount == 0) return {};
+    const VkFormat vec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const RenderScene& r = *scene.scene;
+    const uint64_t inputs =
+        combineHash(combineHash(r.lightsVersion, r.instancesVersion),
+                    combineHash(r.cameraVersion, hashValue(glm::vec2(s.share, s.feedback))));
+    const uint32_t step = settling.advance(inputs, s.settleFrames);
+    LaterLight light{.count = scene.bouncePointCount, .share = s.share};
+    light.side = uint32_t(std::lround(std::sqrt(double(light.count))));
+    light.irradiance = graph.historyBuffer(
+        "later_bounces.irradiance", {.sizeBytes = light.count * sizeof(glm::vec4), .texelFormat = vec4});
+    light.texels = graph.buffer("later_bounces.texels",
+                                {.sizeBytes = light.count * sizeof(io::RsmTexel), .texelFormat = vec4});
+    graph.compute("later_bounces.emit", "later_bounces/emit.comp")
+        .read("instances", scene.instances)
+        .read("points", scene.bouncePoints)
+        .readPrevious("irradiance", light.irradiance)
+        .write("texels", light.texels)
+        .push(io::EmitPush{.count = light.count, .known = light.irradiance.valid})
+        .key(r.instancesVersion)
+        .step(step)
+        .dispatchThreads(light.count);
+    return light;
+}
+
+void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& vals, uint32_t firstLater,
+                        const IsmAtlas& isms, const LaterBouncesSettings& s) {
+    if (!light.texels || vals.count == 0) return;
+    graph.compute("later_bounces.gather", "later_bounces/gather.comp")
+        .read("texels", light.texels)
+        .read("vals", vals.vals)
+        .read("shapes", vals.shapes)
+        .read("isms", isms.planes ? isms.planes : vals.vals)
+        .write("irradiance", light.irradiance.current)
+        .spec(0, uint32_t(ValShape::kPolygon))
+        .spec(1, isms.planes ? 1 : 0)
+        .spec(3, isms.mapping == IsmMapping::kParaboloid)
+        .push(io::GatherPush{.count = light.count,
+                             .valCount = s.feedback ? vals.count : std::min(vals.count, firstLater),
+                             .ismTileSize = isms.tileSize})
+        .dispatchThreads(light.count);
+    graph.output(light.irradiance.current);
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,41 @@
+// Every bounce after the first: points spread over all surfaces reflect what fell on them a frame ago, as one
+// more light map beside those of the lights. Its texels are clustered, get shadow maps and light the screen
+// like any other's, out of the same budget, and the points as well: the third bounce and all others follow
+// from frame to frame. After SSVP (Aranha et al.), whose second bounce is sampled from paraboloid maps of
+// clusters; here surfaces are sampled once, by area, so that flux is exact and nothing depends on the view.
+#pragma once
+
+#include "gi/scene_gpu.h"
+#include "gi/settling.h"
+#include "shaders/later_bounces/later_bounces_io.h"
+
+namespace ag::gi {
+
+struct IsmAtlas;
+struct Vals;
+
+struct LaterBouncesSettings {
+    bool enabled = false;
+    bool feedback = true;        // off: two bounces, and no more
+    float share = 0.3f;          // of all clusters
+    uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
+};
+
+// The points' emission as texels of a light map, and where the light on them goes.
+struct LaterLight {
+    BufferHandle texels;       // io::RsmTexel, tile by tile; invalid: no later bounces
+    HistoryBuffer irradiance;  // vec4: W/m²
+    uint32_t count = 0;
+    uint32_t side = 0;  // texels of the square map
+    float share = 0;
+};
+
+LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterBouncesSettings& settings,
+                         Settling& settling);
+
+// What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
+// for later bounces.
+void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& vals, uint32_t firstLater,
+                        const IsmAtlas& isms, const LaterBouncesSettings& settings);
+
+}  // namespace ag::gi

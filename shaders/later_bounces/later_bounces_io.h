@@ -1,0 +1,35 @@
+// Points on all surfaces that stand for them in every bounce after the first.
+#ifndef AG_LATER_BOUNCES_IO_H
+#define AG_LATER_BOUNCES_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+struct BouncePoint {  // moves with its instance
+    vec3 positionLocal;
+    uint instance;
+    vec3 normalLocal;  // unit
+    float area;        // m² it stands for; 0: none
+    vec3 albedo;       // diffuse, the mean of what it stands for
+};
+
+const float kMostAlbedo = 0.95;  // in the loop of bounces, which would not end otherwise
+
+struct EmitPush {
+    uint count;
+    uint known;  // 1: there is irradiance of the frame before
+};
+
+struct GatherPush {
+    uint count;
+    uint valCount;
+    uint ismTileSize;  // texels along a shadow map's side
+};
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif

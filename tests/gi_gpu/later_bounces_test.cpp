@@ -1,0 +1,102 @@
+// Light that goes on after its first bounce: in a closed box every bounce carries the same share of the one
+// before.
+#include <gtest/gtest.h>
+
+#include "tests/gi_gpu/bench.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::gi {
+namespace {
+
+std::unique_ptr<Bench> laterBench(const char* scene, uint32_t param) {
+    auto b = std::make_unique<Bench>(*scenegen::buildScene(scene, param), glm::uvec2(96, 54));
+    b->settings.laterBounces.enabled = true;
+    b->output = [](FrameGraph& graph, const GiFrame& f) {
+        if (f.indirect.image) graph.output(f.indirect.image);
+    };
+    return b;
+}
+
+// Mean over all surfaces by area, W/m².
+double meanOnSurfaces(Bench& b) {
+    const std::vector<io::RsmTexel> points = b.read<io::RsmTexel>(b.last.laterLight.texels);
+    const std::vector<glm::vec4> light = b.read<glm::vec4>(b.last.laterLight.irradiance.current);
+    double sum = 0, area = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+        sum += double(light[i].x) * double(points[i].area);
+        area += double(points[i].area);
+    }
+    return sum / area;
+}
+
+double settledMean(uint32_t albedo, bool feedback) {
+    const auto b = laterBench("furnace", albedo);
+    b->settings.laterBounces.feedback = feedback;
+    b->settings.ismAtlas.enabled = false;  // everything sees everything
+    for (int i = 0; i < 70; ++i)
+        b->frame();
+    const double mean = meanOnSurfaces(*b);
+    if (feedback && albedo == 90) {
+        for (int i = 0; i < 100; ++i) {
+            b->scene.lights[0].intensity.x = 1 + 1e-6f * float(i % 2);  // nothing may rest
+            ++b->scene.lightsVersion;
+            b->frame();
+        }
+        EXPECT_NEAR(meanOnSurfaces(*b) / mean, 1, 0.01) << "it stays";
+    }
+    return mean;
+}
+
+TEST(LaterBounces, FurnaceConvergesToTheGeometricSeries) {
+    const double power = 4 * 3.14159265 * 1, area = 24;  // W of the lamp, m²
+    for (const uint32_t percent : {50u, 90u}) {
+        const double rho = percent / 100.0, first = rho * power / area;
+        const double one = settledMean(percent, false), all = settledMean(percent, true);
+        std::printf("albedo %.1f: first bounce %.4f of the truth, all bounces %.4f\n", rho, one / first,
+                    all / (first / (1 - rho)));
+        EXPECT_NEAR(one / first, 1, 0.02);
+        EXPECT_NEAR(all / (first / (1 - rho)), 1, 0.03);
+    }
+}
+
+TEST(LaterBounces, AreOfTheSurfacesOwnColourAndArea) {
+    const auto b = laterBench("furnace", 50);
+    b->frame();
+    const std::vector<io::RsmTexel> points = b->read<io::RsmTexel>(b->last.laterLight.texels);
+    double area = 0;
+    for (const io::RsmTexel& p : points) {
+        area += double(p.area);
+        const glm::vec3 a = glm::abs(p.position);
+        EXPECT_NEAR(std::max(a.x, std::max(a.y, a.z)), 1, 1e-5) << "on a wall";
+        EXPECT_NEAR(glm::dot(p.position, p.normal), -1, 1e-5) << "facing inwards";
+    }
+    EXPECT_NEAR(area, 24, 0.01);
+}
+
+TEST(LaterBounces, CostNothingWhenOffAndRestWhenNothingChanges) {
+    const auto b = laterBench("cornell", 0);
+    b->settings.laterBounces.settleFrames = 8;
+    for (int i = 0; i < 60; ++i)
+        b->frame();
+    EXPECT_EQ(b->passesRun(), 0) << "at rest";
+    b->settings.laterBounces.enabled = false;
+    b->frame();
+    for (const PassReport& pass : b->renderer.graph().report())
+        EXPECT_FALSE(pass.name.starts_with("later_bounces")) << pass.name;
+    EXPECT_EQ(b->last.indirect.image.index, b->last.bounce1.image.index);
+}
+
+TEST(LaterBounces, SameFrameTwiceSameBits) {
+    std::vector<glm::vec4> first;
+    for (int run = 0; run < 2; ++run) {
+        const auto b = laterBench("cornell", 0);
+        for (int i = 0; i < 12; ++i)
+            b->frame();
+        const std::vector<glm::vec4> light = b->read<glm::vec4>(b->last.laterLight.irradiance.current);
+        if (run == 0) first = light;
+        EXPECT_TRUE(first == light);
+    }
+}
+
+}  // namespace
+}  // namespace ag::gi
