@@ -22,11 +22,13 @@ GiRenderer::GiRenderer(gpu::Device& device)
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                            .queueFamilyIndex = device.queueFamily()};
         AG_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
+        device.setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame");
         const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = slot.pool,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                .commandBufferCount = 1};
         AG_VK(vkAllocateCommandBuffers(device.handle(), &info, &slot.commands));
+        device.setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, "frame");
     }
 }
 

@@ -101,6 +101,7 @@ FrameDescription FrameGraph::describe() const {
         PassDescription& d = out.passes.emplace_back();
         d.name = pass.name;
         d.shader = pass.shader;
+        d.uploads = pass.kind == PassKind::kUpload;
         d.outcome = g.report[p].outcome;
         d.reason = g.whyNot(pass);
         d.patches = g.report[p].patches;

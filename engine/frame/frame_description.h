@@ -28,6 +28,7 @@ struct PassDescription {
     std::string_view reason;              // why it did not run; empty if it did
     std::vector<uint32_t> reads, writes;  // indices into FrameDescription::resources; what a pass writes over
                                           // without looking at it is not read
+    bool uploads = false;                 // what the host gave it
     uint64_t resourceBytes = 0;           // of all it reads and writes, each once
     WorkUnit unit = WorkUnit::kThreads;
     uint64_t work = 0;  // invocations; of indirect work the number of commands

@@ -28,6 +28,7 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/frame/pass_counter.h"
 #include "engine/gpu/pipeline.h"
 
 namespace ag {
@@ -184,11 +185,13 @@ struct PassSpan {
 struct FrameSpans {
     uint64_t frame = 0;  // 0: none yet
     std::span<const PassSpan> passes;
+    double nsPerTick = 1;
 };
 
 enum class TimingMode {
     kTimestamps,  // barrier, timestamp, barrier round every pass
     kProcessCpu,  // submit and wait per pass, process CPU time around it: the true cost on a CPU device
+    kCounts,      // no times: what the device counts in each pass (see counts())
     kOff,
 };
 
@@ -284,7 +287,10 @@ class FrameGraph {
     uint64_t frame() const;                           // number of the frame last begun, from 1
     FrameSpans spans() const;                         // of the last frame whose timestamps arrived
     FrameDescription describe() const;                // of the frame last executed
-    uint64_t transientBytes() const;                  // device memory behind the graph's resources
+    // Of the frame last executed with TimingMode::kCounts: waits for its work. Empty where the device counts
+    // nothing (DeviceInfo::counts).
+    std::vector<PassCount> counts() const;
+    uint64_t transientBytes() const;  // device memory behind the graph's resources
     std::string graphviz() const;
 
   private:

@@ -202,6 +202,7 @@ void FrameGraph::execute(VkCommandBuffer commands) {
     Impl& g = *impl_;
     g.plan();
     const bool timed = g.device && g.options.timing == TimingMode::kTimestamps && commands;
+    const bool counted = g.counter && g.options.timing == TimingMode::kCounts && commands;
     const bool alone = g.device && g.options.timing == TimingMode::kProcessCpu;
     if (g.device) {
         g.device->collect();
@@ -212,6 +213,7 @@ void FrameGraph::execute(VkCommandBuffer commands) {
             g.zeroNewHistories(commands);
     }
     if (timed) g.readTimes(commands);
+    if (counted) g.counter->beginFrame(commands);
     g.report.clear();
     g.records.clear();
     for (const Pass& pass : g.passes) {
@@ -229,8 +231,10 @@ void FrameGraph::execute(VkCommandBuffer commands) {
             } else {
                 g.synchronize(commands, pass, record);
                 if (timed) g.timer->begin(commands, pass.stats);
+                if (counted) g.counter->begin(commands, pass.name);
                 if (g.device) g.recordPass(commands, pass);
                 if (g.device && pass.name == g.options.repeatPass) g.repeatPass(commands, pass);
+                if (counted) g.counter->end(commands);
                 if (timed) g.timer->end(commands);
             }
             g.finishPass(pass);
@@ -240,6 +244,7 @@ void FrameGraph::execute(VkCommandBuffer commands) {
         g.report.push_back({pass.name, outcome, stats.gpuMs, stats.cpuMs, stats.runCount, stats.patches,
                             stats.patchesDrawn});
     }
+    if (timed) g.timer->endFrame(commands);
     g.commitHistories();
     if (alone)
         timeOnCpu(*g.device, g.ownPool, [&](VkCommandBuffer own) { g.synchronizeOutputs(own); });

@@ -170,6 +170,7 @@ struct FrameGraph::Impl {
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
     std::unique_ptr<FrameTimer> timer;
+    std::unique_ptr<PassCounter> counter;                // null where the device counts nothing
     VkCommandPool ownPool = VK_NULL_HANDLE;              // TimingMode::kProcessCpu
     std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch

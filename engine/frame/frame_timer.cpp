@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/resources.h"
 
 namespace ag {
 
@@ -13,9 +14,13 @@ FrameTimer::FrameTimer(gpu::Device& device) : device_(device), periodNs_(device.
                                          .queryCount = 2 * kMaxPasses};
         AG_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &ring.pool));
         vkResetQueryPool(device.handle(), ring.pool, 0, 2 * kMaxPasses);
+        device.setDebugName(VK_OBJECT_TYPE_QUERY_POOL, ring.pool, "frame_timer");
+        ring.ticks = std::make_unique<gpu::Buffer>(
+            device, gpu::BufferDesc{.name = "frame_timer.ticks",
+                                    .sizeBytes = 2 * kMaxPasses * sizeof(uint64_t),
+                                    .hostVisible = true});
         ring.tags.reserve(kMaxPasses);
     }
-    values_.resize(2 * kMaxPasses);
 }
 
 FrameTimer::~FrameTimer() {
@@ -23,11 +28,8 @@ FrameTimer::~FrameTimer() {
         vkDestroyQueryPool(device_.handle(), ring.pool, nullptr);
 }
 
-bool FrameTimer::readBack(Ring& ring) {
-    if (ring.tags.empty()) return false;
-    const uint32_t count = 2 * uint32_t(ring.tags.size());
-    return vkGetQueryPoolResults(device_.handle(), ring.pool, 0, count, count * 8, values_.data(), 8,
-                                 VK_QUERY_RESULT_64_BIT) == VK_SUCCESS;
+std::span<const uint64_t> FrameTimer::ticksOf(const Ring& ring) {
+    return {reinterpret_cast<const uint64_t*>(ring.ticks->mapped()), 2 * ring.tags.size()};
 }
 
 void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
@@ -61,6 +63,21 @@ void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {
 void FrameTimer::end(VkCommandBuffer commands) {
     if (!std::exchange(open_, false)) return;
     stamp(commands, 2 * uint32_t(rings_[active_].tags.size()) - 1);
+}
+
+void FrameTimer::endFrame(VkCommandBuffer commands) {
+    const Ring& ring = rings_[active_];
+    if (ring.tags.empty()) return;
+    vkCmdCopyQueryPoolResults(commands, ring.pool, 0, 2 * uint32_t(ring.tags.size()), ring.ticks->handle(), 0,
+                              sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                  .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                  .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                  .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                  .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
+    vkCmdPipelineBarrier2(commands, &info);
 }
 
 }  // namespace ag

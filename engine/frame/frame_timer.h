@@ -1,12 +1,15 @@
 // GPU time of passes by timestamps, read a few frames later without stalling. A full barrier stands on both
 // sides of each timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is
-// taken.
+// taken. The device copies them to where the host reads them: asking it for query results waits on lavapipe
+// for all its work.
 #pragma once
 
 #include <volk.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace ag {
@@ -14,8 +17,9 @@ namespace ag {
 constexpr uint32_t kTimerFrames = 3;  // so many later the times of a frame are read
 
 namespace gpu {
+class Buffer;
 class Device;
-}
+}  // namespace gpu
 
 class FrameTimer {
   public:
@@ -31,9 +35,10 @@ class FrameTimer {
     template <class F>
     uint64_t beginFrame(VkCommandBuffer commands, uint64_t frame, F&& result) {
         Ring& ring = rings_[next_];
-        const uint64_t read = readBack(ring) ? ring.frame : 0;
-        for (size_t i = 0; read && i < ring.tags.size(); ++i)
-            result(ring.tags[i], values_[2 * i], values_[2 * i + 1]);
+        const std::span<const uint64_t> ticks = ticksOf(ring);
+        const uint64_t read = ticks.empty() ? 0 : ring.frame;
+        for (size_t i = 0; i < ticks.size(); i += 2)
+            result(ring.tags[i / 2], ticks[i], ticks[i + 1]);
         restart(commands, ring);
         ring.frame = frame;
         return read;
@@ -41,14 +46,16 @@ class FrameTimer {
     double milliseconds(uint64_t ticks) const { return double(ticks) * 1e-6 * periodNs_; }
     void begin(VkCommandBuffer commands, uint32_t tag);
     void end(VkCommandBuffer commands);
+    void endFrame(VkCommandBuffer commands);  // after the last pass
 
   private:
     struct Ring {
         VkQueryPool pool = VK_NULL_HANDLE;
+        std::unique_ptr<gpu::Buffer> ticks;  // first and last of each pass
         std::vector<uint32_t> tags;
         uint64_t frame = 0;
     };
-    bool readBack(Ring& ring);
+    static std::span<const uint64_t> ticksOf(const Ring& ring);
     void restart(VkCommandBuffer commands, Ring& ring);
     void stamp(VkCommandBuffer commands, uint32_t query);
 
@@ -57,7 +64,6 @@ class FrameTimer {
     std::array<Ring, kTimerFrames> rings_;
     size_t next_ = 0, active_ = 0;
     bool open_ = false;  // a begin() waits for its end()
-    std::vector<uint64_t> values_;
 };
 
 }  // namespace ag

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/gpu/debug_name.h"
 #include "engine/gpu/memory.h"
 
 struct GLFWwindow;
@@ -33,6 +34,7 @@ struct DeviceInfo {
     uint32_t subgroupSize = 0;
     float timestampPeriodNs = 0;  // 0: no timestamps
     bool calibrated = false;      // the device's clock can be read together with the host's
+    bool counts = false;          // pipeline statistics
     bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
     VkPhysicalDeviceLimits limits{};
     std::vector<std::string> enabled;  // feature and extension names switched on
@@ -84,7 +86,10 @@ class Device {
 
     // Warnings and errors of the validation layers so far (also those while creating the device).
     int validationMessageCount() const;
-    void setDebugName(VkObjectType type, uint64_t handle, const std::string& name);
+    template <class Handle>
+    void setDebugName(VkObjectType type, Handle handle, const std::string& name) {
+        gpu::setDebugName(this->handle(), type, handle, name);
+    }
 
   private:
     Device();

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "capture/display.h"
+#include "capture/graph_picture.h"
+#include "capture/pass_table.h"
+#include "capture/report.h"
+#include "capture/trace.h"
 #include "tests/capture/seen.h"
-#include "tools/capture/display.h"
-#include "tools/capture/graph_picture.h"
-#include "tools/capture/pass_table.h"
-#include "tools/capture/report.h"
-#include "tools/capture/trace.h"
 
 namespace ag::capture {
 namespace {
@@ -85,7 +85,9 @@ TEST(Trace, HasReasonsCountersAndArrows) {
         EXPECT_FALSE(std::string(e.at("args").at("reason")).empty()) << e.at("name");
     }
     EXPECT_GT(leftOut, 0);
-    EXPECT_TRUE(counters.contains("area lights") && counters.contains("bytes uploaded"));
+    for (const char* name : {"area lights", "shadow map tiles splatted", "lamp shadow faces redrawn",
+                             "entities changed", "bytes uploaded"})
+        EXPECT_TRUE(counters.contains(name)) << name;
     EXPECT_TRUE(fromSystem);
     for (const auto& [id, balance] : arrows)
         EXPECT_EQ(balance, 0) << "arrow " << id << " has one end";
@@ -112,6 +114,47 @@ TEST(PassTable, HasEveryPassOfTheFrameAndComesBackFromItsFile) {
     const auto again = readTable(path);
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(tableCsv(*again), csv);
+}
+
+TEST(PassTable, HasWhatTheDeviceCounted) {
+    if (!test::device().info().counts) GTEST_SKIP() << "no pipeline statistics";
+    const std::vector<PassRow> table = makeTable(seen());
+    const auto row = [&](std::string_view name) { return *std::ranges::find(table, name, &PassRow::name); };
+    const PassRow assign = row("val_clustering.assign"), fill = row("gbuffer.fill"),
+                  tonemap = row("composite.tonemap"), camera = row("scene.camera");
+    EXPECT_EQ(assign.invocations, assign.work) << "threads of whole workgroups";
+    EXPECT_EQ(assign.vertices + assign.fragments + assign.triangles, 0u);
+    EXPECT_GT(fill.vertices, 0u);
+    EXPECT_GT(fill.triangles, 0u);
+    EXPECT_GT(fill.fragments, 96u * 64u / 2) << "most of the picture shows the box";
+    EXPECT_GE(tonemap.fragments, 96u * 64u);
+    EXPECT_LE(tonemap.fragments, 96u * 64u * 5 / 4) << "whole blocks at the edges";
+    EXPECT_TRUE(camera.counted);
+    EXPECT_EQ(camera.invocations, 0u) << "a copy";
+}
+
+TEST(Counters, SayWhatChanged) {
+    const auto value = [](const Frame& frame, std::string_view name) {
+        const auto counter = std::ranges::find(frame.counters, name, &Counter::name);
+        return counter == frame.counters.end() ? -1 : counter->value;
+    };
+    const std::vector<Frame>& frames = seen().frames;
+    EXPECT_GT(value(frames.front(), "entities changed"), 0) << "all are new";
+    EXPECT_EQ(value(frames.back(), "entities changed"), 0) << "only the camera walks";
+    EXPECT_GT(value(frames.back(), "area lights"), 0);
+    EXPECT_LE(value(frames.back(), "area lights"), value(frames.back(), "shadow map tiles of area lights"));
+    EXPECT_GE(value(frames.back(), "shadow map tiles splatted"), 0);
+}
+
+TEST(Resources, HaveSizesAndUsers) {
+    const std::vector<ResourceRow> rows = resourceRows(seen());
+    const auto found = std::ranges::find(rows, "composite.display", &ResourceRow::name);
+    ASSERT_NE(found, rows.end());
+    EXPECT_EQ(found->sizeBytes, 96u * 64u * 4u);
+    EXPECT_EQ(found->writtenBy, "composite.tonemap");
+    EXPECT_EQ(found->kind, "image");
+    for (const ResourceRow& row : rows)
+        EXPECT_FALSE(row.name.starts_with("capture.")) << row.name << " is not the frame's";
 }
 
 TEST(Pictures, AreThereAndNotBlack) {

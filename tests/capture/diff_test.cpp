@@ -1,5 +1,5 @@
 // Two captures compared: what was made worse on purpose is found, and nothing else.
-#include "tools/capture/diff.h"
+#include "capture/diff.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <csignal>
 #include <filesystem>
 
+#include "capture/display.h"
+#include "capture/folder.h"
 #include "engine/core/safe_file.h"
 #include "tests/capture/seen.h"
-#include "tools/capture/display.h"
-#include "tools/capture/folder.h"
 
 namespace ag::capture {
 namespace {

@@ -1,10 +1,13 @@
 // A captured scene for the tests of this folder: recorded once.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include "capture/record.h"
+#include "capture/schedule_spans.h"
+#include "capture/world_source.h"
 #include "engine/scene/static_scene.h"
 #include "tests/support/device_environment.h"
-#include "tools/capture/record.h"
-#include "tools/capture/world_source.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::capture {
@@ -25,8 +28,8 @@ inline Capture record(const std::function<void(RecordSettings&)>& change = {}) {
     };
     Capture capture{.scene = "cornell", .device = test::device().info().name, .size = settings.size};
     recordFrames(renderer, next, settings, capture);
-    source.describe(capture);
-    recordPictures(renderer, *last, settings, capture);
+    describeSchedule(source.schedule(), capture);
+    EXPECT_TRUE(recordPictures(renderer, *last, settings, {}, "", capture));
     return capture;
 }
 

@@ -5,7 +5,7 @@ set -u
 bin=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-command -v chromium >/dev/null || { echo "FAILED: chromium is missing (see tools/packages.txt)"; exit 1; }
+command -v chromium >/dev/null || { echo "FAILED: chromium is missing (see tools/test_packages.txt)"; exit 1; }
 "$bin/afterglow" capture cornell -o "$work/seen" --size 64x36 --frames 4 --warm-up 3 --schedule --walk 0.01,0,0 \
   --reference --reference-spp 4 >/dev/null 2>"$work/err" || { echo "FAILED: capture: $(cat "$work/err")"; exit 1; }
 

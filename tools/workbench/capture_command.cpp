@@ -3,15 +3,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
 
+#include "capture/diff.h"
+#include "capture/record.h"
+#include "capture/save_capture.h"
+#include "capture/schedule_spans.h"
+#include "capture/world_source.h"
 #include "engine/core/settings.h"
-#include "tools/capture/diff.h"
-#include "tools/capture/display.h"
-#include "tools/capture/folder.h"
-#include "tools/capture/graph_picture.h"
-#include "tools/capture/record.h"
-#include "tools/capture/report.h"
-#include "tools/capture/trace.h"
-#include "tools/capture/world_source.h"
 #include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/scene_options.h"
@@ -28,6 +25,7 @@ struct CaptureOptions {
     std::string walk;    // DX,DY,DZ
     std::string repeat;  // PASS=N
     bool exr = false, validate = false;
+    bool renderDoc = false;
     bool schedule = false;
     bool reference = false;
     uint32_t referenceSpp = 64;
@@ -73,48 +71,6 @@ std::string settingsText(const CaptureOptions& o) {
                        fmt::join(o.assignments, ", "), o.walk.empty() ? "" : ", walking " + o.walk);
 }
 
-constexpr int kReportPixels = 1024;  // along a picture's side in the report; its file has all
-
-Result<std::vector<capture::ReportPicture>> writePictures(capture::Folder& folder,
-                                                          const capture::Capture& seen, bool exr) {
-    std::vector<capture::ReportPicture> written;
-    for (const capture::Picture& picture : seen.pictures) {
-        const Image shown = capture::displayOf(picture, seen.look);
-        const std::string name = picture.name + ".png";
-        // First as the report has it, then over that as a file of its own.
-        if (const Status s = folder.writeImage(name, capture::shrunk(shown, kReportPixels)); !s)
-            return s.error();
-        auto png = folder.readBack(name);
-        if (!png) return png.error();
-        written.push_back({picture.name, picture.pass, std::move(*png)});
-        if (const Status s = folder.writeImage(name, shown); !s) return s.error();
-        if (!exr) continue;
-        if (const Status s = folder.writeImage(picture.name + ".exr", picture.pixels); !s) return s.error();
-    }
-    if (const Status s = folder.writeText("pictures.csv", capture::picturesCsv(seen.pictures)); !s)
-        return s.error();
-    return written;
-}
-
-Status writeCapture(capture::Folder& folder, const capture::Capture& seen,
-                    const std::vector<capture::PassRow>& table, bool exr) {
-    const auto pictures = writePictures(folder, seen, exr);
-    if (!pictures) return pictures.error();
-    std::vector<std::pair<std::string, std::string>> files = {
-        {"passes.csv", capture::tableCsv(table)},
-        {"trace.json", capture::traceJson(seen)},
-        {"frame_graph.dot", seen.frameDot},
-        {"frame_graph.svg", capture::frameGraphSvg(seen)},
-        {"report.html", capture::reportHtml(seen, table, *pictures)}};
-    if (!seen.systems.empty()) {
-        files.push_back({"schedule.dot", seen.scheduleDot});
-        files.push_back({"schedule.svg", capture::scheduleSvg(seen)});
-    }
-    for (const auto& [name, text] : files)
-        if (const Status s = folder.writeText(name, text); !s) return s;
-    return folder.commit();
-}
-
 // What the frame would look like without any error, by path tracing with one bounce.
 void addReference(const CaptureOptions& o, const RenderScene& scene, capture::Capture& seen) {
     reference::ReferenceSettings settings;
@@ -148,27 +104,24 @@ void printSummary(const CaptureOptions& o, const capture::Capture& seen,
 }
 
 // Frames, pictures, graphs of the scene as it is or as entities.
-void captureScene(const CaptureOptions& o, LoadedScene& loaded, gi::GiRenderer& renderer, glm::vec3 walk,
-                  const capture::RecordSettings& settings, capture::Capture& seen) {
-    if (o.schedule) {
-        capture::WorldSource source(*loaded.asset, loaded.scene, loaded.size, walk);
-        const RenderScene* last = nullptr;
-        const auto next = [&](std::vector<capture::Span>& systems) -> const RenderScene& {
-            return *(last = &source.next(systems));
-        };
-        capture::recordFrames(renderer, next, settings, seen);
-        source.describe(seen);
-        capture::recordPictures(renderer, *last, settings, seen);
-        if (o.reference) addReference(o, *last, seen);
-        return;
-    }
-    const auto next = [&](std::vector<capture::Span>&) -> const RenderScene& {
-        if (walk != glm::vec3(0)) moveCamera(loaded.scene, walk);
-        return loaded.scene;
+Status captureScene(const CaptureOptions& o, LoadedScene& loaded, gi::GiRenderer& renderer, glm::vec3 walk,
+                    const capture::RecordSettings& settings, gpu::RenderDoc renderDoc,
+                    const std::string& rdcPath, capture::Capture& seen) {
+    std::optional<capture::WorldSource> world;
+    if (o.schedule) world.emplace(*loaded.asset, loaded.scene, loaded.size, walk);
+    const RenderScene* last = &loaded.scene;
+    const auto next = [&](std::vector<capture::Span>& systems) -> const RenderScene& {
+        if (world)
+            last = &world->next(systems);
+        else if (walk != glm::vec3(0))
+            moveCamera(loaded.scene, walk);
+        return *last;
     };
     capture::recordFrames(renderer, next, settings, seen);
-    capture::recordPictures(renderer, loaded.scene, settings, seen);
-    if (o.reference) addReference(o, loaded.scene, seen);
+    if (world) capture::describeSchedule(world->schedule(), seen);
+    const Status captured = capture::recordPictures(renderer, *last, settings, renderDoc, rdcPath, seen);
+    if (o.reference && captured) addReference(o, *last, seen);
+    return captured;
 }
 
 int runCapture(const CaptureOptions& o) {
@@ -188,6 +141,8 @@ int runCapture(const CaptureOptions& o) {
     if (!loaded) return refuse(loaded.error().message);
     auto folder = capture::Folder::open(o.output);
     if (!folder) return refuse(folder.error().message);
+    const auto renderDoc = gpu::RenderDoc::open(o.renderDoc);  // before the device
+    if (!renderDoc) return refuse(renderDoc.error().message);
     auto device = gpu::Device::create({.validation = o.validate});
     if (!device) return refuse(device.error().message);
 
@@ -199,11 +154,13 @@ int runCapture(const CaptureOptions& o) {
                           .driver = (*device)->info().driver,
                           .settings = settingsText(o),
                           .size = loaded->size};
-    captureScene(o, *loaded, renderer, *walk, settings, seen);
+    const std::string rdcPath = *renderDoc ? folder->place("frame.rdc") : "";
+    const Status captured = captureScene(o, *loaded, renderer, *walk, settings, *renderDoc, rdcPath, seen);
+    if (!captured) return refuse(captured.error().message);
     const std::vector<capture::PassRow> table = capture::makeTable(seen);
     if (!repeatPass.empty() && std::ranges::count(table, repeatPass, &capture::PassRow::name) == 0)
         return refuse(fmt::format("no pass of the frame is named '{}'", repeatPass));
-    if (const Status written = writeCapture(*folder, seen, table, o.exr); !written)
+    if (const Status written = capture::saveCapture(*folder, seen, table, o.exr); !written)
         return refuse(written.error().message);
     printSummary(o, seen, table);
     return (*device)->validationMessageCount() == 0 ? 0 : 1;
@@ -248,6 +205,9 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
                      "how many times slower than the other passes counts")
         ->check(CLI::Range(1.0, 1000.0))
         ->capture_default_str();
+    command->add_flag(
+        "--renderdoc", o->renderDoc,
+        "load RenderDoc for frame.rdc; it is written anyway where the library is loaded already");
     command->add_flag("--exr", o->exr, "every intermediate as EXR, too");
     command->add_flag("--validate", o->validate, "with Vulkan validation; any message exits with 1");
     command->callback([o, &exitCode] { exitCode = runCapture(*o); });

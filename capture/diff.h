@@ -1,8 +1,8 @@
 // Two captures side by side: which passes got slower, and which changed their pictures.
 #pragma once
 
+#include "capture/pass_table.h"
 #include "engine/core/result.h"
-#include "tools/capture/pass_table.h"
 
 namespace ag::capture {
 

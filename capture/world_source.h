@@ -2,10 +2,10 @@
 // anew, as a game does it. Times and graph of its systems go into the capture.
 #pragma once
 
+#include "capture/capture.h"
 #include "engine/ecs/schedule.h"
 #include "engine/scene/render_scene.h"
 #include "engine/scene/scene_asset.h"
-#include "tools/capture/capture.h"
 
 namespace ag::capture {
 
@@ -14,7 +14,7 @@ class WorldSource {
     // The camera is that of `asked`, lights are the asset's own. `step`: m a frame.
     WorldSource(const SceneAsset& asset, const RenderScene& asked, glm::uvec2 size, glm::vec3 step);
     const RenderScene& next(std::vector<Span>& systems);
-    void describe(Capture& capture);
+    Schedule& schedule() { return schedule_; }
 
   private:
     World world_;

@@ -1,4 +1,4 @@
-#include "tools/capture/folder.h"
+#include "capture/folder.h"
 
 #include <fmt/format.h>
 
@@ -50,14 +50,17 @@ Status said(const Status& status, const std::string& waiting, const std::string&
 
 }  // namespace
 
-Status Folder::writeText(const std::string& name, std::string_view text) {
+std::string Folder::place(const std::string& name) {
     names_.insert(name);
-    return said(writeFileSafely(waiting_ + "/" + name, text), waiting_, path_);
+    return waiting_ + "/" + name;
+}
+
+Status Folder::writeText(const std::string& name, std::string_view text) {
+    return said(writeFileSafely(place(name), text), waiting_, path_);
 }
 
 Status Folder::writeImage(const std::string& name, const Image& image) {
-    names_.insert(name);
-    return said(saveImage(image, waiting_ + "/" + name), waiting_, path_);
+    return said(saveImage(image, place(name)), waiting_, path_);
 }
 
 Result<std::string> Folder::readBack(const std::string& name) const {

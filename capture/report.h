@@ -1,7 +1,7 @@
 // report.html: timeline, table, pictures and graphs in one file that any browser opens without a network.
 #pragma once
 
-#include "tools/capture/pass_table.h"
+#include "capture/pass_table.h"
 
 namespace ag::capture {
 

@@ -1,4 +1,4 @@
-#include "tools/capture/pass_table.h"
+#include "capture/pass_table.h"
 
 #include <fmt/format.h>
 
@@ -13,10 +13,10 @@ namespace ag::capture {
 namespace {
 
 constexpr const char* kHeader =
-    "pass,ms_median,ms_p99,ms_p25,ms_p75,ms_samples,forced_ms_median,forced_ms_p99,forced_ms_p25,forced_ms_"
-    "p75,"
-    "forced_ms_samples,ran,skipped,dropped,skipped_share,outcome,reason,work,unit,resource_bytes,reads,"
-    "writes";
+    "pass,ms_median,ms_p99,ms_least,ms_p25,ms_p75,ms_samples,forced_ms_median,forced_ms_p99,forced_ms_least,"
+    "forced_ms_p25,forced_ms_p75,forced_ms_samples,ran,skipped,dropped,skipped_share,outcome,reason,work,"
+    "unit,"
+    "counted,invocations,vertices,triangles,fragments,resource_bytes,reads,writes";
 
 std::string namesOf(const std::vector<uint32_t>& resources, const Capture& capture) {
     std::string out;
@@ -31,7 +31,8 @@ double milliseconds(const Span& span) {
 }
 
 std::string spreadCells(const Spread& s) {
-    return fmt::format("{:.4f},{:.4f},{:.4f},{:.4f},{}", s.median, s.p99, s.p25, s.p75, s.count);
+    return fmt::format("{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{}", s.median, s.p99, s.least, s.p25, s.p75,
+                       s.count);
 }
 
 template <class T>
@@ -42,10 +43,11 @@ T number(const std::string& cell) {
 }
 
 Spread spreadFrom(const std::vector<std::string>& cells, size_t at) {
-    return {.count = number<uint32_t>(cells[at + 4]),
-            .p25 = number<double>(cells[at + 2]),
+    return {.count = number<uint32_t>(cells[at + 5]),
+            .least = number<double>(cells[at + 2]),
+            .p25 = number<double>(cells[at + 3]),
             .median = number<double>(cells[at]),
-            .p75 = number<double>(cells[at + 3]),
+            .p75 = number<double>(cells[at + 4]),
             .p99 = number<double>(cells[at + 1])};
 }
 
@@ -64,7 +66,7 @@ Spread spreadOf(std::vector<double> values) {
     if (values.empty()) return {};
     std::ranges::sort(values);
     const auto at = [&](double q) { return values[size_t(q * double(values.size() - 1) + 0.5)]; };
-    return {uint32_t(values.size()), at(0.25), at(0.5), at(0.75), at(0.99)};
+    return {uint32_t(values.size()), values.front(), at(0.25), at(0.5), at(0.75), at(0.99)};
 }
 
 std::vector<PassRow> makeTable(const Capture& capture) {
@@ -102,6 +104,15 @@ std::vector<PassRow> makeTable(const Capture& capture) {
         row->reads = namesOf(pass.reads, capture);
         row->writes = namesOf(pass.writes, capture);
     }
+    for (const Count& count : capture.counts) {
+        const auto row = std::ranges::find(rows, count.pass, &PassRow::name);
+        if (row == rows.end()) continue;
+        row->counted = true;
+        row->invocations = count.counted.invocations();
+        row->vertices = count.counted.vertices;
+        row->fragments = count.counted.fragments;
+        row->triangles = count.counted.triangles;
+    }
     for (PassRow& row : rows) {
         row.ms = spreadOf(times[row.name].ms);
         row.forced = spreadOf(times[row.name].forced);
@@ -112,9 +123,40 @@ std::vector<PassRow> makeTable(const Capture& capture) {
 std::string tableCsv(const std::vector<PassRow>& rows) {
     std::string out = std::string(kHeader) + "\n";
     for (const PassRow& r : rows)
-        out += fmt::format("{},{},{},{},{},{},{:.4f},{},{},{},{},{},{},{}\n", r.name, spreadCells(r.ms),
-                           spreadCells(r.forced), r.ran, r.skipped, r.dropped, r.skippedShare(), r.outcome,
-                           r.reason, r.work, r.unit, r.resourceBytes, r.reads, r.writes);
+        out +=
+            fmt::format("{},{},{},{},{},{},{:.4f},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.name,
+                        spreadCells(r.ms), spreadCells(r.forced), r.ran, r.skipped, r.dropped,
+                        r.skippedShare(), r.outcome, r.reason, r.work, r.unit, int(r.counted), r.invocations,
+                        r.vertices, r.triangles, r.fragments, r.resourceBytes, r.reads, r.writes);
+    return out;
+}
+
+std::vector<ResourceRow> resourceRows(const Capture& capture) {
+    constexpr std::string_view kRoles[] = {"kept or scratch", "history", "history before", "import"};
+    std::vector<ResourceRow> rows;
+    for (const ResourceDescription& r : capture.resources)
+        rows.push_back({.name = r.name,
+                        .kind = r.image ? "image" : "buffer",
+                        .role = std::string(kRoles[size_t(r.role)]),
+                        .sizeBytes = r.sizeBytes});
+    const auto note = [](std::string& list, const std::string& pass) {
+        list += (list.empty() ? "" : ";") + pass;
+    };
+    if (capture.frames.empty()) return {};
+    for (const PassDescription& pass : capture.frames.back().passes) {
+        for (uint32_t r : pass.writes)
+            note(rows[r].writtenBy, pass.name);
+        for (uint32_t r : pass.reads)
+            note(rows[r].readBy, pass.name);
+    }
+    std::erase_if(rows, [](const ResourceRow& r) { return r.writtenBy.empty() && r.readBy.empty(); });
+    return rows;
+}
+
+std::string resourcesCsv(const Capture& capture) {
+    std::string out = "resource,kind,role,bytes,written_by,read_by\n";
+    for (const ResourceRow& r : resourceRows(capture))
+        out += fmt::format("{},{},{},{},{},{}\n", r.name, r.kind, r.role, r.sizeBytes, r.writtenBy, r.readBy);
     return out;
 }
 
@@ -145,17 +187,22 @@ Result<std::vector<PassRow>> readTable(const std::string& path) {
     for (const std::vector<std::string>& c : file->rows)
         rows.push_back({.name = c[0],
                         .ms = spreadFrom(c, 1),
-                        .forced = spreadFrom(c, 6),
-                        .ran = number<uint32_t>(c[11]),
-                        .skipped = number<uint32_t>(c[12]),
-                        .dropped = number<uint32_t>(c[13]),
-                        .outcome = c[15],
-                        .reason = c[16],
-                        .work = number<uint64_t>(c[17]),
-                        .unit = c[18],
-                        .resourceBytes = number<uint64_t>(c[19]),
-                        .reads = c[20],
-                        .writes = c[21]});
+                        .forced = spreadFrom(c, 7),
+                        .ran = number<uint32_t>(c[13]),
+                        .skipped = number<uint32_t>(c[14]),
+                        .dropped = number<uint32_t>(c[15]),
+                        .outcome = c[17],
+                        .reason = c[18],
+                        .work = number<uint64_t>(c[19]),
+                        .unit = c[20],
+                        .counted = c[21] == "1",
+                        .invocations = number<uint64_t>(c[22]),
+                        .vertices = number<uint64_t>(c[23]),
+                        .fragments = number<uint64_t>(c[25]),
+                        .triangles = number<uint64_t>(c[24]),
+                        .resourceBytes = number<uint64_t>(c[26]),
+                        .reads = c[27],
+                        .writes = c[28]});
     return rows;
 }
 

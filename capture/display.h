@@ -2,7 +2,7 @@
 // colour with its legend.
 #pragma once
 
-#include "tools/capture/capture.h"
+#include "capture/capture.h"
 
 namespace ag::capture {
 

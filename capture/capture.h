@@ -22,6 +22,12 @@ struct Counter {
     double value = 0;
 };
 
+// What the device counted in a pass when it ran.
+struct Count {
+    std::string pass;
+    PassCount counted;
+};
+
 struct Frame {
     uint64_t number = 0;  // the graph's
     bool forced = false;  // warm-up: nothing was skipped
@@ -54,6 +60,7 @@ struct Capture {
     std::vector<Frame> frames;
     std::vector<ResourceDescription> resources;  // of the last frame; its passes' reads and writes point here
     std::vector<Picture> pictures;
+    std::vector<Count> counts;  // of the frame the pictures are from; empty where the device counts nothing
     std::string frameDot, scheduleDot;                       // for Graphviz
     std::vector<std::string> systems;                        // of the schedule, in order
     std::vector<std::pair<uint32_t, uint32_t>> systemEdges;  // before, after

@@ -10,7 +10,7 @@ h1 { font-size: 22px; margin: 0 0 4px } h2 { font-size: 17px; margin: 28px 0 8px
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums }
 th { position: sticky; top: 0; background: #eef2f6; cursor: pointer; white-space: nowrap; user-select: none }
 th, td { padding: 3px 8px; text-align: right; border-bottom: 1px solid #e7ebef; vertical-align: top }
-th:first-child, td:first-child, td.words { text-align: left }
+th:first-child, td:first-child, th.words, td.words { text-align: left } td.none { color: #b4bcc5 }
 td.words { font-size: 12px; color: #5a6b7d; max-width: 230px; overflow: hidden; text-overflow: ellipsis;
   white-space: nowrap }
 th[data-way="up"]::after { content: " \25b2" } th[data-way="down"]::after { content: " \25bc" }
@@ -20,7 +20,12 @@ th[data-way="up"]::after { content: " \25b2" } th[data-way="down"]::after { cont
 #gantt div.row { display: flex; height: 17px; font-size: 12px } #gantt span.name { width: 250px; flex: none }
 #gantt div.bars { position: relative; flex: 1; background: #f4f6f8; border-bottom: 1px solid #fff }
 #gantt i { position: absolute; top: 1px; bottom: 1px; background: #3c7fb8; min-width: 1px } #gantt i.cpu { background: #d9a12b }
-#gantt i.system { background: #5aa86b } #gantt .left-out { color: #98a3af }
+#gantt i.system { background: #5aa86b } #gantt i.wait { background: #eadcb8 } #gantt .left-out { color: #98a3af }
+i.key { display: inline-block; width: 10px; height: 10px; background: #3c7fb8 } i.key.cpu { background: #d9a12b }
+i.key.system { background: #5aa86b } i.key.wait { background: #eadcb8 } i.key.forced { background: #c3c9d0 }
+#dearest div { display: flex; align-items: center; height: 19px } #dearest span { width: 250px; flex: none }
+#dearest i { background: #3c7fb8; height: 13px; margin-right: 6px; min-width: 1px } #dearest em { font-style: normal }
+#dearest i.cpu { background: #d9a12b } #dearest i.system { background: #5aa86b }
 #slider { position: relative; display: inline-block; width: 100%; max-width: 960px; margin-top: 8px; background: #000 }
 #slider img { display: block; width: 100%; image-rendering: pixelated }
 #slider img.over { position: absolute; inset: 0; height: 100% }
@@ -39,33 +44,35 @@ const make = (tag, parent, text, name) => {
   return e;
 };
 
-// Table: a click on a header sorts, another turns the order round.
-const body = $('rows'), columns = capture.columns;
-columns.forEach((c, i) => {
-  const th = make('th', $('head'), c.name);
-  th.title = c.help;
-  th.onclick = () => {
-    const down = th.dataset.way ? th.dataset.way === 'up' : !c.words;
-    document.querySelectorAll('th').forEach(h => delete h.dataset.way);
-    th.dataset.way = down ? 'down' : 'up';
-    const key = row => row[i];
-    const sorted = [...capture.rows].sort((a, b) =>
-      (c.words ? String(key(a)).localeCompare(key(b)) : key(a) - key(b)) * (down ? -1 : 1));
-    fill(sorted);
+const brief = v => v.toLocaleString('en', { maximumFractionDigits: v >= 100 ? 0 : v >= 10 ? 1 : 3 });
+
+// A click on a header sorts, another turns the order round.
+function sortable(head, body, columns, rows) {
+  const fill = sorted => {
+    body.replaceChildren();
+    for (const row of sorted) {
+      const tr = make('tr', body);
+      row.forEach((v, i) => {
+        const words = columns[i].words;
+        const td = make('td', tr, words ? v : brief(v), words ? (i ? 'words' : '') : v === 0 ? 'none' : '');
+        if (words && i) td.title = v;
+      });
+    }
   };
-});
-function fill(rows) {
-  body.replaceChildren();
-  for (const row of rows) {
-    const tr = make('tr', body);
-    row.forEach((v, i) => {
-      const words = columns[i].words;
-      const td = make('td', tr, words ? v : v.toLocaleString('en', { maximumFractionDigits: 3 }), words && i ? 'words' : '');
-      if (words && i) td.title = v;
-    });
-  }
+  columns.forEach((c, i) => {
+    const th = make('th', head, c.name, c.words ? 'words' : '');
+    th.title = c.help;
+    th.onclick = () => {
+      const down = th.dataset.way ? th.dataset.way === 'up' : !c.words;
+      head.querySelectorAll('th').forEach(h => delete h.dataset.way);
+      th.dataset.way = down ? 'down' : 'up';
+      fill([...rows].sort((a, b) => (c.words ? String(a[i]).localeCompare(b[i]) : a[i] - b[i]) * (down ? -1 : 1)));
+    };
+  });
+  fill(rows);
 }
-fill(capture.rows);
+sortable($('head'), $('rows'), capture.columns, capture.rows);
+sortable($('memory-head'), $('memory'), capture.memoryColumns, capture.memory);
 
 // Timeline: the frames as columns, the chosen one as bars on one clock.
 const longest = Math.max(...capture.frames.map(f => f.ms), 1e-6);
@@ -80,21 +87,38 @@ function choose(index) {
   columnsOf.forEach((d, i) => d.classList.toggle('chosen', i === index));
   const f = capture.frames[index], all = f.bars.filter(b => b.end !== null);
   const from = Math.min(...all.map(b => b.begin)), to = Math.max(...all.map(b => b.end));
-  const ran = f.bars.filter(b => b.kind === 'gpu' && b.end !== null).length;
+  const ran = f.bars.filter(b => b.kind === 'gpu' && b.end !== null);
   $('which').textContent = `frame ${f.number}${f.forced ? ' (warm-up, nothing skipped)' : ''}: GPU ` +
-    `${f.ms.toFixed(3)} ms in ${ran} passes; the bars span ${(to - from).toFixed(3)} ms`;
-  const gantt = $('gantt');
+    `${f.ms.toFixed(3)} ms in ${ran.length} passes; the bars span ${(to - from).toFixed(3)} ms`;
+  $('counters').textContent = f.counters.map(c => `${c.name} ${brief(c.value)}`).join(', ');
+  showDearest(f);
+  const gantt = $('gantt'), lanes = new Map();
   gantt.replaceChildren();
   for (const b of f.bars) {
-    const row = make('div', gantt, undefined, 'row'), bars = document.createElement('div');
-    make('span', row, b.name, 'name' + (b.end === null ? ' left-out' : ''));
-    bars.className = 'bars';
-    row.append(bars);
-    if (b.end === null) { make('span', bars, b.why, 'left-out'); continue; }
-    const bar = make('i', bars, undefined, b.kind);
+    if (!lanes.has(b.lane)) {
+      const row = make('div', gantt, undefined, 'row');
+      make('span', row, b.lane, 'name' + (b.end === null ? ' left-out' : ''));
+      lanes.set(b.lane, make('div', row, undefined, 'bars'));
+    }
+    if (b.end === null) { make('span', lanes.get(b.lane), b.why, 'left-out'); continue; }
+    const bar = make('i', lanes.get(b.lane), undefined, b.kind);
     bar.style.left = 100 * (b.begin - from) / (to - from) + '%';
     bar.style.width = 100 * (b.end - b.begin) / (to - from) + '%';
-    bar.title = `${b.name}: ${(b.end - b.begin).toFixed(3)} ms`;
+    bar.title = `${b.name}: ${brief(b.end - b.begin)} ms`;
+  }
+}
+// What took longest of the frame, on either side; a system that ran in several ticks once.
+function showDearest(f) {
+  const sums = new Map();
+  for (const b of f.bars.filter(b => b.end !== null && b.kind !== 'wait'))
+    sums.set(b.name, { name: b.name, kind: b.kind, ms: (sums.get(b.name)?.ms ?? 0) + b.end - b.begin });
+  const dearest = $('dearest'), share = ms => 100 * ms / Math.max(f.ms, 1e-6);
+  dearest.replaceChildren();
+  for (const b of [...sums.values()].sort((a, b) => b.ms - a.ms).slice(0, 8)) {
+    const row = make('div', dearest);
+    make('span', row, b.name);
+    make('i', row, undefined, b.kind).style.width = Math.min(0.6 * share(b.ms), 60) + '%';
+    make('em', row, `${brief(b.ms)} ms` + (b.kind === 'gpu' ? `, ${share(b.ms).toFixed(0)} %` : ''));
   }
 }
 let slowest = 0;

@@ -2,7 +2,7 @@
 #include <array>
 #include <optional>
 
-#include "tools/capture/record.h"
+#include "capture/record.h"
 
 namespace ag::capture {
 namespace {
@@ -72,15 +72,21 @@ void recordView(gi::GiRenderer& renderer, const RenderScene& scene, const Record
 
 }  // namespace
 
-void recordPictures(gi::GiRenderer& renderer, const RenderScene& scene, const RecordSettings& settings,
-                    Capture& capture) {
+Status recordPictures(gi::GiRenderer& renderer, const RenderScene& scene, const RecordSettings& settings,
+                      gpu::RenderDoc renderDoc, const std::string& rdcPath, Capture& capture) {
     FrameGraphOptions options = settings.graph;
     options.skip = options.alias = false;
-    options.timing = TimingMode::kOff;
+    options.timing = TimingMode::kCounts;
+    if (renderDoc) renderDoc.begin();
     renderer.render(scene, settings.size, settings.gi, options,
                     [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& f) {
                         graph.output(f.outputs.display);
                     });
+    for (const PassCount& count : renderer.graph().counts())
+        capture.counts.push_back({std::string(count.name), count});
+    renderer.waitIdle();
+    if (const Status captured = renderDoc ? renderDoc.end(rdcPath) : Ok{}; !captured) return captured;
+    options.timing = TimingMode::kOff;
     capture.look = {.cameraNear = scene.camera.near,
                     .exposure = settings.gi.composite.exposure,
                     .tonemap = uint32_t(settings.gi.composite.tonemap)};
@@ -99,6 +105,7 @@ void recordPictures(gi::GiRenderer& renderer, const RenderScene& scene, const Re
     }
     for (size_t i = 0; i < bufferViews({}).size(); ++i)
         recordView(renderer, scene, settings, options, i, capture);
+    return Ok{};
 }
 
 }  // namespace ag::capture

@@ -1,4 +1,4 @@
-#include "tools/capture/graph_picture.h"
+#include "capture/graph_picture.h"
 
 #include <fmt/format.h>
 

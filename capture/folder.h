@@ -18,6 +18,8 @@ class Folder {
     Folder(Folder&& other) noexcept;
     Folder& operator=(Folder&&) = delete;
 
+    // Where somebody else is to make the file; in its place with the others.
+    std::string place(const std::string& name);
     Status writeText(const std::string& name, std::string_view text);
     Status writeImage(const std::string& name, const Image& image);
     Result<std::string> readBack(const std::string& name) const;  // a file just written

@@ -1,4 +1,4 @@
-#include "tools/capture/display.h"
+#include "capture/display.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // The frames for Perfetto (ui.perfetto.dev) and chrome://tracing: trace.json.
 #pragma once
 
-#include "tools/capture/capture.h"
+#include "capture/capture.h"
 
 namespace ag::capture {
 

@@ -1,5 +1,6 @@
-#include "tools/capture/world_source.h"
+#include "capture/world_source.h"
 
+#include "capture/schedule_spans.h"
 #include "engine/scene/extract_system.h"
 #include "engine/scene/spawn_scene.h"
 #include "engine/scene/transform_system.h"
@@ -37,21 +38,8 @@ WorldSource::WorldSource(const SceneAsset& asset, const RenderScene& asked, glm:
 
 const RenderScene& WorldSource::next(std::vector<Span>& systems) {
     schedule_.run(world_, runner_);
-    for (size_t i = 0; i < schedule_.spans().size(); ++i) {
-        const SystemSpan& span = schedule_.spans()[i];
-        systems.push_back({schedule_.name(i), span.beginNs, span.endNs, span.thread});
-    }
+    noteSystems(schedule_, systems);
     return world_.resource<RenderScene>();
-}
-
-void WorldSource::describe(Capture& capture) {
-    const JobGraph& graph = schedule_.graph();
-    capture.scheduleDot = graph.graphviz();
-    for (uint32_t i = 0; i < graph.nodes.size(); ++i) {
-        capture.systems.push_back(graph.nodes[i].name);
-        for (uint32_t next : graph.nodes[i].next)
-            capture.systemEdges.push_back({i, next});
-    }
 }
 
 }  // namespace ag::capture

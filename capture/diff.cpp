@@ -1,4 +1,4 @@
-#include "tools/capture/diff.h"
+#include "capture/diff.h"
 
 #include <fmt/format.h>
 
@@ -41,9 +41,11 @@ double medianRatio(const std::vector<Pair>& pairs) {
     return median > 0 ? median : 1;
 }
 
-// Slower means: most of the times of one are above most of those of the other, by a margin.
+// Slower means: most of the times of one are above most of those of the other by a margin, and so are their
+// least ones, which other work on the machine lengthens last.
 bool isSlower(const Spread& than, const Spread& times, double common, const DiffSettings& s) {
     return times.p25 > common * than.p75 && times.median > s.leastRatio * common * than.median &&
+           times.least > s.leastRatio * common * than.least &&
            times.median - common * than.median > s.leastMs;
 }
 

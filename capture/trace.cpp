@@ -1,4 +1,4 @@
-#include "tools/capture/trace.h"
+#include "capture/trace.h"
 
 #include <fmt/format.h>
 
@@ -114,17 +114,19 @@ class Trace {
             slice(system.name, "system", kCpu, threadOf(system), system.beginNs, system.endNs);
     }
 
-    bool readsScene(const PassDescription& pass) const {
-        return std::ranges::any_of(pass.reads, [&](uint32_t r) {
+    // The system whose data a pass takes from outside the frame, if it takes any.
+    std::string_view writerOf(const PassDescription& pass) const {
+        if (pass.name == "probes.points") return "extractProbes";
+        const bool imports = std::ranges::any_of(pass.reads, [&](uint32_t r) {
             return r < capture_.resources.size() && capture_.resources[r].role == ResourceRole::kImport;
         });
+        return imports || pass.uploads ? "extractScene" : "";
     }
 
     void addGpu(const Frame& f, const std::string& title) {
         if (f.gpu.empty()) return;
         slice(title, "frame", kGpu, kQueue, f.gpu.front().beginNs, f.gpu.back().endNs);
         arrow("submitted", kCpu, kLoop, f.cpu.recorded, kGpu, kQueue, f.gpu.front().beginNs);
-        const auto writer = std::ranges::find(f.systems, "extractScene", &Span::name);
         for (const Span& span : f.gpu) {
             const auto pass = std::ranges::find(f.passes, span.name, &PassDescription::name);
             if (pass == f.passes.end()) continue;
@@ -132,7 +134,8 @@ class Trace {
                   {{"work", pass->work},
                    {"unit", unitName(pass->unit)},
                    {"resource bytes", pass->resourceBytes}});
-            if (writer != f.systems.end() && readsScene(*pass))
+            const auto writer = std::ranges::find(f.systems, writerOf(*pass), &Span::name);
+            if (writer != f.systems.end())
                 arrow("scene", kCpu, threadOf(*writer), writer->beginNs, kGpu, kQueue, span.beginNs);
         }
     }

@@ -1,7 +1,7 @@
 // Graphs as SVG, laid out in columns without help from outside.
 #pragma once
 
-#include "tools/capture/capture.h"
+#include "capture/capture.h"
 
 namespace ag::capture {
 

@@ -1,12 +1,12 @@
-#include "tools/capture/report.h"
+#include "capture/report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tools/capture/graph_picture.h"
-#include "tools/capture/report_page.h"
+#include "capture/graph_picture.h"
+#include "capture/report_page.h"
 
 namespace ag::capture {
 namespace {
@@ -50,22 +50,37 @@ Json columnsJson() {
             column("p99", "99th percentile of the same, ms"),
             column("ms if run", "median over the warm-up, in which nothing is skipped"),
             column("skipped %", "of the frames"),
-            column("work", "threads, pixels, indirect draws or bytes"),
+            column("work", "threads, pixels, indirect draws or bytes it asks for"),
             column("of", "what work counts", true),
+            column("invocations", "of its shaders, counted by the device when nothing is skipped"),
+            column("triangles", "left by clipping, counted likewise"),
             column("KiB", "of all it reads and writes"),
             column("last frame", "what became of it, and why", true),
             column("reads", "", true),
             column("writes", "", true)};
 }
 
-Json rowJson(const PassRow& r) {
-    const auto spaced = [](std::string names) {
-        for (size_t at = 0; (at = names.find(';', at)) != std::string::npos;)
-            names.replace(at, 1, ", ");
-        return names;
+Json memoryColumnsJson() {
+    const auto column = [](const char* name, const char* help, bool words = true) {
+        return Json{{"name", name}, {"help", help}, {"words", words}};
     };
+    return {column("resource", ""),
+            column("KiB", "", false),
+            column("kind", "image or buffer"),
+            column("role", "what becomes of it after the frame"),
+            column("written by", ""),
+            column("read by", "")};
+}
+
+std::string spaced(std::string names) {
+    for (size_t at = 0; (at = names.find(';', at)) != std::string::npos;)
+        names.replace(at, 1, ", ");
+    return names;
+}
+
+Json rowJson(const PassRow& r) {
     return Json::array({r.name, r.ms.median, r.ms.p99, r.forced.median, 100 * r.skippedShare(), r.work,
-                        r.unit, double(r.resourceBytes) / 1024,
+                        r.unit, r.invocations, r.triangles, double(r.resourceBytes) / 1024,
                         r.reason.empty() ? r.outcome : r.outcome + ": " + r.reason, spaced(r.reads),
                         spaced(r.writes)});
 }
@@ -74,22 +89,31 @@ Json frameJson(const Frame& f) {
     const uint64_t start = f.systems.empty() ? f.cpu.begin : std::min(f.cpu.begin, f.systems.front().beginNs);
     const auto ms = [&](uint64_t ns) { return double(int64_t(ns - start)) * 1e-6; };
     Json bars = Json::array();
-    const auto bar = [&](const std::string& name, const char* kind, uint64_t begin, uint64_t end) {
-        bars.push_back({{"name", name}, {"kind", kind}, {"begin", ms(begin)}, {"end", ms(end)}});
+    const auto bar = [&](const std::string& lane, const std::string& name, const char* kind, uint64_t begin,
+                         uint64_t end) {
+        bars.push_back(
+            {{"lane", lane}, {"name", name}, {"kind", kind}, {"begin", ms(begin)}, {"end", ms(end)}});
     };
-    for (const Span& system : f.systems)
-        bar(system.name, "system", system.beginNs, system.endNs);
-    bar("CPU: wait for the frame before last", "cpu", f.cpu.begin, f.cpu.waited);
-    bar("CPU: declare passes", "cpu", f.cpu.waited, f.cpu.declared);
-    bar("CPU: plan and record", "cpu", f.cpu.declared, f.cpu.recorded);
-    bar("CPU: submit", "cpu", f.cpu.recorded, f.cpu.submitted);
+    std::vector<uint64_t> threads;
+    for (const Span& system : f.systems) {
+        const auto known = std::ranges::find(threads, system.thread);
+        const size_t thread = size_t(known - threads.begin());
+        if (known == threads.end()) threads.push_back(system.thread);
+        bar(fmt::format("systems, thread {}", thread + 1), system.name, "system", system.beginNs,
+            system.endNs);
+    }
+    bar("frame loop", "wait for the frame before last", "wait", f.cpu.begin, f.cpu.waited);
+    bar("frame loop", "declare passes", "cpu", f.cpu.waited, f.cpu.declared);
+    bar("frame loop", "plan and record", "cpu", f.cpu.declared, f.cpu.recorded);
+    bar("frame loop", "submit", "cpu", f.cpu.recorded, f.cpu.submitted);
     size_t next = 0;
     for (const PassDescription& pass : f.passes) {
         if (next < f.gpu.size() && f.gpu[next].name == pass.name) {
-            bar(pass.name, "gpu", f.gpu[next].beginNs, f.gpu[next].endNs);
+            bar(pass.name, pass.name, "gpu", f.gpu[next].beginNs, f.gpu[next].endNs);
             ++next;
         } else {
-            bars.push_back({{"name", pass.name},
+            bars.push_back({{"lane", pass.name},
+                            {"name", pass.name},
                             {"kind", "gpu"},
                             {"begin", nullptr},
                             {"end", nullptr},
@@ -97,17 +121,23 @@ Json frameJson(const Frame& f) {
         }
     }
     const double total = f.gpu.empty() ? 0 : double(f.gpu.back().endNs - f.gpu.front().beginNs) * 1e-6;
-    return {{"number", f.number}, {"forced", f.forced}, {"ms", total}, {"bars", bars}};
+    Json counters = Json::array();
+    for (const Counter& counter : f.counters)
+        counters.push_back({{"name", counter.name}, {"value", counter.value}});
+    return {
+        {"number", f.number}, {"forced", f.forced}, {"ms", total}, {"bars", bars}, {"counters", counters}};
 }
 
 Json dataJson(const Capture& capture, const std::vector<PassRow>& table,
               const std::vector<ReportPicture>& pictures) {
-    Json data = {{"columns", columnsJson()},
-                 {"rows", Json::array()},
-                 {"frames", Json::array()},
-                 {"pictures", Json::array()}};
+    Json data = {
+        {"columns", columnsJson()}, {"rows", Json::array()},   {"memoryColumns", memoryColumnsJson()},
+        {"memory", Json::array()},  {"frames", Json::array()}, {"pictures", Json::array()}};
     for (const PassRow& row : table)
         data["rows"].push_back(rowJson(row));
+    for (const ResourceRow& row : resourceRows(capture))
+        data["memory"].push_back({row.name, double(row.sizeBytes) / 1024, row.kind, row.role,
+                                  spaced(row.writtenBy), spaced(row.readBy)});
     for (size_t i = 1; i < capture.frames.size(); ++i)  // the first makes pipelines
         data["frames"].push_back(frameJson(capture.frames[i]));
     for (const ReportPicture& p : pictures)
@@ -127,9 +157,14 @@ std::string reportHtml(const Capture& capture, const std::vector<PassRow>& table
                        inHtml(capture.scene), capture.size.x, capture.size.y, inHtml(capture.settings),
                        inHtml(capture.device), inHtml(capture.driver), inHtml(capture.clock));
     out +=
-        "<h2>Timeline</h2><p class='note'>A column a frame, as high as its GPU time (grey: warm-up, nothing "
-        "skipped). Click one to see it below: blue passes on the GPU, yellow the CPU, green systems.</p>"
-        "<div id='strip'></div><p id='which'></p><div id='gantt' class='scroll'></div>\n"
+        "<h2>Timeline</h2><p class='note'>A column a frame, as high as its GPU time (<i class='key "
+        "forced'></i> "
+        "warm-up, nothing skipped). The slowest is chosen; click another to see it below.</p>"
+        "<div id='strip'></div><p id='which'></p><div id='dearest'></div><p class='note' id='counters'></p>"
+        "<p class='note'><i class='key'></i> passes on the GPU, <i class='key cpu'></i> the frame loop (<i "
+        "class='key wait'></i> waiting for the device), "
+        "<i class='key system'></i> systems of the schedule, all on one clock:</p>"
+        "<div id='gantt' class='scroll'></div>\n"
         "<h2>Passes</h2><p class='note'>Click a header to sort.</p><div class='scroll'><table id='table'>"
         "<thead><tr id='head'></tr></thead><tbody id='rows'></tbody></table></div>\n"
         "<h2>Compare pictures</h2><select id='left'></select> left of the line, <select id='right'></select> "
@@ -138,6 +173,9 @@ std::string reportHtml(const Capture& capture, const std::vector<PassRow>& table
         "id='line'></b></div>\n"
         "<h2>Pictures</h2><div id='pictures'></div>\n";
     out +=
+        "<h2>Memory</h2><div class='scroll'><table><thead><tr id='memory-head'></tr></thead><tbody "
+        "id='memory'>"
+        "</tbody></table></div>\n"
         "<h2>Frame graph</h2><p class='note'>Green ran in the last frame, grey was skipped, white was "
         "dropped.</p><div class='scroll'>" +
         frameGraphSvg(capture) + "</div>\n";
