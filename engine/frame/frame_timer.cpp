@@ -6,19 +6,24 @@
 #include "engine/gpu/resources.h"
 
 namespace ag {
+namespace {
+
+constexpr uint32_t kTimestamps = FrameTimer::kMaxPasses + 1;
+
+}  // namespace
 
 FrameTimer::FrameTimer(gpu::Device& device) : device_(device), periodNs_(device.info().timestampPeriodNs) {
     for (Ring& ring : rings_) {
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                         .queryCount = 2 * kMaxPasses};
+                                         .queryCount = kTimestamps};
         AG_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &ring.pool));
-        vkResetQueryPool(device.handle(), ring.pool, 0, 2 * kMaxPasses);
+        vkResetQueryPool(device.handle(), ring.pool, 0, kTimestamps);
         device.setDebugName(VK_OBJECT_TYPE_QUERY_POOL, ring.pool, "frame_timer");
-        ring.ticks = std::make_unique<gpu::Buffer>(
-            device, gpu::BufferDesc{.name = "frame_timer.ticks",
-                                    .sizeBytes = 2 * kMaxPasses * sizeof(uint64_t),
-                                    .hostVisible = true});
+        ring.ticks =
+            std::make_unique<gpu::Buffer>(device, gpu::BufferDesc{.name = "frame_timer.ticks",
+                                                                  .sizeBytes = kTimestamps * sizeof(uint64_t),
+                                                                  .hostVisible = true});
         ring.tags.reserve(kMaxPasses);
     }
 }
@@ -29,11 +34,12 @@ FrameTimer::~FrameTimer() {
 }
 
 std::span<const uint64_t> FrameTimer::ticksOf(const Ring& ring) {
-    return {reinterpret_cast<const uint64_t*>(ring.ticks->mapped()), 2 * ring.tags.size()};
+    const auto* ticks = reinterpret_cast<const uint64_t*>(ring.ticks->mapped());
+    return {ticks, ring.tags.empty() ? 0 : ring.tags.size() + 1};
 }
 
 void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
-    vkCmdResetQueryPool(commands, ring.pool, 0, 2 * kMaxPasses);
+    vkCmdResetQueryPool(commands, ring.pool, 0, kTimestamps);
     ring.tags.clear();
     active_ = next_;
     next_ = (next_ + 1) % rings_.size();
@@ -56,19 +62,19 @@ void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {
     Ring& ring = rings_[active_];
     open_ = periodNs_ != 0 && ring.tags.size() < kMaxPasses;
     if (!open_) return;
-    stamp(commands, 2 * uint32_t(ring.tags.size()));
+    if (ring.tags.empty()) stamp(commands, 0);
     ring.tags.push_back(tag);
 }
 
 void FrameTimer::end(VkCommandBuffer commands) {
     if (!std::exchange(open_, false)) return;
-    stamp(commands, 2 * uint32_t(rings_[active_].tags.size()) - 1);
+    stamp(commands, uint32_t(rings_[active_].tags.size()));
 }
 
 void FrameTimer::endFrame(VkCommandBuffer commands) {
     const Ring& ring = rings_[active_];
     if (ring.tags.empty()) return;
-    vkCmdCopyQueryPoolResults(commands, ring.pool, 0, 2 * uint32_t(ring.tags.size()), ring.ticks->handle(), 0,
+    vkCmdCopyQueryPoolResults(commands, ring.pool, 0, uint32_t(ring.tags.size()) + 1, ring.ticks->handle(), 0,
                               sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                   .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,

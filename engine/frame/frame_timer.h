@@ -1,7 +1,8 @@
-// GPU time of passes by timestamps, read a few frames later without stalling. A full barrier stands on both
-// sides of each timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is
-// taken. The device copies them to where the host reads them: asking it for query results waits on lavapipe
-// for all its work.
+// GPU time of passes by timestamps, read a few frames later without stalling. A pass begins where the one
+// before it ended, so that its own barriers count as its own. A full barrier stands on both sides of each
+// timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is taken. The
+// device copies them to where the host reads them: asking it for query results waits on lavapipe for all its
+// work.
 #pragma once
 
 #include <volk.h>
@@ -37,8 +38,8 @@ class FrameTimer {
         Ring& ring = rings_[next_];
         const std::span<const uint64_t> ticks = ticksOf(ring);
         const uint64_t read = ticks.empty() ? 0 : ring.frame;
-        for (size_t i = 0; i < ticks.size(); i += 2)
-            result(ring.tags[i / 2], ticks[i], ticks[i + 1]);
+        for (size_t i = 0; i < ring.tags.size(); ++i)
+            result(ring.tags[i], ticks[i], ticks[i + 1]);
         restart(commands, ring);
         ring.frame = frame;
         return read;
@@ -51,7 +52,7 @@ class FrameTimer {
   private:
     struct Ring {
         VkQueryPool pool = VK_NULL_HANDLE;
-        std::unique_ptr<gpu::Buffer> ticks;  // first and last of each pass
+        std::unique_ptr<gpu::Buffer> ticks;  // the first pass's begin, then each one's end
         std::vector<uint32_t> tags;
         uint64_t frame = 0;
     };
