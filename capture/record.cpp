@@ -126,12 +126,12 @@ void FrameRecorder::takeReadBack(FrameGraph& graph, const gi::GiFrame& declared)
                                        return val.flux.x + val.flux.y + val.flux.z > 0;
                                    }))});
     if (maps.empty()) return;
-    const bool all = ran(*frame, "ism_atlas.splat_moving");
-    const uint64_t anew = countRows<io::IsmMapState>(
-        maps, [](const io::IsmMapState& map) { return map.pointCount > 0 && map.kept == 0; });
-    frame->counters.push_back({"shadow map tiles splatted", all ? double(declared.isms.mapCount)
-                                                            : ran(*frame, "ism_atlas.splat") ? double(anew)
-                                                                                             : 0.0});
+    double splatted = 0;
+    if (ran(*frame, "ism_atlas.splat"))
+        splatted = double(countRows<io::IsmMapState>(
+            maps, [](const io::IsmMapState& map) { return map.pointCount > 0 && map.kept == 0; }));
+    if (ran(*frame, "ism_atlas.splat_moving")) splatted = double(declared.isms.mapCount);  // over the others
+    frame->counters.push_back({"shadow map tiles splatted", splatted});
 }
 
 // Ticks for now: they go to the host's clock when both ends are known.

@@ -89,7 +89,7 @@ function choose(index) {
   const from = Math.min(...all.map(b => b.begin)), to = Math.max(...all.map(b => b.end));
   const ran = f.bars.filter(b => b.kind === 'gpu' && b.end !== null);
   $('which').textContent = `frame ${f.number}${f.forced ? ' (warm-up, nothing skipped)' : ''}: GPU ` +
-    `${f.ms.toFixed(3)} ms in ${ran.length} passes; the bars span ${(to - from).toFixed(3)} ms`;
+    `${f.ms.toFixed(3)} ms in ${ran.length} passes; ${(to - from).toFixed(3)} ms from the first of its steps to the last`;
   $('counters').textContent = f.counters.map(c => `${c.name} ${brief(c.value)}`).join(', ');
   showDearest(f);
   const gantt = $('gantt'), lanes = new Map();

@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 namespace ag {
@@ -51,7 +50,7 @@ void drawColumns(const PassHistory& history, ImVec2 at, double top, double budge
     list.AddText(corner, IM_COL32(255, 140, 110, 255), text);
 }
 
-// The techniques by what they usually cost; those of no account together.
+// The techniques that usually cost most, with their colours.
 void legend(const PassHistory& history) {
     std::vector<double> ms(history.techniques().size());
     for (size_t t = 0; t < ms.size(); ++t)
