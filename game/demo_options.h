@@ -22,7 +22,9 @@ struct DemoOptions {
     glm::uvec2 size{640, 360};
     std::vector<std::string> assignments;
     std::string quality, userFolder;
-    bool resume = false;  // --continue
+    bool resume = false;          // --continue
+    uint32_t captureFrames = 16;  // that F10 records
+    bool renderDoc = false;
     bool serial = false;
     bool validate = false;
 };

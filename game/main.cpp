@@ -1,5 +1,6 @@
 // The demo: a dark gallery, a lamp in your hand, and flowers that open in light that has bounced. Esc is the
-// menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world.
+// menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world, F9 the
+// profiler; F10 captures frames.
 #include <CLI/CLI.hpp>
 
 #include "engine/core/log.h"
@@ -39,6 +40,10 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_option("--set", o.assignments, "group.name=value")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    program.add_option("--capture-frames", o.captureFrames, "how many frames F10 captures")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    program.add_flag("--renderdoc", o.renderDoc, "load RenderDoc, so that F10 leaves frame.rdc, too");
     program.add_flag("--serial", o.serial, "one thread, systems in order");
     program.add_flag("--validate", o.validate, "with Vulkan validation; any message exits with 1");
 }

@@ -16,6 +16,7 @@
 #include "engine/core/safe_file.h"
 #include "engine/scene/describe_components.h"
 #include "game/demo_options.h"
+#include "game/frame_capture.h"
 #include "game/hud.h"
 #include "game/menu.h"
 #include "game/present.h"
@@ -38,7 +39,7 @@ constexpr std::array<gi::Layer, 9> kKeyLayers = {
 
 class WindowedRun {
   public:
-    WindowedRun(Demo& demo, Window& window, gpu::Device& device)
+    WindowedRun(Demo& demo, Window& window, gpu::Device& device, gpu::RenderDoc renderDoc)
         : demo_(demo),
           window_(window),
           device_(device),
@@ -46,7 +47,8 @@ class WindowedRun {
           renderer_(device),
           ui_(window.handle()),
           imgui_(device, renderer_.pipelines()),
-          auto_(device.info().isCpu) {
+          auto_(device.info().isCpu),
+          capture_(renderer_, renderDoc) {
         renderer_.load(demo.game->level().geometry);
         describeSceneComponents();
         menu_.hasSave = fileExists(demo.files.save());
@@ -109,6 +111,8 @@ class WindowedRun {
         if (key == GLFW_KEY_F2) panels_.showPasses = !panels_.showPasses;
         if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
         if (key == GLFW_KEY_F4) panels_.showWorld = !panels_.showWorld;
+        if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
+        if (key == GLFW_KEY_F10) capture_.start(demo_);
         if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey) {
             const gi::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
@@ -206,6 +210,7 @@ class WindowedRun {
             input.look =
                 std::exchange(turned_, glm::vec2(0));  // mouse movement counts once, and is never lost
             demo_.game->tick(nextInput(demo_, ticks_++, input));
+            capture_.noteSystems(demo_.game->tickSchedule());
         }
         sinceSave_ += elapsed;
         const uint32_t solved = demo_.game->progress().roomsSolved;
@@ -239,14 +244,16 @@ class WindowedRun {
         if (!image) return false;
         const glm::uvec2 size = renderSize();
         demo_.game->frame(size, menu_.open ? 1.0f : float(behind_ / kTick));
+        capture_.noteSystems(demo_.game->frameSchedule());
         drawUi();
         renderer_.render(
-            demo_.game->scene(), size, demo_.gi, demo_.graph,
+            demo_.game->scene(), size, demo_.gi, capture_.options(demo_.graph),
             [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
                 shown_ = demo_.layer
                              ? gi::addLayerView(graph, view, frame, *demo_.layer, size, demo_.gi.composite)
                              : frame.outputs.display;
                 graph.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                capture_.declare(graph, frame);
             },
             [&](VkCommandBuffer commands) {
                 presentImage(commands, renderer_.graph().physical(shown_), *image, swapchain_.size(), [&] {
@@ -257,12 +264,15 @@ class WindowedRun {
             {image->acquired, image->rendered});
         demo_.game->takeReadings(renderer_.probeReadings());
         swapchain_.present(*image);
+        capture_.note(demo_, size);
         return true;
     }
     void drawUi() {
         MenuEvent event = MenuEvent::kNone;
         const RenderScene& scene = demo_.game->scene();
+        const std::string captured = capture_.message();
         ui_.build(panels_, demo_.settings, renderer_.graph(), demo_.game->world(), statusLine(), [&] {
+            drawMessage(captured);
             if (!menu_.open)
                 drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
                         glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
@@ -300,6 +310,7 @@ class WindowedRun {
     DebugUi ui_;
     ImGuiPass imgui_;
     AutoQuality auto_;
+    FrameCapture capture_;
     DebugUiState panels_;
     Menu menu_;
     MenuEvent chosen_ = MenuEvent::kNone;
@@ -318,9 +329,11 @@ int runWindowed(Demo& demo) {
     if (const Status folder = openFolder(demo.files); !folder) return refuse(folder.error().message);
     auto window = Window::open("Afterglow", demo.options.size);
     if (!window) return refuse(window.error().message + "; try --headless");
+    const auto renderDoc = gpu::RenderDoc::open(demo.options.renderDoc);
+    if (!renderDoc) return refuse(renderDoc.error().message);
     auto device = gpu::Device::create({.validation = demo.options.validate, .window = (*window)->handle()});
     if (!device) return refuse(device.error().message);
-    int exitCode = WindowedRun(demo, **window, **device).loop();
+    int exitCode = WindowedRun(demo, **window, **device, *renderDoc).loop();
     const int messages = (*device)->validationMessageCount();
     device->reset();  // before the window whose surface it holds
     return exitCode == 0 && messages > 0 ? 1 : exitCode;

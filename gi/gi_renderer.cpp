@@ -1,9 +1,19 @@
 #include "gi/gi_renderer.h"
 
+#include <chrono>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
 namespace ag::gi {
+namespace {
+
+uint64_t steadyNs() {
+    return uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                        std::chrono::steady_clock::now().time_since_epoch())
+                        .count());
+}
+
+}  // namespace
 
 GiRenderer::GiRenderer(gpu::Device& device)
     : device_(device), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
@@ -12,11 +22,13 @@ GiRenderer::GiRenderer(gpu::Device& device)
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                            .queueFamilyIndex = device.queueFamily()};
         AG_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
+        device.setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame");
         const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = slot.pool,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                .commandBufferCount = 1};
         AG_VK(vkAllocateCommandBuffers(device.handle(), &info, &slot.commands));
+        device.setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, "frame");
     }
 }
 
@@ -41,9 +53,11 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
                         FrameSemaphores semaphores) {
     const uint32_t index = uint32_t(frame_++ % kFramesInFlight);
     Slot& slot = slots_[index];
+    moments_.begin = steadyNs();
     device_.waitFor(slot.submitted);
     AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
 
+    moments_.waited = steadyNs();
     graph_.beginFrame(options);
     scene_.beginFrame(scene);
     const SceneView view = scene_.import(graph_, scene, size);
@@ -51,6 +65,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     asked.ismAtlas.keepMaps = settings.ismAtlas.keepMaps && options.skip;
     const GiFrame frame = addGlobalIllumination(graph_, view, asked, history_);
     finish(graph_, view, frame);
+    moments_.declared = steadyNs();
 
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
@@ -68,7 +83,9 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     }
     present(slot.commands);
     AG_VK(vkEndCommandBuffer(slot.commands));
+    moments_.recorded = steadyNs();
     slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
+    moments_.submitted = steadyNs();
 }
 
 Image readImage(GiRenderer& renderer, ImageHandle handle) {

@@ -16,6 +16,15 @@ struct FrameSemaphores {
     VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
 
+// When the CPU did what for a frame, on std::chrono::steady_clock, ns.
+struct FrameMoments {
+    uint64_t begin = 0;      // then it waits for the device to be done with the frame before last
+    uint64_t waited = 0;     // then it declares the passes
+    uint64_t declared = 0;   // then it plans and records them
+    uint64_t recorded = 0;   // then it submits them
+    uint64_t submitted = 0;  // (a software device may have run some of them by now)
+};
+
 class GiRenderer {
   public:
     explicit GiRenderer(gpu::Device& device);
@@ -45,6 +54,7 @@ class GiRenderer {
     SceneGpu& scene() { return scene_; }
     gpu::Device& device() { return device_; }
     gpu::PipelineLibrary& pipelines() { return pipelines_; }
+    const FrameMoments& moments() const { return moments_; }  // of the frame last rendered
     uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
 
   private:
@@ -60,6 +70,7 @@ class GiRenderer {
     GiHistory history_;
     std::array<Slot, kFramesInFlight> slots_;
     uint64_t frame_ = 0;
+    FrameMoments moments_;
 };
 
 // Renders `frames` frames of a still scene and reads back a layer (black where the frame has none).

@@ -90,14 +90,16 @@ DebugUi::~DebugUi() {
     ImGui::DestroyContext();
 }
 
-void DebugUi::build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
-                    const World& world, const std::string& status, FunctionRef<void()> game) {
+void DebugUi::build(DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
+                    const std::string& status, FunctionRef<void()> game) {
+    history_.add(graph.spans(), double(state.profilerBudgetMs));
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     game();
     if (state.showStatus) statusPanel(status);
     if (state.showSettings) settingsPanel(settings);
     if (state.showPasses) passPanel(graph);
+    if (state.showProfiler) drawProfiler(history_, state.profilerBudgetMs);
     if (state.showWorld) inspector_.build(world);
     ImGui::Render();
 }

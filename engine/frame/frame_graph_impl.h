@@ -132,6 +132,7 @@ struct Pass {
 
 struct PassStats {
     uint64_t nameHash = 0;
+    std::string_view name;
     double gpuMs = 0, cpuMs = 0;
     uint64_t runCount = 0;
     uint64_t checkedPipeline = 0;  // bindings were checked against it
@@ -152,6 +153,8 @@ struct FrameGraph::Impl {
     std::vector<std::byte> data;
     std::vector<PassReport> report;
     std::vector<PassRecord> records;
+    std::vector<PassSpan> spans;  // of frame `spansFrame`
+    uint64_t spansFrame = 0;
     std::vector<uint64_t> stepKeys;  // scratch, by slot
     std::vector<Patch> patches;      // scratch
 
@@ -162,10 +165,12 @@ struct FrameGraph::Impl {
     std::unordered_map<uint64_t, uint32_t> statsOfName;
     std::vector<AliasBucket> buckets;
     bool bucketsStale = false;
+    bool placedAliased = true;  // options.alias when scratch was placed
     std::array<VkSampler, 4> samplers{};
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
     std::unique_ptr<FrameTimer> timer;
+    std::unique_ptr<PassCounter> counter;                // null where the device counts nothing
     VkCommandPool ownPool = VK_NULL_HANDLE;              // TimingMode::kProcessCpu
     std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
@@ -216,6 +221,9 @@ struct FrameGraph::Impl {
     void recordTransfer(VkCommandBuffer commands, const Pass& pass);
     gpu::PipelineRequest requestFor(const Pass& pass, const RasterDraw* draw) const;
     void finishPass(const Pass& pass);
+    std::string_view whyNot(const Pass& pass) const;  // frame_description.cpp
+    void readTimes(VkCommandBuffer commands);
+    void repeatPass(VkCommandBuffer commands, const Pass& pass);
 
     std::span<Use> usesOf(const Pass& pass) { return {uses.data() + pass.firstUse, pass.useCount}; }
     std::span<const Use> usesOf(const Pass& pass) const {

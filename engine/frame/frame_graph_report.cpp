@@ -44,6 +44,16 @@ std::span<const PassRecord> FrameGraph::nullRecords() const {
     return impl_->records;
 }
 
+uint64_t FrameGraph::frame() const {
+    return impl_->frame;
+}
+std::vector<PassCount> FrameGraph::counts() const {
+    return impl_->counter ? impl_->counter->read() : std::vector<PassCount>{};
+}
+FrameSpans FrameGraph::spans() const {
+    return {impl_->spansFrame, impl_->spans, impl_->device ? impl_->device->info().timestampPeriodNs : 1.0};
+}
+
 uint64_t FrameGraph::transientBytes() const {
     uint64_t bytes = 0;
     for (const AliasBucket& bucket : impl_->buckets)
