@@ -34,9 +34,10 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
 }  // namespace
 
 RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
-              const LaterLight& later) {
+              const LaterLight& later, ClusterShares& shares) {
     RsmSet rsm;
-    const RsmLayout layout = layoutRsm(*scene.scene, settings, clusterBudget, later.side, later.share);
+    const RsmLayout layout =
+        layoutRsm(*scene.scene, settings, clusterBudget, shares, later.side, later.share);
     if (layout.mapCount == 0 || scene.scene->instances.empty()) return rsm;
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
     rsm.lightMapCount = layout.mapCount - (later.side > 0);

@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
     ag::workbench::addCompareCommand(program, exitCode);
     ag::workbench::addBenchCommand(program, exitCode);
     ag::workbench::addEcsBenchCommand(program, exitCode);
+    ag::workbench::addSkippingCommand(program, exitCode);
     ag::workbench::addSweepCommand(program, exitCode);
     try {
         program.parse(argc, argv);
