@@ -162,6 +162,11 @@ const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
     return view.draws;
 }
 
+void DrawLists::markAllDirty() {
+    for (View& view : views_)
+        view.dirty = true;
+}
+
 bool DrawLists::takeDirty(uint32_t view) {
     return std::exchange(views_[view].dirty, false);
 }

@@ -55,6 +55,7 @@ class DrawLists {
     uint32_t commandsPerView() const { return uint32_t(instanceBucket_.size()); }
     uint32_t viewCount() const { return uint32_t(views_.size()); }
     bool takeDirty(uint32_t view);  // true once after the view's commands changed
+    void markAllDirty();            // what was uploaded is gone
 
   private:
     struct View {

@@ -14,7 +14,7 @@
 namespace ag::test {
 namespace {
 
-constexpr uint32_t kEdits = 150, kSeed = 1, kRemembered = 12;
+constexpr uint32_t kEdits = 400, kSeed = 1, kRemembered = 12;
 
 uint32_t numberFrom(const char* variable, uint32_t usual) {
     const char* text = std::getenv(variable);
@@ -89,6 +89,7 @@ TEST(RandomEdits, SkippingShowsInNoBit) {
     for (uint32_t i = 0; i < edits; ++i) {
         before.push_back(world.step());
         if (before.size() > kRemembered) before.pop_front();
+        if (edits > kEdits && i % 100 == 0) std::printf("edit %u of %u\n", i, edits), std::fflush(stdout);
         skipping.frame(world);
         whole.frame(world);
         if (skipping.pictures() == whole.pictures() && probesAgree(world, skipping, whole)) continue;
