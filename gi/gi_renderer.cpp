@@ -5,8 +5,8 @@
 
 namespace ag::gi {
 
-GiRenderer::GiRenderer(gpu::Device& device)
-    : device_(device), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
+GiRenderer::GiRenderer(gpu::Device& device, uint32_t threads)
+    : device_(device), jobs_(threads), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
     for (Slot& slot : slots_) {
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
@@ -45,7 +45,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
 
     graph_.beginFrame(options);
-    scene_.beginFrame(scene);
+    scene_.beginFrame(scene, jobs_);
     const SceneView view = scene_.import(graph_, scene, size);
     GiSettings asked = settings;
     asked.ismAtlas.keepMaps = settings.ismAtlas.keepMaps && options.skip;
@@ -69,6 +69,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     present(slot.commands);
     AG_VK(vkEndCommandBuffer(slot.commands));
     slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
+    if (jobs_.threadCount() == 1) device_.waitFor(slot.submitted);
 }
 
 Image readImage(GiRenderer& renderer, ImageHandle handle) {

@@ -22,6 +22,10 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
     pass.colorClear(rsm.normal, glm::vec4(0)).colorClear(rsm.albedo, glm::vec4(0)).depthClear(rsm.depth);
     pass.geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
+    std::array<ViewRequest, io::kMaxRsmFaces> views;
+    for (uint32_t f = 0; f < rsm.lightFaceCount; ++f)
+        views[f] = {scene.viewsClaimed + f, rsm.faceInfo[f].clipFromWorld};
+    scene.draws->cullAll(*scene.scene, {views.data(), rsm.lightFaceCount});
     for (uint32_t f = 0; f < rsm.lightFaceCount; ++f) {
         const io::RsmFace& face = rsm.faceInfo[f];
         const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), face.clipFromWorld);
