@@ -7,9 +7,11 @@
 #include <cstring>
 #include <deque>
 
+#include "engine/scene/static_scene.h"
 #include "gi/gi_renderer.h"
 #include "tests/edits/edited_world.h"
 #include "tests/support/device_environment.h"
+#include "tools/scenegen/scenes.h"
 
 namespace ag::test {
 namespace {
@@ -101,6 +103,25 @@ TEST(RandomEdits, SkippingShowsInNoBit) {
     EXPECT_LT(skipping.ran, whole.ran * 3 / 4) << "there must have been something to skip";
     std::printf("%u edits, seed %u: %llu passes ran, %llu without skipping\n", edits, seed,
                 static_cast<unsigned long long>(skipping.ran), static_cast<unsigned long long>(whole.ran));
+}
+
+// Enough things that views are culled as jobs.
+TEST(Serial, RendersTheSameImages) {
+    const SceneAsset asset = *scenegen::buildScene("crowd", 3000);
+    RenderScene scene = staticScene(asset);
+    const glm::uvec2 size(64, 36);
+    setCamera(scene, cameraOf(asset, 0), size);
+    gi::GiRenderer serial(device(), 1), parallel(device(), 0);
+    for (int i = 0; i < 3; ++i) {
+        scene.instances[size_t(i) * 100].worldFromLocal[3].y += 0.5f;
+        ++scene.instancesVersion;
+        std::vector<std::vector<glm::vec3>> images;
+        for (gi::GiRenderer* renderer : {&serial, &parallel}) {
+            if (i == 0) renderer->load(asset.geometry);
+            images.push_back(renderLayer(*renderer, scene, size, {}, gi::Layer::kRadiance, 1).pixels);
+        }
+        EXPECT_EQ(images[0], images[1]) << "frame " << i;
+    }
 }
 
 }  // namespace

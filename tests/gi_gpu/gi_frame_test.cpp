@@ -612,7 +612,7 @@ TEST(Frame, AThingOutOfSightLeavesViewAndLightMapsAlone) {
     ASSERT_EQ(techniquesRun(*b), Ran{});
     moveLast(*b, {0, 0.05f, 0});
     const Ran ran = techniquesRun(*b);
-    for (const char* step : {"gbuffer", "rsm", "importance", "val_clustering", "val_fit", "lamp_shadows"})
+    for (const char* step : {"gbuffer", "rsm", "importance", "val_clustering", "val_fit"})
         EXPECT_FALSE(ran.contains(step)) << step;
     for (const char* step : {"surface_points", "ism_atlas", "val_shading"})
         EXPECT_TRUE(ran.contains(step)) << step;
@@ -632,51 +632,24 @@ TEST(Frame, LightsThatGoOutStopAllThatIsAboutThem) {
 }
 
 TEST(Frame, AFlickeringLampLeavesTheOthersClustersAlone) {
-    const auto leastAge = [](Bench& b) {  // of the steady light's clusters
-        float age = 1e9f;
+    const auto oldClusters = [](bool flickers) {  // of the other lamp, after two dozen frames
+        Bench b(*scenegen::buildScene("hall", 0), {64, 40});
+        b.settings.valClustering.adaptive = false;
+        const glm::vec3 bright = b.scene.lights[0].intensity;
+        for (int i = 0; i < 24; ++i) {
+            const float flame = i % 5 == 3 ? 0.0f : i % 2 ? 0.8f : 1.2f;
+            b.scene.lights[0].intensity = bright * (flickers ? flame : 1);
+            ++b.scene.lightsVersion;
+            b.frame();
+        }
+        int count = 0;
         for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters))
-            if (c.texelCount > 0 && c.lightIdLow == uint32_t(b.scene.lights[1].id))
-                age = std::min(age, c.age);
-        return age;
+            count += c.texelCount > 0 && c.lightIdLow == uint32_t(b.scene.lights[1].id) && c.age >= 12;
+        return count;
     };
-    Bench b(*scenegen::buildScene("hall", 0));
-    b.settings.valClustering.adaptive = false;
-    const glm::vec3 bright = b.scene.lights[0].intensity;
-    float steady = 0, flickering = 0;
-    for (int i = 0; i < 24; ++i) {
-        b.scene.lights[0].intensity = bright * (i % 5 == 4 ? 0.0f : i % 2 ? 0.8f : 1.2f);
-        ++b.scene.lightsVersion;
-        b.frame();
-        (i < 12 ? steady : flickering) = leastAge(b);
-    }
-    EXPECT_GE(flickering, steady + 12) << "none was seeded anew";
-}
-
-// More views than there was room for: those that did not change are uploaded again, too.
-TEST(Frame, LightsThatComeLeaveEveryViewItsDraws) {
-    const auto addLamp = [](Bench& b, uint64_t id) {
-        b.scene.lights.push_back({.kind = LightKind::kPoint,
-                                  .position = {float(id) - 4, 2, 0},
-                                  .intensity = glm::vec3(3),
-                                  .bounces = true,
-                                  .id = 100 + id});
-        ++b.scene.lightsVersion;
-    };
-    Bench grown(*scenegen::buildScene("hall", 0), {64, 40}),
-        fresh(*scenegen::buildScene("hall", 0), {64, 40});
-    grown.settings.firstBounce = fresh.settings.firstBounce = FirstBounce::kNone;
-    grown.frame();
-    for (uint64_t id = 0; id < 6; ++id) {
-        addLamp(grown, id);
-        addLamp(fresh, id);
-        grown.frame();
-    }
-    grown.options.skip = false;  // all views are drawn, by the commands uploaded before and after
-    grown.frame();
-    for (int i = 0; i < 8; ++i)  // as many frames, for what is known of the lamps
-        fresh.frame();
-    EXPECT_EQ(readImage(grown.renderer, grown.last.outputs.radiance).pixels,
-              readImage(fresh.renderer, fresh.last.outputs.radiance).pixels);
+    const int steady = oldClusters(false);
+    EXPECT_GT(steady, 16);
+    EXPECT_GE(oldClusters(true), steady * 9 / 10) << "hardly any was seeded anew";
 }
 
 TEST(Frame, WithoutLightThereIsNoGlobalIllumination) {

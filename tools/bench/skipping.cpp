@@ -211,31 +211,29 @@ SceneCosts measureChanges(gpu::Device& device, SceneAsset& asset, RenderScene sc
 }
 
 std::string changesToSvg(const std::vector<SceneCosts>& scenes, std::string_view device) {
-    constexpr double kWidth = 760, kLeft = 240, kRight = 60, kBar = 14, kRow = 40, kTop = 84, kTitle = 26;
-    const double panel = kTitle + kRow * double(Change::kCount) + 16;
+    constexpr double kWidth = 760, kLeft = 240, kRight = 120, kBar = 16, kRow = 26, kTop = 72, kTitle = 26;
+    const double panel = kTitle + kRow * double(Change::kCount) + 16, width = kWidth - kLeft - kRight;
     std::string out = svgBegin(kWidth, kTop + panel * double(scenes.size()));
     out += svgText(16, 26, "start", 18, "Work against change");
-    out += svgText(16, 46, "start", 12, fmt::format("{}; each frame's passes beside all of them", device),
-                   "#666");
-    out += svgText(16, 62, "start", 12, "blue: GPU time by timestamps; gray: process CPU time", "#666");
-    const double width = kWidth - kLeft - kRight;
+    out +=
+        svgText(16, 46, "start", 12,
+                fmt::format("{}; process CPU time of a frame's passes beside all of them", device), "#666");
     for (size_t s = 0; s < scenes.size(); ++s) {
         const SceneCosts& scene = scenes[s];
+        const double whole = scene.of(Change::kEverything).cpuMs;
         double y = kTop + panel * double(s);
         out += svgText(16, y + 14, "start", 15,
                        fmt::format("{}, {}x{}: what changes", scene.scene, scene.size.x, scene.size.y));
         y += kTitle;
         for (size_t i = 0; i < scene.changes.size(); ++i, y += kRow) {
-            const ChangeCost &cost = scene.changes[i], &whole = scene.of(Change::kEverything);
-            out += svgText(kLeft - 8, y + kBar + 4, "end", 12, kNames[i]);
-            const auto bar = [&](double top, double part, double ms, std::string_view color) {
-                out += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='{}'/>\n",
-                                   kLeft, top, std::max(width * std::min(part, 1.2), 1.0), kBar, color);
-                out += svgText(kLeft + width * std::min(part, 1.2) + 4, top + kBar - 3, "start", 11,
-                               fmt::format("{:.0f} % ({:.1f} ms)", 100 * part, ms));
-            };
-            bar(y, share(cost.gpuMs, whole.gpuMs), cost.gpuMs, "#2e6f95");
-            bar(y + kBar + 1, share(cost.cpuMs, whole.cpuMs), cost.cpuMs, "#9a9a9a");
+            const double ms = scene.changes[i].cpuMs, part = share(ms, whole);
+            const double length = std::max(width * std::min(part, 1.1), 1.0);
+            out += svgText(kLeft - 8, y + kBar - 4, "end", 12, kNames[i]);
+            out +=
+                fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.1f}' height='{:.1f}' fill='#2e6f95'/>\n",
+                            kLeft, y, length, kBar);
+            out += svgText(kLeft + length + 5, y + kBar - 4, "start", 11,
+                           fmt::format("{:.0f} % ({:.0f} ms)", 100 * part, ms));
         }
     }
     return out + "</svg>\n";
