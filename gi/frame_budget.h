@@ -16,8 +16,7 @@
 
 namespace ag::gi {
 
-// A step of quality: our preset with these knobs. Measured by `afterglow bench --techniques steps`
-// (docs/skipping.md).
+// A step of quality: our preset with these knobs.
 struct QualityStep {
     std::string name;
     float scale = 1;             // of a window's sides that is rendered
