@@ -43,9 +43,12 @@ void settingsPanel(Settings& settings) {
 
 void passPanel(const FrameGraph& graph) {
     static constexpr const char* kOutcomes[] = {"ran", "skipped", "dropped"};
+    ImGui::SetNextWindowSize({700, 480}, ImGuiCond_FirstUseEver);
     ImGui::Begin("Passes");
     const auto text = [](std::string_view t) { ImGui::TextUnformatted(t.data(), t.data() + t.size()); };
-    if (ImGui::BeginTable("passes", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable)) {
+    if (ImGui::BeginTable(
+            "passes", 5,
+            ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingFixedFit)) {
         ImGui::TableSetupColumn("pass");
         ImGui::TableSetupColumn("ms");
         ImGui::TableSetupColumn("");
