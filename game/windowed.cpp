@@ -30,7 +30,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kTick = 1.0 / 60;            // s
 constexpr int kMostTicksPerFrame = 12;        // a slower frame slows the world rather than piling up
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
-constexpr double kSaveSeconds = 60;           // between saves without an occasion
+constexpr double kCpuBudgetMs = 80, kGpuBudgetMs = 13;  // of a frame's passes, where none is given
+constexpr double kSaveSeconds = 60;                     // between saves without an occasion
 
 // Keys 1 to 9.
 constexpr std::array<gi::Layer, 9> kKeyLayers = {
@@ -44,10 +45,13 @@ class WindowedRun {
           window_(window),
           device_(device),
           swapchain_(device, window.framebufferSize()),
-          renderer_(device),
+          renderer_(device, demo.options.serial ? 1 : 0),
           ui_(window.handle()),
           imgui_(device, renderer_.pipelines()),
-          auto_(device.info().isCpu),
+          budget_(demo.options.budgetMs > 0 ? demo.options.budgetMs
+                  : device.info().isCpu     ? kCpuBudgetMs
+                                            : kGpuBudgetMs,
+                  0),
           capture_(renderer_, renderDoc) {
         renderer_.load(demo.game->level().geometry);
         describeSceneComponents();
@@ -68,7 +72,7 @@ class WindowedRun {
             frameMs_ += (elapsed * 1e3 - frameMs_) * 0.05;
             advance(elapsed);
             if (show())
-                adapt(elapsed);
+                adapt();
             else
                 std::this_thread::sleep_for(std::chrono::milliseconds(20));
             if (demo_.options.frames && frame + 1 >= demo_.options.frames) break;
@@ -225,15 +229,15 @@ class WindowedRun {
 
     // --- The picture ---
     void usePlayerSettings() {
-        const bool automatic = demo_.user.quality == Quality::kAutomatic;
-        const Rung rung = automatic ? auto_.current() : rungOf(demo_.user.quality);
-        scale_ = rung.scale;
-        useQuality(demo_, rung.preset);
+        scale_ = automatic() ? quality().scale : renderScale(demo_.user.quality);
+        useQuality(demo_, demo_.user.quality, quality());
         demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
     }
-    void adapt(double elapsed) {
-        if (demo_.user.quality == Quality::kAutomatic && !menu_.open && auto_.step(elapsed * 1e3))
-            usePlayerSettings();
+    bool automatic() const { return demo_.user.quality == Quality::kAutomatic; }
+    const gi::QualityStep& quality() const { return gi::qualitySteps()[budget_.step()]; }
+    void adapt() {
+        const double cost = cost_.add(renderer_.graph().report());
+        if (automatic() && !menu_.open && budget_.frame(cost)) usePlayerSettings();
     }
     glm::uvec2 renderSize() const {
         return glm::max(glm::uvec2(glm::vec2(window_.framebufferSize()) * scale_), glm::uvec2(16));
@@ -292,8 +296,8 @@ class WindowedRun {
         const glm::dvec3 at = demo_.game->player().position;
         return fmt::format("{:.1f} ms  {:.1f}/s  {}x{} {}  at {:.2f} {:.2f}{}", frameMs_,
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y,
-                           qualityName(demo_.user.quality == Quality::kAutomatic ? auto_.current().preset
-                                                                                 : demo_.user.quality),
+                           automatic() ? fmt::format("auto ({})", quality().name)
+                                       : std::string(qualityName(demo_.user.quality)),
                            at.x, at.z, demo_.layer ? fmt::format("\n{}", gi::layerName(*demo_.layer)) : "");
     }
     int saveScreenshot() {
@@ -309,7 +313,8 @@ class WindowedRun {
     gi::GiRenderer renderer_;
     DebugUi ui_;
     ImGuiPass imgui_;
-    AutoQuality auto_;
+    gi::BudgetController budget_;
+    gi::FrameCost cost_;
     FrameCapture capture_;
     DebugUiState panels_;
     Menu menu_;

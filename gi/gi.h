@@ -16,6 +16,7 @@ namespace ag::gi {
 
 // State that outlives a frame; one per view of the scene.
 struct GiHistory {
+    ClusterShares clusterShares;
     ValClusteringHistory valClustering;
     Settling stochasticRsm;
     Settling laterBounces;

@@ -17,7 +17,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     // First bounce: where light lands, as few lights
     if (s.firstBounce == FirstBounce::kAreaLights)
         f.laterLight = addLaterLight(graph, scene, s.laterBounces, h.laterBounces);  // of the frame before
-    f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count, f.laterLight);
+    f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count, f.laterLight, h.clusterShares);
     f.importance = addImportance(graph, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
                                   h.valClustering);

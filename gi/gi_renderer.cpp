@@ -15,8 +15,8 @@ uint64_t steadyNs() {
 
 }  // namespace
 
-GiRenderer::GiRenderer(gpu::Device& device)
-    : device_(device), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
+GiRenderer::GiRenderer(gpu::Device& device, uint32_t threads)
+    : device_(device), jobs_(threads), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
     for (Slot& slot : slots_) {
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
@@ -59,7 +59,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
 
     moments_.waited = steadyNs();
     graph_.beginFrame(options);
-    scene_.beginFrame(scene);
+    scene_.beginFrame(scene, jobs_);
     const SceneView view = scene_.import(graph_, scene, size);
     GiSettings asked = settings;
     asked.ismAtlas.keepMaps = settings.ismAtlas.keepMaps && options.skip;
@@ -86,6 +86,7 @@ void GiRenderer::render(const RenderScene& scene, glm::uvec2 size, const GiSetti
     moments_.recorded = steadyNs();
     slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
     moments_.submitted = steadyNs();
+    if (jobs_.threadCount() == 1) device_.waitFor(slot.submitted);
 }
 
 Image readImage(GiRenderer& renderer, ImageHandle handle) {

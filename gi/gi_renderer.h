@@ -27,7 +27,9 @@ struct FrameMoments {
 
 class GiRenderer {
   public:
-    explicit GiRenderer(gpu::Device& device);
+    // `threads` 1: views are culled in order on the caller, and render() waits for the device; 0: as many as
+    // the machine has, while the device works on the frame before.
+    explicit GiRenderer(gpu::Device& device, uint32_t threads = 0);
     ~GiRenderer();
     GiRenderer(const GiRenderer&) = delete;
     GiRenderer& operator=(const GiRenderer&) = delete;
@@ -64,6 +66,7 @@ class GiRenderer {
         uint64_t submitted = 0;
     };
     gpu::Device& device_;
+    JobRunner jobs_;
     gpu::PipelineLibrary pipelines_;
     SceneGpu scene_;
     FrameGraph graph_;

@@ -163,7 +163,9 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
         std::max<uint64_t>(viewsNeeded(scene) * std::max<uint64_t>(scene.instances.size(), 1) *
                                sizeof(VkDrawIndexedIndirectCommand),
                            64);
+    const gpu::Buffer* commandsBefore = commands_.get();
     commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
+    if (commands_.get() != commandsBefore) draws_.markAllDirty();
 }
 
 // Points stay on their instances while these move; they are chosen anew when instances come or go.

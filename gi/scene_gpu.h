@@ -55,7 +55,7 @@ class SceneGpu {
     void load(const GeometryArrays& geometry);
 
     // Once a frame before the passes are declared: bounds, buckets.
-    void beginFrame(const RenderScene& scene) { draws_.beginFrame(scene); }
+    void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
     SceneView import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size);
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     void upload(VkCommandBuffer commands, const SceneView& view, uint32_t frameSlot);

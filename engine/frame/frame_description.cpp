@@ -7,10 +7,6 @@
 namespace ag {
 namespace {
 
-constexpr std::string_view kUnchanged = "what it reads is as it was when it last ran";
-constexpr std::string_view kNotAskedFor = "those that read it are skipped";
-constexpr std::string_view kUnread = "nobody reads what it writes";
-
 ResourceRole roleOf(const Resource& r, const std::vector<Slot>& slots) {
     if (r.kind == ResourceKind::kImport) return ResourceRole::kImport;
     if (r.kind == ResourceKind::kHistoryPrevious) return ResourceRole::kPrevious;
@@ -71,19 +67,6 @@ std::string_view outcomeName(PassOutcome outcome) {
     return kNames[size_t(outcome)];
 }
 
-// A skipped pass either has what it would make already, or makes something of which only others that were
-// skipped would take notice (scratch, whose memory may hold another image by now).
-std::string_view FrameGraph::Impl::whyNot(const Pass& pass) const {
-    if (pass.runs) return {};
-    if (!pass.wanted) return kUnread;
-    const bool current = std::ranges::all_of(usesOf(pass), [&](const Use& use) {
-        if (!writes(use.kind)) return true;
-        const Resource& r = resources[use.resource];
-        return slots[r.slot].halves[r.half].version == r.version;
-    });
-    return current ? kUnchanged : kNotAskedFor;
-}
-
 FrameDescription FrameGraph::describe() const {
     const Impl& g = *impl_;
     FrameDescription out{.frame = g.frame};
@@ -103,7 +86,7 @@ FrameDescription FrameGraph::describe() const {
         d.shader = pass.shader;
         d.uploads = pass.kind == PassKind::kUpload;
         d.outcome = g.report[p].outcome;
-        d.reason = g.whyNot(pass);
+        if (!pass.runs) d.reason = reasonText(g.report[p].reason);
         d.patches = g.report[p].patches;
         d.patchesDrawn = pass.runs ? g.report[p].patchesDrawn : 0;
         const auto note = [](std::vector<uint32_t>& list, uint32_t resource) {

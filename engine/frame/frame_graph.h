@@ -167,14 +167,30 @@ class PassBuilder {
 
 enum class PassOutcome : uint8_t { kRan, kSkipped, kDropped };
 
+// Why.
+enum class PassReason : uint8_t {
+    kFirst,       // ran: for the first time
+    kInput,       // ran: something it reads changed
+    kParameters,  // ran: its constants, draws, pipeline or step changed
+    kHistory,     // ran: it goes on from the frame before
+    kLost,        // ran: what it had made is needed and no longer in memory
+    kAll,         // ran: nothing is skipped
+    kUnchanged,   // skipped: what it would make is there, or only skipped passes would read it
+    kUnread,      // dropped: nothing that was asked for needs what it writes
+};
+
 struct PassReport {
     std::string_view name;
     PassOutcome outcome = PassOutcome::kDropped;
-    double gpuMs = 0;       // of the last frame whose timestamps arrived, 0 if it did not run then
-    double cpuMs = 0;       // process CPU time, only in TimingMode::kProcessCpu
-    uint64_t runCount = 0;  // since the graph was made
+    PassReason reason = PassReason::kUnread;
+    std::string_view changed;  // kInput, kHistory: the first such resource
+    double gpuMs = 0;          // of the last frame whose timestamps arrived, 0 if it did not run then
+    double cpuMs = 0;          // process CPU time, only in TimingMode::kProcessCpu
+    uint64_t runCount = 0;     // since the graph was made
     uint32_t patches = 0, patchesDrawn = 0;  // of a pass that draws patches, when it ran last
 };
+
+std::string_view reasonText(PassReason reason);
 
 // When a pass ran, in ticks of the device's clock (see gpu::Device::readClocks).
 struct PassSpan {

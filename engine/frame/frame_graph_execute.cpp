@@ -141,7 +141,12 @@ void FrameGraph::Impl::synchronizeOutputs(VkCommandBuffer commands) {
 }
 
 void FrameGraph::Impl::finishPass(const Pass& pass) {
-    ++stats[pass.stats].runCount;
+    PassStats& known = stats[pass.stats];
+    ++known.runCount;
+    known.ownKey = ownKey(pass);
+    known.inputVersions.clear();
+    for (const Use& use : usesOf(pass))
+        known.inputVersions.push_back(use.versionBefore);
     for (const Use& use : usesOf(pass))
         if (writes(use.kind))
             slots[resources[use.resource].slot].halves[resources[use.resource].half].version =
@@ -218,9 +223,7 @@ void FrameGraph::execute(VkCommandBuffer commands) {
     g.records.clear();
     for (const Pass& pass : g.passes) {
         PassStats& stats = g.stats[pass.stats];
-        const PassOutcome outcome = pass.runs     ? PassOutcome::kRan
-                                    : pass.wanted ? PassOutcome::kSkipped
-                                                  : PassOutcome::kDropped;
+        PassReport report = g.reportOf(pass);
         if (pass.runs) {
             PassRecord* record = g.device ? nullptr : &g.records.emplace_back(PassRecord{pass.name, {}});
             if (alone) {
@@ -241,8 +244,12 @@ void FrameGraph::execute(VkCommandBuffer commands) {
         } else {
             stats.gpuMs = stats.cpuMs = 0;
         }
-        g.report.push_back({pass.name, outcome, stats.gpuMs, stats.cpuMs, stats.runCount, stats.patches,
-                            stats.patchesDrawn});
+        report.gpuMs = stats.gpuMs;
+        report.cpuMs = stats.cpuMs;
+        report.runCount = stats.runCount;
+        report.patches = stats.patches;
+        report.patchesDrawn = stats.patchesDrawn;
+        g.report.push_back(report);
     }
     if (timed) g.timer->endFrame(commands);
     g.commitHistories();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "gi/frame_budget.h"
+
 namespace ag::bench {
 namespace {
 
@@ -49,6 +51,21 @@ std::vector<Variant> paraboloids() {
     variants.push_back({"32 clusters, 1024 lights", {"ssvp.clusters=32", "ssvp.second_count=1024"}});
     variants.push_back(
         {"the same, squares", {"ssvp.clusters=32", "ssvp.second_count=1024", "ssvp.disk=off"}});
+    return variants;
+}
+
+// What a budget chooses among.
+std::vector<Variant> qualityLadder() {
+    std::vector<Variant> variants;
+    for (const gi::QualityStep& s : gi::qualitySteps().subspan(gi::firstFullSizeStep()))
+        variants.push_back({s.name,
+                            {fmt::format("rsm.resolution={}", s.mapResolution),
+                             fmt::format("val_clustering.count={}", s.valCount),
+                             fmt::format("ism_atlas.tile_size={}", s.ismTile),
+                             fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
+                             fmt::format("val_shading.interleave={}", s.interleave),
+                             fmt::format("val_shading.near_reach={}", s.nearReach),
+                             fmt::format("val_shading.taps={}", s.taps)}});
     return variants;
 }
 
@@ -104,6 +121,11 @@ std::vector<Technique> makeTechniques() {
          .description = "ours, two bounces",
          .term = "all",
          .variants = twoBounces()},
+        {.name = "steps",
+         .preset = "afterglow",
+         .description = "ours, the steps of quality that --budget-ms chooses among",
+         .onlyByName = true,
+         .variants = qualityLadder()},
         {.name = "lights-reference",
          .description = "direct light of lamps, a shadow map each",
          .term = "direct",
@@ -120,6 +142,13 @@ std::vector<Technique> makeTechniques() {
 }
 
 }  // namespace
+
+Technique budgetTechnique(const std::vector<double>& budgetsMs) {
+    Technique budget{.name = "budget", .preset = "afterglow", .description = "ours within a time"};
+    for (const double ms : budgetsMs)
+        budget.variants.push_back({fmt::format("{:g} ms", ms), {}, ms});
+    return budget;
+}
 
 std::span<const Technique> techniques() {
     static const std::vector<Technique> all = makeTechniques();

@@ -14,6 +14,7 @@ void addCaptureCommand(CLI::App& program, int& exitCode);
 void addCompareCommand(CLI::App& program, int& exitCode);
 void addBenchCommand(CLI::App& program, int& exitCode);
 void addEcsBenchCommand(CLI::App& program, int& exitCode);
+void addSkippingCommand(CLI::App& program, int& exitCode);
 void addSweepCommand(CLI::App& program, int& exitCode);
 
 // One sentence to stderr; returns 2.

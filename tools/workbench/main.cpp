@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
     ag::workbench::addBenchCommand(program, exitCode);
     ag::workbench::addCaptureCommand(program, exitCode);
     ag::workbench::addEcsBenchCommand(program, exitCode);
+    ag::workbench::addSkippingCommand(program, exitCode);
     ag::workbench::addSweepCommand(program, exitCode);
     try {
         program.parse(argc, argv);
