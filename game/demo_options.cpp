@@ -33,8 +33,11 @@ Status loadLevel(Demo& demo) {
     return Ok{};
 }
 
-void useQuality(Demo& demo, Quality preset) {
-    applyQuality(preset, demo.gi);
+void useQuality(Demo& demo, Quality preset, const gi::QualityStep& step) {
+    const bool automatic = preset == Quality::kAutomatic;
+    const bool small = step.valCount <= gi::qualitySteps()[0].valCount;  // with what else low leaves out
+    applyQuality(!automatic ? preset : small ? Quality::kLow : Quality::kMedium, demo.gi);
+    if (automatic) gi::applyQualityStep(step, demo.gi);
     demo.gi.composite.exposure = demo.user.exposure;
     for (const std::string& assignment : demo.options.assignments)
         if (const Status set = demo.settings.set(assignment); !set) spdlog::warn("{}", set.error().message);

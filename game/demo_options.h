@@ -9,6 +9,7 @@
 #include "engine/scene/extract_system.h"
 #include "game/game.h"
 #include "game/user_files.h"
+#include "gi/frame_budget.h"
 #include "gi/gi_renderer.h"
 
 namespace ag::game {
@@ -22,6 +23,9 @@ struct DemoOptions {
     glm::uvec2 size{640, 360};
     std::vector<std::string> assignments;
     std::string quality, userFolder;
+    uint32_t captureFrames = 16;  // that F10 records
+    bool renderDoc = false;
+    double budgetMs = 0;  // of a frame's passes; 0: none was given
     bool resume = false;  // --continue
     bool serial = false;
     bool validate = false;
@@ -53,8 +57,8 @@ int refuse(const std::string& sentence);
 gpu::DeviceOptions deviceOptions(const Demo& demo, GLFWwindow* window);
 // The level anew, from its file.
 Status loadLevel(Demo& demo);
-// The preset's settings with what the command line set over them.
-void useQuality(Demo& demo, Quality preset);
+// The preset's settings, or the automatic step's, with what the command line set over them.
+void useQuality(Demo& demo, Quality preset, const gi::QualityStep& step);
 // The tick's input: from the replay while it lasts, else what is given; kept if a recording was asked for.
 Input nextInput(Demo& demo, uint64_t tick, const Input& given);
 // Saves the recording if one was asked for.

@@ -23,7 +23,11 @@ double milliseconds(Clock::duration d) {
 
 class HeadlessRun {
   public:
-    HeadlessRun(Demo& demo, gpu::Device& device) : demo_(demo), renderer_(device), device_(device) {
+    HeadlessRun(Demo& demo, gpu::Device& device)
+        : demo_(demo),
+          renderer_(device, demo.options.serial ? 1 : 0),
+          device_(device),
+          budget_(demo.options.budgetMs, gi::firstFullSizeStep()) {
         renderer_.load(demo.game->level().geometry);
         const uint32_t replay = uint32_t(demo.replay.size()), per = demo.options.ticksPerFrame;
         frames_ = demo.options.frames ? demo.options.frames : std::max((replay + per - 1) / per, 1u);
@@ -74,6 +78,12 @@ class HeadlessRun {
         }
         frameMs_.push_back(ms);
         passes_.add(renderer_.graph());
+        const double cost = cost_.add(renderer_.graph().report());
+        costMs_.push_back(cost);
+        if (demo_.options.budgetMs > 0 && budget_.frame(cost)) {
+            costMs_.clear();
+            useQuality(demo_, Quality::kAutomatic, gi::qualitySteps()[budget_.step()]);
+        }
     }
 
     std::string progressLine(uint32_t frame) const {
@@ -97,7 +107,16 @@ class HeadlessRun {
                    demo_.game->player().carried ? ", carrying a crate" : "", p.flowersOpen, p.flowers,
                    p.roomsSolved, p.rooms, p.won ? ", finished" : "", demo_.game->stateHash(),
                    double(renderer_.deviceBytes()) / 1048576.0, residentBefore_, residentMib()) +
-               passes_.text();
+               budgetLine() + passes_.text();
+    }
+
+    std::string budgetLine() const {
+        if (demo_.options.budgetMs <= 0) return "";
+        return fmt::format(
+            "budget {:.1f} ms: quality step {}, passes of a whole frame {:.1f} ms (median of the {} "
+            "frames since it was chosen)\n\n",
+            demo_.options.budgetMs, gi::qualitySteps()[budget_.step()].name, quantile(costMs_, 0.5),
+            costMs_.size());
     }
 
     int finish() {
@@ -119,9 +138,11 @@ class HeadlessRun {
     Demo& demo_;
     gi::GiRenderer renderer_;
     gpu::Device& device_;
+    gi::BudgetController budget_;
+    gi::FrameCost cost_;
     PassLog passes_;
     ContactSheet sheet_;
-    std::vector<double> frameMs_;
+    std::vector<double> frameMs_, costMs_;  // of all frames; of whole frames at this quality
     double firstMs_ = 0, residentBefore_ = 0;
     uint32_t frames_ = 1;
     ImageHandle shown_;

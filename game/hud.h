@@ -34,4 +34,7 @@ HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints);
 // Within an ImGui frame, over a picture of `size` pixels seen through `clipFromWorld` about `origin`.
 void drawHud(const HudState& hud, glm::vec2 size, const glm::mat4& clipFromWorld, glm::dvec3 origin);
 
+// A line at the top left, of the program rather than of the game; none if empty.
+void drawMessage(const std::string& text);
+
 }  // namespace ag::game

@@ -127,4 +127,8 @@ void drawHud(const HudState& hud, glm::vec2 size, const glm::mat4& clipFromWorld
     drawCentered(list, size.y - 6, size.x, hud.notice);
 }
 
+void drawMessage(const std::string& text) {
+    if (!text.empty()) drawText(*ImGui::GetForegroundDrawList(), {10, 26}, text.c_str());
+}
+
 }  // namespace ag::game

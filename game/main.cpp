@@ -1,5 +1,6 @@
 // The demo: a dark gallery, a lamp in your hand, and flowers that open in light that has bounced. Esc is the
-// menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world.
+// menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world, F9 the
+// profiler; F10 captures frames.
 #include <CLI/CLI.hpp>
 
 #include "engine/core/log.h"
@@ -32,6 +33,11 @@ void addOptions(CLI::App& program, DemoOptions& o) {
         ->check(CLI::Range(1, 60))
         ->capture_default_str();
     program.add_option("--quality", o.quality, "low, medium, high, ultra or auto");
+    program
+        .add_option("--budget-ms", o.budgetMs,
+                    "choose the quality so that a frame's passes take about so long; instead of --quality")
+        ->check(CLI::Range(0.1, 100000.0))
+        ->excludes("--quality");
     program.add_option("--user", o.userFolder, "folder of the save, the keys and the settings");
     program.add_flag("--continue", o.resume, "go on with the saved game");
     program.add_option("--report", o.report, "save a report of the passes and times");
@@ -39,7 +45,11 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_option("--set", o.assignments, "group.name=value")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    program.add_flag("--serial", o.serial, "one thread, systems in order");
+    program.add_option("--capture-frames", o.captureFrames, "how many frames F10 captures")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    program.add_flag("--renderdoc", o.renderDoc, "load RenderDoc, so that F10 leaves frame.rdc, too");
+    program.add_flag("--serial", o.serial, "one thread, systems in order, each frame waits for the device");
     program.add_option("--without", o.without, "run as if the device lacked this feature")
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -104,7 +114,8 @@ Status prepare(Demo& demo) {
     if (o.resume && !o.record.empty()) return Error{"a recording starts with the level, not with --continue"};
     if (Status s = readUserFiles(demo); !s) return s;
     if (Status s = readReplay(demo); !s) return s;
-    useQuality(demo, demo.user.quality == Quality::kAutomatic ? Quality::kLow : demo.user.quality);
+    if (o.budgetMs > 0) demo.user.quality = Quality::kAutomatic;
+    useQuality(demo, demo.user.quality, gi::qualitySteps()[gi::firstFullSizeStep()]);
     if (Status s = loadLevel(demo); !s) return s;
     return o.resume ? continueGame(*demo.game, demo.files.save()) : Status(Ok{});
 }

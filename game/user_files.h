@@ -26,6 +26,7 @@ struct UserFiles {
     std::string save() const { return folder + "/save.txt"; }
     std::string keys() const { return folder + "/keys.txt"; }
     std::string settings() const { return folder + "/settings.txt"; }
+    std::string captures() const { return folder + "/captures"; }
 };
 
 // Makes the folder if it is not there.

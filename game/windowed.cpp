@@ -16,6 +16,7 @@
 #include "engine/core/safe_file.h"
 #include "engine/scene/describe_components.h"
 #include "game/demo_options.h"
+#include "game/frame_capture.h"
 #include "game/hud.h"
 #include "game/menu.h"
 #include "game/present.h"
@@ -29,7 +30,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kTick = 1.0 / 60;            // s
 constexpr int kMostTicksPerFrame = 12;        // a slower frame slows the world rather than piling up
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
-constexpr double kSaveSeconds = 60;           // between saves without an occasion
+constexpr double kCpuBudgetMs = 80, kGpuBudgetMs = 13;  // of a frame's passes, where none is given
+constexpr double kSaveSeconds = 60;                     // between saves without an occasion
 
 // Keys 1 to 9.
 constexpr std::array<gi::Layer, 9> kKeyLayers = {
@@ -38,15 +40,19 @@ constexpr std::array<gi::Layer, 9> kKeyLayers = {
 
 class WindowedRun {
   public:
-    WindowedRun(Demo& demo, Window& window, gpu::Device& device)
+    WindowedRun(Demo& demo, Window& window, gpu::Device& device, gpu::RenderDoc renderDoc)
         : demo_(demo),
           window_(window),
           device_(device),
           swapchain_(device, window.framebufferSize()),
-          renderer_(device),
+          renderer_(device, demo.options.serial ? 1 : 0),
           ui_(window.handle()),
           imgui_(device, renderer_.pipelines()),
-          auto_(device.info().isCpu) {
+          budget_(demo.options.budgetMs > 0 ? demo.options.budgetMs
+                  : device.info().isCpu     ? kCpuBudgetMs
+                                            : kGpuBudgetMs,
+                  0),
+          capture_(renderer_, renderDoc) {
         renderer_.load(demo.game->level().geometry);
         describeSceneComponents();
         menu_.hasSave = fileExists(demo.files.save());
@@ -71,7 +77,7 @@ class WindowedRun {
             frameMs_ += (elapsed * 1e3 - frameMs_) * 0.05;
             advance(elapsed);
             if (show())
-                adapt(elapsed);
+                adapt();
             else
                 std::this_thread::sleep_for(std::chrono::milliseconds(20));
             if (demo_.options.frames && frame + 1 >= demo_.options.frames) break;
@@ -114,6 +120,8 @@ class WindowedRun {
         if (key == GLFW_KEY_F2) panels_.showPasses = !panels_.showPasses;
         if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
         if (key == GLFW_KEY_F4) panels_.showWorld = !panels_.showWorld;
+        if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
+        if (key == GLFW_KEY_F10) capture_.start(demo_);
         if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey) {
             const gi::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
@@ -211,6 +219,7 @@ class WindowedRun {
             input.look =
                 std::exchange(turned_, glm::vec2(0));  // mouse movement counts once, and is never lost
             demo_.game->tick(nextInput(demo_, ticks_++, input));
+            capture_.noteSystems(demo_.game->tickSchedule());
         }
         sinceSave_ += elapsed;
         const uint32_t solved = demo_.game->progress().roomsSolved;
@@ -225,15 +234,15 @@ class WindowedRun {
 
     // --- The picture ---
     void usePlayerSettings() {
-        const bool automatic = demo_.user.quality == Quality::kAutomatic;
-        const Rung rung = automatic ? auto_.current() : rungOf(demo_.user.quality);
-        scale_ = rung.scale;
-        useQuality(demo_, rung.preset);
+        scale_ = automatic() ? quality().scale : renderScale(demo_.user.quality);
+        useQuality(demo_, demo_.user.quality, quality());
         demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
     }
-    void adapt(double elapsed) {
-        if (demo_.user.quality == Quality::kAutomatic && !menu_.open && auto_.step(elapsed * 1e3))
-            usePlayerSettings();
+    bool automatic() const { return demo_.user.quality == Quality::kAutomatic; }
+    const gi::QualityStep& quality() const { return gi::qualitySteps()[budget_.step()]; }
+    void adapt() {
+        const double cost = cost_.add(renderer_.graph().report());
+        if (automatic() && !menu_.open && budget_.frame(cost)) usePlayerSettings();
     }
     glm::uvec2 renderSize() const {
         return glm::max(glm::uvec2(glm::vec2(window_.framebufferSize()) * scale_), glm::uvec2(16));
@@ -244,14 +253,16 @@ class WindowedRun {
         if (!image) return false;
         const glm::uvec2 size = renderSize();
         demo_.game->frame(size, menu_.open ? 1.0f : float(behind_ / kTick));
+        capture_.noteSystems(demo_.game->frameSchedule());
         drawUi();
         renderer_.render(
-            demo_.game->scene(), size, demo_.gi, demo_.graph,
+            demo_.game->scene(), size, demo_.gi, capture_.options(demo_.graph),
             [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
                 shown_ = demo_.layer
                              ? gi::addLayerView(graph, view, frame, *demo_.layer, size, demo_.gi.composite)
                              : frame.outputs.display;
                 graph.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                capture_.declare(graph, frame);
             },
             [&](VkCommandBuffer commands) {
                 presentImage(commands, renderer_.graph().physical(shown_), *image, swapchain_.size(), [&] {
@@ -262,12 +273,15 @@ class WindowedRun {
             {image->acquired, image->rendered});
         demo_.game->takeReadings(renderer_.probeReadings());
         swapchain_.present(*image);
+        capture_.note(demo_, size);
         return true;
     }
     void drawUi() {
         MenuEvent event = MenuEvent::kNone;
         const RenderScene& scene = demo_.game->scene();
+        const std::string captured = capture_.message();
         ui_.build(panels_, demo_.settings, renderer_.graph(), demo_.game->world(), statusLine(), [&] {
+            drawMessage(captured);
             if (!menu_.open)
                 drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
                         glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
@@ -287,8 +301,8 @@ class WindowedRun {
         const glm::dvec3 at = demo_.game->player().position;
         return fmt::format("{:.1f} ms  {:.1f}/s  {}x{} {}  at {:.2f} {:.2f}{}", frameMs_,
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y,
-                           qualityName(demo_.user.quality == Quality::kAutomatic ? auto_.current().preset
-                                                                                 : demo_.user.quality),
+                           automatic() ? fmt::format("auto ({})", quality().name)
+                                       : std::string(qualityName(demo_.user.quality)),
                            at.x, at.z, demo_.layer ? fmt::format("\n{}", gi::layerName(*demo_.layer)) : "");
     }
     int saveScreenshot() {
@@ -304,7 +318,9 @@ class WindowedRun {
     gi::GiRenderer renderer_;
     DebugUi ui_;
     ImGuiPass imgui_;
-    AutoQuality auto_;
+    gi::BudgetController budget_;
+    gi::FrameCost cost_;
+    FrameCapture capture_;
     DebugUiState panels_;
     Menu menu_;
     MenuEvent chosen_ = MenuEvent::kNone;
@@ -323,9 +339,11 @@ int runWindowed(Demo& demo) {
     if (const Status folder = openFolder(demo.files); !folder) return refuse(folder.error().message);
     auto window = Window::open("Afterglow", demo.options.size);
     if (!window) return refuse(window.error().message + "; try --headless");
+    const auto renderDoc = gpu::RenderDoc::open(demo.options.renderDoc);
+    if (!renderDoc) return refuse(renderDoc.error().message);
     auto device = gpu::Device::create(deviceOptions(demo, (*window)->handle()));
     if (!device) return refuse(device.error().message);
-    int exitCode = WindowedRun(demo, **window, **device).loop();
+    int exitCode = WindowedRun(demo, **window, **device, *renderDoc).loop();
     const int messages = (*device)->validationMessageCount();
     device->reset();  // before the window whose surface it holds
     return exitCode == 0 && messages > 0 ? 1 : exitCode;

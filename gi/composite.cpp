@@ -19,10 +19,12 @@ GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradian
         .sample("directMap", orAlbedo(direct.image))
         .sample("indirectMap", orAlbedo(indirect.image))
         .sample("emissiveMap", orAlbedo(gbuffer.emissive))
+        .sample("coatMap", orAlbedo(indirect.coat))
         .sample("depthMap", gbuffer.depth)
         .spec(0, bool(direct.image))
         .spec(1, bool(indirect.image))
         .spec(2, bool(gbuffer.emissive))
+        .spec(3, bool(indirect.coat))
         .colorClear(out.radiance, glm::vec4(0));
 
     struct Push {

@@ -160,7 +160,7 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
         case Layer::kBounce1:
             return addCopy(graph, scene, f.bounce1.image, {}, Copy::kLight);
         case Layer::kBounce2:
-            return f.laterLight.texels
+            return f.indirect.image != f.bounce1.image
                        ? addCopy(graph, scene, f.indirect.image, f.bounce1.image, Copy::kDifference)
                        : ImageHandle{};
         case Layer::kIrradiance:

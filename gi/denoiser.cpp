@@ -131,7 +131,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         }
         from = to;
     }
-    return {from};
+    return {from, noisy.irradiance.coat};
 }
 
 }  // namespace ag::gi

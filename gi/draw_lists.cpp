@@ -1,6 +1,7 @@
 #include "gi/draw_lists.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "engine/core/hash.h"
@@ -9,6 +10,7 @@ namespace ag::gi {
 namespace {
 
 constexpr uint32_t kNoBucket = ~0u;
+constexpr uint64_t kWorthJobs = 1u << 13;  // instances over all views
 
 DrawBucket bucketOf(const Material& material) {
     return {.textureClass = material.textureClass,
@@ -17,27 +19,12 @@ DrawBucket bucketOf(const Material& material) {
             .normalMap = material.normalLayer >= 0};
 }
 
-Bounds transformed(const Bounds& local, const glm::mat4x3& m) {
-    const glm::vec3 center = (local.min + local.max) * 0.5f, half = (local.max - local.min) * 0.5f;
-    const glm::vec3 c = m * glm::vec4(center, 1.0f);
-    const glm::vec3 h = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;
-    return {c - h, c + h};
-}
-
-// Left, right, bottom, top, near and far plane of a reversed-depth clip matrix; with an infinite far plane
-// nothing is beyond it.
-std::array<glm::vec4, 6> frustumPlanes(const glm::mat4& m) {
-    const glm::mat4 t = glm::transpose(m);
-    return {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2], t[2]};
-}
-
-bool outside(const Bounds& b, const std::array<glm::vec4, 6>& planes) {
-    for (const glm::vec4& p : planes) {
-        const glm::vec3 far = {p.x > 0 ? b.max.x : b.min.x, p.y > 0 ? b.max.y : b.min.y,
-                               p.z > 0 ? b.max.z : b.min.z};
-        if (glm::dot(glm::vec3(p), far) + p.w < 0) return true;
-    }
-    return false;
+// Of a reversed-depth clip matrix; with an infinite far plane nothing is beyond it.
+bool beyondFar(const Bounds& b, const glm::mat4& m) {
+    const glm::vec4 p(m[0][2], m[1][2], m[2][2], m[3][2]);
+    const glm::vec3 near(p.x > 0 ? b.max.x : b.min.x, p.y > 0 ? b.max.y : b.min.y,
+                         p.z > 0 ? b.max.z : b.min.z);
+    return glm::dot(glm::vec3(p), near) + p.w < 0;
 }
 
 }  // namespace
@@ -65,7 +52,7 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
     bucketFirst_.assign(buckets_.size(), 0);
     for (size_t b = 1; b < buckets_.size(); ++b)
         bucketFirst_[b] = bucketFirst_[b - 1] + bucketCapacity_[b - 1];
-    worldBounds_.resize(scene.instances.size());
+    bounds_.resize(scene.instances.size());
     transformHash_.resize(scene.instances.size());
     views_.clear();
     commands_.clear();
@@ -73,20 +60,25 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
 }
 
 void DrawLists::refreshBounds(const RenderScene& scene, bool all) {
+    changed_.assign((scene.instances.size() + 63) / 64, 0);
     const auto refresh = [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
             const RenderInstance& instance = scene.instances[i];
-            worldBounds_[i] = transformed(scene.geometry->primitives[instance.primitive].boundsLocal,
-                                          instance.worldFromLocal);
+            bounds_.set(i, instance, scene.geometry->primitives[instance.primitive].boundsLocal);
             transformHash_[i] = hashValue(instance.worldFromLocal, instance.primitive);
+            changed_[i / 64] |= uint64_t(1) << (i % 64);
         }
     };
-    if (all || scene.allInstancesChanged) return refresh(0, uint32_t(scene.instances.size()));
-    for (const RenderScene::Range& range : scene.changedInstances)
-        refresh(range.begin, range.end);
+    if (all || scene.allInstancesChanged)
+        refresh(0, uint32_t(scene.instances.size()));
+    else
+        for (const RenderScene::Range& range : scene.changedInstances)
+            refresh(range.begin, range.end);
+    bounds_.fold(changed_, *jobs_);
 }
 
-void DrawLists::beginFrame(const RenderScene& scene) {
+void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
+    jobs_ = &jobs;
     bool regroup =
         geometryVersion_ != scene.geometry->version || instanceBucket_.size() != scene.instances.size();
     if (instancesVersion_ != scene.instancesVersion && !regroup)
@@ -107,34 +99,51 @@ void DrawLists::ensureView(uint32_t view) {
         v.draws.buckets.resize(buckets_.size());
 }
 
+void DrawLists::cullAll(const RenderScene& scene, std::span<const ViewRequest> views) {
+    if (views.size() * instanceBucket_.size() < kWorthJobs) return;  // cull() does it
+    for (const ViewRequest& view : views)
+        ensureView(view.slot);
+    jobs_->parallelFor(uint32_t(views.size()), 1, [&](uint32_t begin, uint32_t end) {
+        for (uint32_t i = begin; i < end; ++i)
+            cullView(scene, views[i]);
+    });
+}
+
 const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld) {
     ensureView(slot);
-    View& view = views_[slot];
-    if (view.generation == generation_ && view.instancesVersion == instancesVersion_ &&
-        view.clipFromWorld == clipFromWorld)
-        return view.draws;
+    cullView(scene, {slot, clipFromWorld});
+    return views_[slot].draws;
+}
 
-    const auto planes = frustumPlanes(clipFromWorld);
-    const uint32_t first = slot * commandsPerView();
+// Writes only what is the view's own: several may run at once.
+void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
+    View& view = views_[request.slot];
+    if (view.generation == generation_ && view.instancesVersion == instancesVersion_ &&
+        view.clipFromWorld == request.clipFromWorld)
+        return;
+
+    const uint32_t first = request.slot * commandsPerView();
     for (size_t b = 0; b < buckets_.size(); ++b)
         view.draws.buckets[b] = {first + bucketFirst_[b], 0};
     uint64_t version = combineHash(geometryVersion_, generation_);
     view.draws.instanceCount = 0;
-    for (uint32_t i = 0; i < instanceBucket_.size(); ++i) {
-        if (instanceBucket_[i] == kNoBucket || outside(worldBounds_[i], planes)) continue;
-        const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
-        BucketRange& range = view.draws.buckets[instanceBucket_[i]];
-        commands_[range.firstCommand + range.commandCount++] = {p.indexCount, 1, p.firstIndex, p.vertexOffset,
-                                                                i};
-        version = combineHash(combineHash(version, i), transformHash_[i]);
-        ++view.draws.instanceCount;
-    }
+    bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
+    for (uint32_t word = 0; word < view.inSight.size(); ++word)
+        for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
+            const uint32_t i = word * 64 + uint32_t(std::countr_zero(bits));
+            if (instanceBucket_[i] == kNoBucket || beyondFar(bounds_.of(i), request.clipFromWorld)) continue;
+            const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
+            BucketRange& range = view.draws.buckets[instanceBucket_[i]];
+            commands_[range.firstCommand + range.commandCount++] = {p.indexCount, 1, p.firstIndex,
+                                                                    p.vertexOffset, i};
+            version = combineHash(combineHash(version, i), transformHash_[i]);
+            ++view.draws.instanceCount;
+        }
     view.dirty = view.dirty || version != view.draws.version;
     view.draws.version = version;
-    view.clipFromWorld = clipFromWorld;
+    view.clipFromWorld = request.clipFromWorld;
     view.instancesVersion = instancesVersion_;
     view.generation = generation_;
-    return view.draws;
 }
 
 const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
@@ -160,6 +169,11 @@ const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
     view.generation = 0;  // not a frustum's: culled anew if the slot becomes one
     view.dirty = true;
     return view.draws;
+}
+
+void DrawLists::markAllDirty() {
+    for (View& view : views_)
+        view.dirty = true;
 }
 
 bool DrawLists::takeDirty(uint32_t view) {

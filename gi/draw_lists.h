@@ -12,7 +12,7 @@
 #include <volk.h>
 #include <glm/glm.hpp>
 
-#include "engine/scene/render_scene.h"
+#include "engine/scene/instance_bounds.h"
 
 namespace ag::gi {
 
@@ -37,14 +37,23 @@ struct ViewDraws {
     uint32_t instanceCount = 0;
 };
 
+// Slots are counted up by the caller and keep their place in the command array.
+struct ViewRequest {
+    uint32_t slot = 0;
+    glm::mat4 clipFromWorld{1};
+};
+
 class DrawLists {
   public:
-    // Refreshes buckets and world bounds from the scene. Call once a frame, before any cull().
-    void beginFrame(const RenderScene& scene);
+    // Refreshes buckets and world bounds from the scene. Call once a frame, before any cull(). `jobs` must
+    // last as long as the frame.
+    void beginFrame(const RenderScene& scene, JobRunner& jobs);
 
-    // Culls into view slot `view`; slots are counted up by the caller and keep their place in the command
-    // array. The result stays in place and is valid until the next cull of that slot.
-    const ViewDraws& cull(const RenderScene& scene, uint32_t view, const glm::mat4& clipFromWorld);
+    // Several views at once, a job each where that is worth it; cull() then finds them done.
+    void cullAll(const RenderScene& scene, std::span<const ViewRequest> views);
+
+    // The result stays in place and is valid until the next cull of that slot.
+    const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
 
     // Into slot `view` of what `from` draws the instances in `rows` (ascending) alone.
     const ViewDraws& pick(uint32_t view, const ViewDraws& from, std::span<const RenderScene::Range> rows);
@@ -55,6 +64,7 @@ class DrawLists {
     uint32_t commandsPerView() const { return uint32_t(instanceBucket_.size()); }
     uint32_t viewCount() const { return uint32_t(views_.size()); }
     bool takeDirty(uint32_t view);  // true once after the view's commands changed
+    void markAllDirty();            // what was uploaded is gone
 
   private:
     struct View {
@@ -63,20 +73,24 @@ class DrawLists {
         uint64_t instancesVersion = 0;
         uint64_t generation = 0;
         bool dirty = true;
+        std::vector<uint64_t> inSight;  // a bit an instance
     };
     void rebuildBuckets(const RenderScene& scene);
     void refreshBounds(const RenderScene& scene, bool all);
     void ensureView(uint32_t view);
+    void cullView(const RenderScene& scene, const ViewRequest& request);
 
     std::vector<DrawBucket> buckets_;
     std::vector<uint32_t> bucketCapacity_;  // instances in each bucket
     std::vector<uint32_t> bucketFirst_;     // first command of each bucket within a view's region
     std::vector<uint32_t> instanceBucket_;  // ~0: drawn by no opaque bucket (blended)
     std::vector<uint32_t> instancePrimitive_;
-    std::vector<Bounds> worldBounds_;
+    InstanceBounds bounds_;
+    std::vector<uint64_t> changed_;  // a bit an instance whose bounds were set anew
     std::vector<uint64_t> transformHash_;
     std::vector<VkDrawIndexedIndirectCommand> commands_;
     std::deque<View> views_;  // references from cull() stay valid
+    JobRunner* jobs_ = nullptr;
     uint64_t geometryVersion_ = 0;
     uint64_t instancesVersion_ = 0;
     uint64_t generation_ = 0;  // counts bucket rebuilds

@@ -5,6 +5,16 @@
 #include "gi/scene_draws.h"
 
 namespace ag::gi {
+namespace {
+
+// Targets that a scene has no use for are not written.
+std::string_view fillShader(const SceneView& scene) {
+    if (scene.hasGlossy)
+        return scene.hasEmissive ? "gbuffer/fill_emissive_glossy.frag" : "gbuffer/fill_glossy.frag";
+    return scene.hasEmissive ? "gbuffer/fill_emissive.frag" : "gbuffer/fill.frag";
+}
+
+}  // namespace
 
 GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     const auto target = [&](const char* name, VkFormat format) {
@@ -15,14 +25,15 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
               .albedo = target("gbuffer.albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
               .size = scene.size};
     if (scene.hasEmissive) g.emissive = target("gbuffer.emissive", VK_FORMAT_R16G16B16A16_SFLOAT);
+    if (scene.hasGlossy) g.reflectance = target("gbuffer.reflectance", VK_FORMAT_R16G16B16A16_SFLOAT);
 
     const glm::mat4& clipFromWorld = scene.scene->camera.clipFromWorld;
     const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), clipFromWorld);
-    PassBuilder pass = graph.raster("gbuffer.fill", "gbuffer/fill.vert",
-                                    scene.hasEmissive ? "gbuffer/fill_emissive.frag" : "gbuffer/fill.frag",
+    PassBuilder pass = graph.raster("gbuffer.fill", "gbuffer/fill.vert", fillShader(scene),
                                     gpu::VertexLayout::kPositionsAndAttributes);
     pass.colorClear(g.normal, glm::vec4(0)).colorClear(g.albedo, glm::vec4(0));
     if (scene.hasEmissive) pass.colorClear(g.emissive, glm::vec4(0));
+    if (scene.hasGlossy) pass.colorClear(g.reflectance, glm::vec4(0));
     pass.depthClear(g.depth).geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
     drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, Viewer::kCamera);

@@ -11,7 +11,9 @@ struct GBuffer {
     ImageHandle normal;    // rgba16f: unit normal; roughness
     ImageHandle albedo;    // rgba16f: diffuse albedo; metallic
     ImageHandle emissive;  // rgba16f, W/(m² sr); invalid when no material emits
-    ImageHandle motion;    // rgba16f: m to where the surface was a frame ago; invalid when nothing moved
+    ImageHandle
+        reflectance;     // rgba16f: specular, head on; at grazing angles; invalid when no material is glossy
+    ImageHandle motion;  // rgba16f: m to where the surface was a frame ago; invalid when nothing moved
     const ViewDraws* draws = nullptr;  // what the camera draws, for addMotion
     glm::uvec2 size{0};
 };

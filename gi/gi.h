@@ -7,6 +7,7 @@
 #include "gi/gi_settings.h"
 #include "gi/lamp_lighting.h"
 #include "gi/probes.h"
+#include "gi/ssvp.h"
 #include "gi/texel_shading.h"
 #include "gi/val_fit.h"
 #include "gi/vpl_sampling.h"
@@ -15,6 +16,7 @@ namespace ag::gi {
 
 // State that outlives a frame; one per view of the scene.
 struct GiHistory {
+    ClusterShares clusterShares;
     ValClusteringHistory valClustering;
     Settling stochasticRsm;
     Settling laterBounces;
@@ -37,6 +39,7 @@ struct GiFrame {
     Vals vals;
     SurfacePoints surfacePoints;
     IsmAtlas isms;
+    uint32_t firstCount = 0;  // of the lights, those of the first bounce
     ShadowMaps shadows;
     LampShadows lampShadows;
     LampLists lampLists;

@@ -2,6 +2,8 @@
 // frame graph finds order, barriers and what can be skipped.
 #include "gi/gi.h"
 
+#include <algorithm>
+
 #include "engine/core/hash.h"
 
 namespace ag::gi {
@@ -15,34 +17,41 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     // First bounce: where light lands, as few lights
     if (s.firstBounce == FirstBounce::kAreaLights)
         f.laterLight = addLaterLight(graph, scene, s.laterBounces, h.laterBounces);  // of the frame before
-    f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count, f.laterLight);
+    f.rsm = addRsm(graph, scene, s.rsm, s.valClustering.count, f.laterLight, h.clusterShares);
     f.importance = addImportance(graph, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(graph, f.rsm, f.importance, s.valClustering, scene.scene->cameraVersion,
                                   h.valClustering);
-    f.vals = s.firstBounce == FirstBounce::kPointLights
-                 ? addVplSampling(graph, f.rsm, f.importance, s.valClustering.count)
-                 : addValFit(graph, f.rsm, f.clusters);
+    if (s.firstBounce == FirstBounce::kPointLights)
+        f.vals = addVplSampling(graph, f.rsm, f.importance, s.valClustering.count);
+    else if (s.firstBounce != FirstBounce::kSsvp)
+        f.vals = addValFit(graph, f.rsm, f.clusters);
+    f.firstCount = std::min(f.vals.count, f.rsm.firstLater());
 
     // What each of them sees
     if (f.vals.count > 0 && s.ismAtlas.enabled) f.surfacePoints = addSurfacePoints(graph, scene);
     f.isms = addIsmAtlas(graph, f.surfacePoints, f.vals, s.ismAtlas);
+    if (s.firstBounce == FirstBounce::kSsvp) {  // the lights, and among them what they light
+        const Ssvp propagated = addSsvp(graph, scene, f.rsm, s.valClustering.count, s.ssvp);
+        f.vals = propagated.vals, f.firstCount = propagated.firstCount;
+        if (s.ismAtlas.enabled) f.isms = propagated.maps;
+    }
 
     // Gather on screen
-    if (s.firstBounce == FirstBounce::kAreaLights || s.firstBounce == FirstBounce::kPointLights)
-        f.bounce1 = addValShading(graph, scene, f.gbuffer, firstVals(f.vals, f.rsm.firstLater()), f.isms,
-                                  s.valShading);
-    else if (s.firstBounce == FirstBounce::kTexels)
+    if (s.firstBounce == FirstBounce::kTexels)
         f.bounce1 = addTexelShading(graph, scene, f.gbuffer, f.rsm);
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
         f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, {f.clusters, f.vals, f.isms},
                                      s.stochasticRsm, h.stochasticRsm);
+    else if (s.firstBounce != FirstBounce::kNone)
+        f.bounce1 =
+            addValShading(graph, scene, f.gbuffer, firstVals(f.vals, f.firstCount), f.isms, s.valShading);
 
     // Light that goes on
     f.indirect = f.bounce1;
-    if (f.laterLight.texels) {
-        addLaterIrradiance(graph, f.laterLight, f.vals, f.rsm.firstLater(), f.isms, s.laterBounces);
+    addLaterIrradiance(graph, f.laterLight, f.vals, f.firstCount, f.isms, s.laterBounces);
+    const bool goesOn = f.bounce1.image && f.vals.count > f.firstCount;
+    if (goesOn)
         f.indirect = addValShading(graph, scene, f.gbuffer, f.vals, f.isms, s.valShading, kAllBouncesShading);
-    }
 
     // Steady and smooth
     if (s.denoiser.enabled && s.denoiser.motion && f.indirect.image)
@@ -50,7 +59,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, scene.scene->instancesVersion);
     f.indirect = addDenoiser(graph, scene, f.gbuffer, {f.indirect, light, steps}, s.denoiser, h.denoiser);
-    if (!f.laterLight.texels) f.bounce1 = f.indirect;  // all there is
+    if (!goesOn) f.bounce1 = f.indirect;  // all there is
 
     // Direct light
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);

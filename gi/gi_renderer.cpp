@@ -1,23 +1,35 @@
 #include "gi/gi_renderer.h"
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
 namespace ag::gi {
+namespace {
 
-GiRenderer::GiRenderer(gpu::Device& device)
-    : device_(device), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
+uint64_t steadyNs() {
+    return uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                        std::chrono::steady_clock::now().time_since_epoch())
+                        .count());
+}
+
+}  // namespace
+
+GiRenderer::GiRenderer(gpu::Device& device, uint32_t threads)
+    : device_(device), jobs_(threads), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
     for (Slot& slot : slots_) {
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                            .queueFamilyIndex = device.queueFamily()};
         AG_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
+        device.setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame");
         const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = slot.pool,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                .commandBufferCount = 1};
         AG_VK(vkAllocateCommandBuffers(device.handle(), &info, &slot.commands));
+        device.setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, "frame");
     }
 }
 
@@ -63,12 +75,14 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
                         FrameSemaphores semaphores) {
     const uint32_t index = uint32_t(frame_++ % kFramesInFlight);
     Slot& slot = slots_[index];
+    moments_.begin = steadyNs();
     device_.waitFor(slot.submitted);
     AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
 
+    moments_.waited = steadyNs();
     const RenderScene& scene = inOwnUnits(given);
     graph_.beginFrame(options);
-    scene_.beginFrame(scene);
+    scene_.beginFrame(scene, jobs_);
     SceneView view = scene_.import(graph_, scene, size);
     view.units = units_;
     GiSettings asked = settings;
@@ -76,6 +90,7 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
     asked.composite.exposure += std::log2(units_.light);
     const GiFrame frame = addGlobalIllumination(graph_, view, asked, history_);
     finish(graph_, view, frame);
+    moments_.declared = steadyNs();
 
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
@@ -93,7 +108,10 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
     }
     present(slot.commands);
     AG_VK(vkEndCommandBuffer(slot.commands));
+    moments_.recorded = steadyNs();
     slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
+    moments_.submitted = steadyNs();
+    if (jobs_.threadCount() == 1) device_.waitFor(slot.submitted);
 }
 
 Image readImage(GiRenderer& renderer, ImageHandle handle) {

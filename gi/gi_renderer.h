@@ -16,9 +16,20 @@ struct FrameSemaphores {
     VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
 
+// When the CPU did what for a frame, on std::chrono::steady_clock, ns.
+struct FrameMoments {
+    uint64_t begin = 0;      // then it waits for the device to be done with the frame before last
+    uint64_t waited = 0;     // then it declares the passes
+    uint64_t declared = 0;   // then it plans and records them
+    uint64_t recorded = 0;   // then it submits them
+    uint64_t submitted = 0;  // (a software device may have run some of them by now)
+};
+
 class GiRenderer {
   public:
-    explicit GiRenderer(gpu::Device& device);
+    // `threads` 1: views are culled in order on the caller, and render() waits for the device; 0: as many as
+    // the machine has, while the device works on the frame before.
+    explicit GiRenderer(gpu::Device& device, uint32_t threads = 0);
     ~GiRenderer();
     GiRenderer(const GiRenderer&) = delete;
     GiRenderer& operator=(const GiRenderer&) = delete;
@@ -47,6 +58,7 @@ class GiRenderer {
     gpu::PipelineLibrary& pipelines() { return pipelines_; }
     // Of everything in the frame; the layers of debug_view and the probes' readings are in metres and watts.
     RenderUnits units() const { return units_; }
+    const FrameMoments& moments() const { return moments_; }  // of the frame last rendered
     uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
 
   private:
@@ -58,6 +70,7 @@ class GiRenderer {
         uint64_t submitted = 0;
     };
     gpu::Device& device_;
+    JobRunner jobs_;
     gpu::PipelineLibrary pipelines_;
     SceneGpu scene_;
     FrameGraph graph_;
@@ -67,6 +80,7 @@ class GiRenderer {
     RenderScene converted_;  // while the units are not metres and watts
     std::array<Slot, kFramesInFlight> slots_;
     uint64_t frame_ = 0;
+    FrameMoments moments_;
 };
 
 // Renders `frames` frames of a still scene and reads back a layer (black where the frame has none).

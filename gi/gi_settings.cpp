@@ -49,6 +49,23 @@ void setIsm(GiSettings& gi) {
     gi.valShading = {.shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .taps = 1};
 }
 
+// 256 point lights and as many of the second bounce, 4x4 pixels share them; the edge-aware Gaussian is a
+// round of the denoiser's filter over one frame.
+void setSsvp(GiSettings& gi) {
+    gi.firstBounce = FirstBounce::kSsvp;
+    gi.valClustering.count = 256;
+    gi.valShading = {
+        .shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .interleave = 4, .taps = 1};
+    gi.denoiser = {.enabled = true,
+                   .leastShare = 1,
+                   .rounds = 1,
+                   .separable = false,
+                   .adaptive = false,
+                   .motion = false,
+                   .lightTolerance = 0};
+    gi.composite.tonemap = Tonemap::kReinhard;
+}
+
 void setRsmc(GiSettings& gi) {
     gi.ismAtlas.enabled = false;
     gi.valShading.interleave = 1;
@@ -79,6 +96,11 @@ void setLow(GiSettings& gi) {
 }
 
 void setAfterglow(GiSettings&) {}
+
+void setAfterglowBounces(GiSettings& gi) {
+    gi.laterBounces.enabled = true;
+    gi.valClustering.count = 256;
+}
 
 void setHigh(GiSettings& gi) {
     gi.rsm.resolution = 512;
@@ -122,16 +144,18 @@ struct Preset {
     void (*apply)(GiSettings&);
 };
 
-constexpr std::array<Preset, 16> kPresets = {{{"none", setNone},
+constexpr std::array<Preset, 18> kPresets = {{{"none", setNone},
                                               {"rsm-brute", setRsmBrute},
                                               {"rsm-400", setRsm400},
                                               {"irsm", setIrsm},
                                               {"stochastic", setStochastic},
                                               {"ism", setIsm},
+                                              {"ssvp", setSsvp},
                                               {"rsmc", setRsmc},
                                               {"acrsm", setAcrsm},
                                               {"afterglow", setAfterglow},
                                               {"medium", setAfterglow},
+                                              {"afterglow-bounces", setAfterglowBounces},
                                               {"low", setLow},
                                               {"high", setHigh},
                                               {"ultra", setUltra},
@@ -165,7 +189,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
            0,
            "",
            "where indirect light comes from",
-           {"none", "area_lights", "point_lights", "texels", "stochastic_rsm"}},
+           {"none", "area_lights", "point_lights", "texels", "stochastic_rsm", "ssvp"}},
           &gi.firstBounce);
     s.add({"rsm", "resolution", 0, 1024, "texels",
            "side of a light map, rounded down to a power of two; 0: as each light says"},
@@ -228,6 +252,14 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"ism_atlas", "keep_maps", 0, 0, "", "do not splat again for lights that stand still"},
           &gi.ismAtlas.keepMaps);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
+    s.add({"ssvp", "clusters", 1, 64, "clusters", "of point lights, each with a paraboloid map"},
+          &gi.ssvp.clusters);
+    s.add({"ssvp", "second_count", 0, 4096, "lights", "of the second bounce"}, &gi.ssvp.secondCount);
+    s.add({"ssvp", "rounds", 1, 20, "rounds", "of k-means a frame"}, &gi.ssvp.rounds);
+    s.add({"ssvp", "map_size", 16, 512, "texels", "side of a paraboloid's square, a multiple of 16"},
+          &gi.ssvp.mapSize);
+    s.add({"ssvp", "disk", 0, 0, "", "sample the paraboloids' disks; off: the squares round them"},
+          &gi.ssvp.disk);
     s.add({"later_bounces", "enabled", 0, 0, "", "light goes on after its first bounce"},
           &gi.laterBounces.enabled);
     s.add({"later_bounces", "feedback", 0, 0, "", "and after its second; off: no more than two"},
@@ -240,6 +272,9 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.valShading.taps);
     s.add({"val_shading", "far_taps", 1, 64, "taps", "of far lights' soft shadows; 1: hard ones"},
           &gi.valShading.farTaps);
+    s.add({"val_shading", "glossy", 0, 0, "",
+           "area lights shine on materials by their roughness; off: all are Lambert"},
+          &gi.valShading.glossy);
     s.add({"stochastic_rsm", "samples", 1, 4096, "samples", "of each light map, a pixel"},
           &gi.stochasticRsm.samples);
     s.add({"stochastic_rsm", "radius", 0.001, 2, "map widths",

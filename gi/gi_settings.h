@@ -14,6 +14,7 @@
 #include "gi/probes.h"
 #include "gi/rsm.h"
 #include "gi/shadow_maps.h"
+#include "gi/ssvp.h"
 #include "gi/stochastic_rsm.h"
 #include "gi/val_clustering.h"
 #include "gi/val_shading.h"
@@ -31,6 +32,7 @@ enum class FirstBounce : uint32_t {
     kPointLights,    // sampled light-map texels
     kTexels,         // every light-map texel as a point emitter
     kStochasticRsm,  // samples of the light maps
+    kSsvp,           // point lights, and what they light: two bounces
 };
 
 struct GiSettings {
@@ -41,6 +43,7 @@ struct GiSettings {
     IsmAtlasSettings ismAtlas;
     LaterBouncesSettings laterBounces;
     ValShadingSettings valShading;
+    SsvpSettings ssvp;
     StochasticRsmSettings stochasticRsm;
     DenoiserSettings denoiser;
     ShadowMapSettings shadowMaps;
@@ -53,10 +56,11 @@ struct GiSettings {
 
 // Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
 // "rsm-400" (Dachsbacher & Stamminger 2005), "irsm" (few samples and a denoiser, as published), "stochastic"
-// (that, ours), "ism" (Ritschel et al. 2008), "rsmc" (RSM clustering) and "acrsm" (with adaption and shadows)
-// as published, "afterglow" (the default), and that by budget: "low", "medium" (the same), "high", "ultra".
-// For the direct light of lamps, without bounces: "lights-reference" (a shadow map each), "lightcluster" as
-// published, "afterglow-lights" (the default's). False if there is no such preset.
+// (that, ours), "ism" (Ritschel et al. 2008), "ssvp" (two bounces, as published), "rsmc" (RSM clustering) and
+// "acrsm" (with adaption and shadows) as published, "afterglow" (the default), "afterglow-bounces" (with
+// every later bounce), and the default by budget: "low", "medium" (the same), "high", "ultra". For the direct
+// light of lamps, without bounces: "lights-reference" (a shadow map each), "lightcluster" as published,
+// "afterglow-lights" (the default's). False if there is no such preset.
 bool applyPreset(std::string_view name, GiSettings& gi);
 std::span<const std::string_view> presetNames();
 

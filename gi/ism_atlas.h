@@ -34,6 +34,7 @@ struct IsmAtlas {
     uint32_t mapCount = 0;
     uint32_t tileSize = 0;
     IsmMapping mapping = IsmMapping::kOctahedral;
+    bool shared = false;  // not one a light: which one, a point light's shape row says
 };
 
 IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,

@@ -111,6 +111,8 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
         .softTaps = settings.softTaps,
         .places = places.count};
     history.rows.clear();
+    history.views.clear();
+    history.rects.clear();
     PassBuilder pass = beginFaces(graph, scene, shadows.atlas);
     // A point's shadow at what the camera sees is in faces whose view meets the camera's; a disk's taps may
     // leave them.
@@ -128,11 +130,17 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
                       : cubeFaceView(row.center, face, row.nearDistance, row.farDistance))
                     .clipFromWorld;
             if (onlySeen && !mayMeet(seen, frustumOf(clipFromWorld))) continue;
-            const glm::uvec4 rect(row.origin + glm::uvec2(face % 3, face / 3) * row.size, row.size, row.size);
-            pass.patch(rect);
-            drawView(pass, scene, scene.draws->cull(s, firstSlot + place * kFaces + face, clipFromWorld),
-                     clipFromWorld, rect, filter, Viewer::kLight);
+            history.views.push_back({firstSlot + place * kFaces + face, clipFromWorld});
+            history.rects.emplace_back(row.origin + glm::uvec2(face % 3, face / 3) * row.size, row.size,
+                                       row.size);
         }
+    }
+    scene.draws->cullAll(s, history.views);
+    for (size_t i = 0; i < history.views.size(); ++i) {
+        const ViewRequest& view = history.views[i];
+        pass.patch(history.rects[i]);
+        drawView(pass, scene, scene.draws->cull(s, view.slot, view.clipFromWorld), view.clipFromWorld,
+                 history.rects[i], filter, Viewer::kLight);
     }
     const std::span<const std::byte> bytes = std::as_bytes(std::span(history.rows));
     shadows.clusters = graph.buffer(

@@ -17,9 +17,12 @@ struct LampShadowSettings {
 };
 
 struct LampShadowHistory {
-    std::vector<uint64_t> owners;       // one more than the id of the light whose place it is; 0: free
-    std::vector<uint32_t> places;       // of this frame's clusters
-    std::vector<io::LampCluster> rows;  // scratch
+    std::vector<uint64_t> owners;  // one more than the id of the light whose place it is; 0: free
+    std::vector<uint32_t> places;  // of this frame's clusters
+    // Scratch
+    std::vector<io::LampCluster> rows;
+    std::vector<ViewRequest> views;  // faces that are drawn
+    std::vector<glm::uvec4> rects;   // theirs
 };
 
 struct LampShadows {

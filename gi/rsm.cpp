@@ -22,6 +22,10 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
     pass.colorClear(rsm.normal, glm::vec4(0)).colorClear(rsm.albedo, glm::vec4(0)).depthClear(rsm.depth);
     pass.geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
+    std::array<ViewRequest, io::kMaxRsmFaces> views;
+    for (uint32_t f = 0; f < rsm.lightFaceCount; ++f)
+        views[f] = {scene.viewsClaimed + f, rsm.faceInfo[f].clipFromWorld};
+    scene.draws->cullAll(*scene.scene, {views.data(), rsm.lightFaceCount});
     for (uint32_t f = 0; f < rsm.lightFaceCount; ++f) {
         const io::RsmFace& face = rsm.faceInfo[f];
         const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), face.clipFromWorld);
@@ -34,9 +38,10 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
 }  // namespace
 
 RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
-              const LaterLight& later) {
+              const LaterLight& later, ClusterShares& shares) {
     RsmSet rsm;
-    const RsmLayout layout = layoutRsm(*scene.scene, settings, clusterBudget, later.side, later.share);
+    const RsmLayout layout =
+        layoutRsm(*scene.scene, settings, clusterBudget, shares, later.side, later.share);
     if (layout.mapCount == 0 || scene.scene->instances.empty()) return rsm;
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
     rsm.lightMapCount = layout.mapCount - (later.side > 0);

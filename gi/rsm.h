@@ -38,9 +38,22 @@ struct RsmSet {
     bool empty() const { return atlas.mapCount == 0; }
 };
 
+// Lives on the CPU from frame to frame: the flux by which each light has its share of the clusters. It
+// follows the light's own only when that has left it far behind, and a light that goes out keeps its share
+// for a while: so a lamp that flickers takes no clusters from the others.
+struct ClusterShares {
+    struct Light {
+        uint64_t id = 0;
+        float flux = 0;           // W, times the light's weight
+        uint32_t darkFrames = 0;  // since it went out
+    };
+    std::array<Light, io::kMaxBounceLights> lights{};  // in the scene's order
+    uint32_t count = 0;
+};
+
 // `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each. `later`: one more
 // map.
 RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
-              const LaterLight& later);
+              const LaterLight& later, ClusterShares& shares);
 
 }  // namespace ag::gi

@@ -12,7 +12,10 @@
 namespace ag::gi {
 namespace {
 
-constexpr uint32_t kMinClustersPerMap = 8;
+constexpr uint32_t kShareStep = 8;     // clusters: small changes of flux move nothing
+constexpr float kFluxBand = 1.5f;      // within which a light's share stays
+constexpr uint32_t kDarkFrames = 120;  // after which a light that went out gives up its share
+constexpr uint32_t kNoMap = ~0u;
 
 uint32_t facesOf(const RenderLight& light) {
     return light.kind == LightKind::kPoint ? 6 : 1;
@@ -66,25 +69,63 @@ void placeFaces(RsmLayout& layout) {
     layout.atlasSize = {width, cursor.y + shelf};
 }
 
-// Shares by flux, in steps of 8 so that small changes of flux move nothing; the first maps keep what is left
-// over.
-void shareClusters(RsmLayout& layout, std::span<const float> flux, uint32_t budget) {
+// Somebody who gets a share of the clusters: a light's map, lit or dark for the moment, or that of surfaces.
+struct Sharer {
+    float flux = 0;
+    uint32_t map = kNoMap;
+    uint32_t clusters = 0;
+};
+using Sharers = std::span<Sharer>;
+
+// The light's flux as its share is made of it: what it was, unless its own is far from that.
+ClusterShares::Light steadyLight(const RenderLight& light, float flux, const ClusterShares& before) {
+    const auto known = std::ranges::find(before.lights.begin(), before.lights.begin() + before.count,
+                                         light.id, &ClusterShares::Light::id);
+    if (known == before.lights.begin() + before.count) return {light.id, flux, 0};
+    if (flux == 0)
+        return {light.id, known->darkFrames < kDarkFrames ? known->flux : 0, known->darkFrames + 1};
+    const bool near = flux < known->flux * kFluxBand && flux * kFluxBand > known->flux;
+    return {light.id, near ? known->flux : flux, 0};
+}
+
+// By flux in steps of 8, at least one each, the largest remainders first: together all there are.
+void shareSteps(Sharers sharers, uint32_t budget) {
     float total = 0;
-    for (float f : flux)
-        total += f;
+    for (const Sharer& s : sharers)
+        total += s.flux;
+    const uint32_t steps = budget / kShareStep;
+    const auto wanted = [&](const Sharer& s) {
+        return total > 0 ? double(s.flux) / double(total) * steps : double(steps) / double(sharers.size());
+    };
+    const auto lack = [&](const Sharer& s) { return wanted(s) - s.clusters; };
+    uint32_t given = 0;
+    for (Sharer& s : sharers)
+        given += s.clusters = std::max(uint32_t(wanted(s)), 1u);
+    for (; given < steps; ++given)
+        ++std::ranges::max_element(sharers, {}, lack)->clusters;
+    for (; given > std::max(steps, uint32_t(sharers.size())); --given)
+        --std::ranges::max_element(sharers, {}, [&](const Sharer& s) {
+              return s.clusters > 1 ? -lack(s) : -1e30;
+          })->clusters;
+}
+
+// Each map's clusters follow those of the one before; the largest share gets the budget's rest.
+void shareClusters(RsmLayout& layout, Sharers sharers, uint32_t budget) {
+    shareSteps(sharers, budget);
+    for (Sharer& s : sharers)
+        s.clusters *= kShareStep;
+    std::ranges::max_element(sharers, {}, &Sharer::clusters)->clusters += budget % kShareStep;
     uint32_t next = 0;
-    for (uint32_t m = 0; m < layout.mapCount; ++m) {
-        const uint32_t reserved = (layout.mapCount - 1 - m) * kMinClustersPerMap;
-        const uint32_t most = std::max(budget - std::min(budget, next + reserved), 1u);
-        const float share = total > 0 ? flux[m] / total : 1.0f / float(layout.mapCount);
-        const uint32_t rounded = uint32_t(std::lround(share * float(budget) / 8.0f)) * 8;
-        io::RsmMap& map = layout.maps[m];
-        map.firstCluster = next;
-        map.clusterCount =
-            layout.mapCount == 1 ? budget : std::clamp(rounded, std::min(kMinClustersPerMap, most), most);
-        next += map.clusterCount;
+    for (const Sharer& s : sharers) {
+        // Fewer than 8 for each: the last ones get what there is, or all but the same one.
+        const uint32_t first = std::min(next, budget - 1), count = std::min(s.clusters, budget - first);
+        next = first + count;
+        if (s.map == kNoMap) continue;
+        io::RsmMap& map = layout.maps[s.map];
+        map.firstCluster = first;
+        map.clusterCount = count;
         if (map.kind == io::kMapOfSurfaces) {  // neighbours in space may lie anywhere in it
-            map.clusterCount = std::min(map.clusterCount, io::kMaxCandidates);
+            map.clusterCount = std::min(count, io::kMaxCandidates);
             map.candidateRadius = layout.faces[map.firstFace].size / io::kRsmTileSize;
             continue;
         }
@@ -95,10 +136,10 @@ void shareClusters(RsmLayout& layout, std::span<const float> flux, uint32_t budg
 }
 
 // Returns the weight that gives it its share.
-float addSurfaceMap(RsmLayout& layout, std::span<const float> flux, uint32_t side, float share) {
+float addSurfaceMap(RsmLayout& layout, std::span<const Sharer> lights, uint32_t side, float share) {
     float total = 0;
-    for (const float f : flux.first(layout.mapCount))
-        total += f;
+    for (const Sharer& light : lights)
+        total += light.flux;
     io::RsmMap& map = layout.maps[layout.mapCount];
     map = {.kind = io::kMapOfSurfaces,
            .direction = {0, -1, 0},
@@ -126,33 +167,51 @@ float emittedFlux(const RenderLight& light, const Bounds& sceneBounds) {
     return mean * 4 * half * half;
 }
 
+namespace {
+
+void addLightMap(RsmLayout& layout, const RenderLight& light, const RenderScene& scene,
+                 const RsmSettings& settings) {
+    io::RsmMap& map = layout.maps[layout.mapCount] = mapOf(light);
+    map.firstFace = layout.faceCount;
+    map.faceCount = facesOf(light);
+    for (uint32_t f = 0; f < map.faceCount; ++f) {
+        const LightView view = faceView(light, f, scene, settings);
+        map.tanHalf = view.tanHalf;
+        io::RsmFace& face = layout.faces[layout.faceCount++];
+        face.clipFromWorld = view.clipFromWorld;
+        face.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(view.clipFromWorld)));
+        face.size = faceSize(light, settings);
+        face.map = layout.mapCount;
+        layout.largestFace = std::max(layout.largestFace, face.size);
+    }
+    ++layout.mapCount;
+}
+
+}  // namespace
+
 RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget,
-                    uint32_t surfaceSide, float surfaceShare) {
+                    ClusterShares& shares, uint32_t surfaceSide, float surfaceShare) {
     RsmLayout layout;
-    std::array<float, io::kMaxRsmMaps> flux{};
+    const ClusterShares before = std::exchange(shares, {});
+    std::array<Sharer, io::kMaxRsmMaps> sharers{};
     for (const RenderLight& light : scene.lights) {
+        if (!light.bounces || shares.count == io::kMaxBounceLights) continue;
         const bool dark = light.intensity == glm::vec3(0);
-        if (!light.bounces || dark || layout.mapCount == io::kMaxBounceLights) continue;
-        io::RsmMap& map = layout.maps[layout.mapCount] = mapOf(light);
-        map.firstFace = layout.faceCount;
-        map.faceCount = facesOf(light);
-        for (uint32_t f = 0; f < map.faceCount; ++f) {
-            const LightView view = faceView(light, f, scene, settings);
-            map.tanHalf = view.tanHalf;
-            io::RsmFace& face = layout.faces[layout.faceCount++];
-            face.clipFromWorld = view.clipFromWorld;
-            face.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(view.clipFromWorld)));
-            face.size = faceSize(light, settings);
-            face.map = layout.mapCount;
-            layout.largestFace = std::max(layout.largestFace, face.size);
-        }
-        flux[layout.mapCount++] = emittedFlux(light, scene.bounds) * light.budgetShare;
+        const auto steady =
+            steadyLight(light, dark ? 0 : emittedFlux(light, scene.bounds) * light.budgetShare, before);
+        if (dark && steady.flux == 0) continue;
+        sharers[shares.count] = {steady.flux, dark ? kNoMap : layout.mapCount};
+        shares.lights[shares.count++] = steady;
+        if (!dark) addLightMap(layout, light, scene, settings);
     }
     if (layout.mapCount == 0) return layout;
-    if (surfaceSide > 0) flux[layout.mapCount] = addSurfaceMap(layout, flux, surfaceSide, surfaceShare);
-    layout.mapCount += surfaceSide > 0;
+    uint32_t sharing = shares.count;
+    if (surfaceSide > 0) {
+        const float flux = addSurfaceMap(layout, {sharers.data(), sharing}, surfaceSide, surfaceShare);
+        sharers[sharing++] = {flux, layout.mapCount++};
+    }
     placeFaces(layout);
-    shareClusters(layout, {flux.data(), layout.mapCount}, clusterBudget);
+    shareClusters(layout, {sharers.data(), sharing}, clusterBudget);
     return layout;
 }
 

@@ -16,7 +16,7 @@ struct RsmLayout {
 // At most kMaxBounceLights lights with a BounceLight; faces are powers of two and aligned to their size.
 // `surfaceSide`: texels along the map of surfaces, 0: none; it gets `surfaceShare` of the clusters.
 RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget,
-                    uint32_t surfaceSide = 0, float surfaceShare = 0);
+                    ClusterShares& shares, uint32_t surfaceSide = 0, float surfaceShare = 0);
 
 // Emitted flux of a light in W, for sharing budgets (mean of the channels; sun: onto the scene's bounds).
 float emittedFlux(const RenderLight& light, const Bounds& sceneBounds);

@@ -1,12 +1,16 @@
 #include "gi/scene_draws.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace ag::gi {
 
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
               const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer) {
+    drawView(pass, scene, view, std::as_bytes(std::span(&clipFromWorld, 1)), viewport, filter, viewer);
+}
+
+void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
+              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer) {
     const bool camera = viewer == Viewer::kCamera;
     const bool shapes = filter == DrawFilter::kShapes || filter == DrawFilter::kOpaqueOnly;
     const std::span<const DrawBucket> buckets = scene.draws->buckets();
@@ -23,8 +27,8 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
         }
         draw.cull = bucket.doubleSided || !camera ? gpu::CullMode::kNone : gpu::CullMode::kBack;
         draw.viewport = viewport;
-        std::memcpy(draw.push.data(), &clipFromWorld, sizeof clipFromWorld);
-        draw.pushSizeBytes = sizeof clipFromWorld;
+        std::ranges::copy(push, draw.push.begin());
+        draw.pushSizeBytes = uint32_t(push.size());
         draw.commands = scene.commands;
         draw.commandsOffsetBytes = view.buckets[b].firstCommand * sizeof(VkDrawIndexedIndirectCommand);
         draw.commandCount = view.buckets[b].commandCount;

@@ -16,6 +16,9 @@ enum class Viewer { kCamera, kLight };
 // map), the view's matrix as push constant, its viewport.
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
               const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer);
+// The same with other push constants, for views that are no matrix.
+void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
+              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer);
 bool hasMasked(const SceneView& scene);  // any alpha-masked surface
 // The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
 void bindMaterials(PassBuilder& pass, const SceneView& scene);

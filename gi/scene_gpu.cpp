@@ -129,9 +129,11 @@ void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
 void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) {
     std::vector<io::Material> rows;
     strongestEmission_ = 0;
+    hasGlossy_ = false;
     for (const Material& m : geometry.materials) {
         rows.push_back(materialRow(m, units));
         strongestEmission_ = std::max({strongestEmission_, m.emissive.x, m.emissive.y, m.emissive.z});
+        hasGlossy_ = hasGlossy_ || m.metallic > 0 || m.specular > 0;
     }
     materials_ = loadBuffer(device_, "scene.materials", rows, false, kVec4Texels);
     materialsVersion_ = combineHash(geometry.version, hashValue(units.light));
@@ -171,7 +173,9 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
         std::max<uint64_t>(viewsNeeded(scene) * std::max<uint64_t>(scene.instances.size(), 1) *
                                sizeof(VkDrawIndexedIndirectCommand),
                            64);
+    const gpu::Buffer* commandsBefore = commands_.get();
     commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
+    if (commands_.get() != commandsBefore) draws_.markAllDirty();
 }
 
 // Points stay on their instances while these move; they are chosen anew when instances come or go.
@@ -216,7 +220,11 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     reserveBuffers(scene);
     sampleSurfacesAnew(scene);
     noteMovements(scene);
-    SceneView view{.scene = &scene, .draws = &draws_, .size = size, .hasEmissive = strongestEmission_ > 0};
+    SceneView view{.scene = &scene,
+                   .draws = &draws_,
+                   .size = size,
+                   .hasEmissive = strongestEmission_ > 0,
+                   .hasGlossy = hasGlossy_};
     view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
     // Constant versions: what a view draws of them is in its draws' versions.
     view.instances = graph.importBuffer("scene.instances", *instances_, 1);

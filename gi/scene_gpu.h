@@ -32,6 +32,7 @@ struct SceneView {
     glm::uvec2 size{0};                                       // pixels of the camera's image
     RenderUnits units;                                        // of everything above
     bool hasEmissive = false;
+    bool hasGlossy = false;                // a material that is not Lambert
     BufferHandle surfaceSamples;           // io::SurfaceSample; also a texel buffer of vec4
     uint32_t surfaceSampleCount = 0;       // 0: no surface
     uint32_t stillSampleCount = 0;         // the first ones are on what stands still
@@ -59,7 +60,7 @@ class SceneGpu {
     float strongestEmission() const { return strongestEmission_; }  // of its materials, W/(m² sr)
 
     // Once a frame before the passes are declared: bounds, buckets.
-    void beginFrame(const RenderScene& scene) { draws_.beginFrame(scene); }
+    void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
     SceneView import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size);
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     void upload(VkCommandBuffer commands, const SceneView& view, uint32_t frameSlot);
@@ -90,6 +91,7 @@ class SceneGpu {
     uint64_t geometryVersion_ = 0;
     float strongestEmission_ = 0;
     uint64_t materialsVersion_ = 0;
+    bool hasGlossy_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;

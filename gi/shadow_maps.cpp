@@ -68,6 +68,10 @@ ImageHandle addAtlas(FrameGraph& graph, const SceneView& scene, std::span<io::Sh
     PassBuilder opaque =
         graph.raster("shadow_maps.cascades", "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
     opaque.depthClear(image).geometry(scene.geometry).read("instances", scene.instances);
+    std::array<ViewRequest, io::kMaxShadowViews> requests;
+    for (uint32_t v = 0; v < views.size(); ++v)
+        requests[v] = {scene.viewsClaimed + v, views[v].clipFromWorld};
+    scene.draws->cullAll(*scene.scene, {requests.data(), views.size()});
     for (uint32_t v = 0; v < views.size(); ++v) {
         io::ShadowView& view = views[v];
         view.origin = atlas.place(v);

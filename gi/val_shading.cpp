@@ -50,9 +50,14 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
         .spec(1, g.isms.planes ? taps : 0)
         .spec(2, g.interleave)
         .spec(3, g.isms.mapping == IsmMapping::kParaboloid)
+        .spec(4, g.isms.shared)
         .push(g.push)
         .dispatchThreads(g.push.tiles.x * g.push.tiles.y * g.push.tileSize * g.push.tileSize / 4);
     return pass;
+}
+
+PassBuilder& bindCoat(PassBuilder& pass, const GBuffer& gbuffer) {
+    return pass.sample("albedoMap", gbuffer.albedo).sample("reflectanceMap", gbuffer.reflectance);
 }
 
 }  // namespace
@@ -75,19 +80,27 @@ Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffe
                  .tiles = tiles,
                  .nearReach = settings.nearReach,
                  .ismTileSize = isms.tileSize},
-        .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * io::kMaxVals * 4,
+        .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * vals.count * 4,
                                             .texelFormat = VK_FORMAT_R32_UINT}),
         .counts = graph.buffer(names.counts, {.sizeBytes = tileCount * 8}),
         .interleave = n};
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle parts = graph.image(names.parts, info);
-    const Irradiance result{graph.image(names.irradiance, info)};
+    Irradiance result{graph.image(names.irradiance, info)};
     addClassification(g, names.classify);
-    addGather(g, names.far, "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
-        .write("parts", parts);
-    addGather(g, names.near, "val_shading/gather_near.comp", settings.shape, settings.taps)
-        .sample("parts", parts)
-        .write("irradiance", result.image);
+    const bool glossy = settings.glossy && gbuffer.reflectance && settings.farShape != ValShape::kPoint;
+    const ImageHandle coatParts = glossy ? graph.image(names.coatParts, info) : ImageHandle{};
+    if (glossy) result.coat = graph.image(names.coat, info);
+    PassBuilder far =
+        addGather(g, names.far, glossy ? "val_shading/gather_far_glossy.comp" : "val_shading/gather_far.comp",
+                  settings.farShape, settings.farTaps);
+    far.write("parts", parts);
+    if (glossy) bindCoat(far, gbuffer).write("coatParts", coatParts);
+    PassBuilder near = addGather(
+        g, names.near, glossy ? "val_shading/gather_near_glossy.comp" : "val_shading/gather_near.comp",
+        settings.shape, settings.taps);
+    near.sample("parts", parts).write("irradiance", result.image);
+    if (glossy) bindCoat(near, gbuffer).sample("coatParts", coatParts).write("coat", result.coat);
     return result;
 }
 

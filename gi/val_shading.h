@@ -23,22 +23,26 @@ struct ValShadingSettings {
     uint32_t interleave = 3;  // n: each pixel meets one of n² parts of the far lights
     uint32_t taps = 4;        // of near lights' soft shadows; 1: hard ones, from the light's centre
     uint32_t farTaps = 1;     // of far lights'
+    bool glossy = true;  // materials reflect by their roughness, where a scene has such and lights are areas
 };
 
 struct Irradiance {
     ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add
+    ImageHandle coat;   // rgba16f, W/(m² sr): what gloss adds to the Lambert part; invalid: nothing
 };
 
 // Passes and resources of one gathering; literals, because the graph keeps views of them.
 struct ValShadingNames {
-    std::string_view classify, far, near, lists, counts, parts, irradiance;
+    std::string_view classify, far, near, lists, counts, parts, irradiance, coatParts, coat;
 };
 constexpr ValShadingNames kFirstBounceShading = {
-    "val_shading.classify", "val_shading.far",   "val_shading.near",      "val_shading.lists",
-    "val_shading.counts",   "val_shading.parts", "val_shading.irradiance"};
+    "val_shading.classify",   "val_shading.far",        "val_shading.near",
+    "val_shading.lists",      "val_shading.counts",     "val_shading.parts",
+    "val_shading.irradiance", "val_shading.coat_parts", "val_shading.coat"};
 constexpr ValShadingNames kAllBouncesShading = {
-    "val_shading.classify_all", "val_shading.far_all",   "val_shading.near_all",      "val_shading.lists_all",
-    "val_shading.counts_all",   "val_shading.parts_all", "val_shading.irradiance_all"};
+    "val_shading.classify_all",   "val_shading.far_all",        "val_shading.near_all",
+    "val_shading.lists_all",      "val_shading.counts_all",     "val_shading.parts_all",
+    "val_shading.irradiance_all", "val_shading.coat_parts_all", "val_shading.coat_all"};
 
 Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
                          const IsmAtlas& isms, const ValShadingSettings& settings,

@@ -1,8 +1,8 @@
-# Sourced by play.sh and test.sh: installs what is missing, configures and builds. Quick when nothing changed.
+# Sourced by play.sh and test.sh: installs what is missing of the package lists it is given, configures and builds.
+# Quick when nothing changed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=${AFTERGLOW_BUILD:-build}
-package_lists=(tools/packages.txt ${more_packages:-})  # the second where the script that sources this says so
 
 stop() {
   printf 'afterglow: %s\n' "$*" >&2
@@ -10,12 +10,12 @@ stop() {
 }
 
 install_missing() {
-  command -v dpkg-query >/dev/null || stop "this script installs Debian packages; elsewhere, install what tools/packages.txt lists and run cmake"
+  command -v dpkg-query >/dev/null || stop "this script installs Debian packages; elsewhere, install what $* list and run cmake"
   local missing=()
   while read -r package; do
     [[ -z $package || $package == \#* ]] && continue
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
-  done < <(cat "${package_lists[@]}")
+  done < <(cat "$@")
   ((${#missing[@]} == 0)) && return
   local root=()
   if ((EUID != 0)); then
@@ -33,5 +33,5 @@ configure_and_build() {
   cmake --build "$build" || stop "the build failed; its first error is above"
 }
 
-install_missing
+install_missing "${package_lists[@]:-tools/packages.txt}"
 configure_and_build

@@ -43,21 +43,29 @@ void settingsPanel(Settings& settings) {
 
 void passPanel(const FrameGraph& graph) {
     static constexpr const char* kOutcomes[] = {"ran", "skipped", "dropped"};
+    ImGui::SetNextWindowSize({700, 480}, ImGuiCond_FirstUseEver);
     ImGui::Begin("Passes");
-    if (ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable)) {
+    const auto text = [](std::string_view t) { ImGui::TextUnformatted(t.data(), t.data() + t.size()); };
+    if (ImGui::BeginTable(
+            "passes", 5,
+            ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingFixedFit)) {
         ImGui::TableSetupColumn("pass");
         ImGui::TableSetupColumn("ms");
         ImGui::TableSetupColumn("");
+        ImGui::TableSetupColumn("why");
         ImGui::TableSetupColumn("runs");
         ImGui::TableHeadersRow();
         for (const PassReport& pass : graph.report()) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(pass.name.data(), pass.name.data() + pass.name.size());
+            text(pass.name);
             ImGui::TableNextColumn();
             ImGui::Text("%.2f", pass.gpuMs);
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(kOutcomes[size_t(pass.outcome)]);
+            text(kOutcomes[size_t(pass.outcome)]);
+            ImGui::TableNextColumn();
+            text(reasonText(pass.reason));
+            if (!pass.changed.empty()) ImGui::SameLine(0, 0), text(pass.changed);
             ImGui::TableNextColumn();
             ImGui::Text("%llu", static_cast<unsigned long long>(pass.runCount));
         }
@@ -90,14 +98,16 @@ DebugUi::~DebugUi() {
     ImGui::DestroyContext();
 }
 
-void DebugUi::build(const DebugUiState& state, Settings& settings, const FrameGraph& graph,
-                    const World& world, const std::string& status, FunctionRef<void()> game) {
+void DebugUi::build(DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
+                    const std::string& status, FunctionRef<void()> game) {
+    history_.add(graph.spans(), double(state.profilerBudgetMs));
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     game();
     if (state.showStatus) statusPanel(status);
     if (state.showSettings) settingsPanel(settings);
     if (state.showPasses) passPanel(graph);
+    if (state.showProfiler) drawProfiler(history_, state.profilerBudgetMs);
     if (state.showWorld) inspector_.build(world);
     ImGui::Render();
 }

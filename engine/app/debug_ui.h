@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/app/inspector.h"
+#include "engine/app/profiler_overlay.h"
 #include "engine/core/function_ref.h"
 #include "engine/core/settings.h"
 #include "engine/frame/frame_graph.h"
@@ -16,6 +17,8 @@ struct DebugUiState {
     bool showPasses = false;    // F2
     bool showStatus = false;    // F3
     bool showWorld = false;     // F4
+    bool showProfiler = false;  // F9
+    float profilerBudgetMs = 1000.0f / 60;
 };
 
 // ImGui's context with GLFW's events; one at a time.
@@ -27,11 +30,12 @@ class DebugUi {
     DebugUi& operator=(const DebugUi&) = delete;
 
     // Builds this frame's panels and what `game` adds; their draw data is ready when it returns.
-    void build(const DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
+    void build(DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
                const std::string& status, FunctionRef<void()> game);
 
   private:
     Inspector inspector_;
+    PassHistory history_;
 };
 
 }  // namespace ag

@@ -13,10 +13,13 @@ FrameGraph::FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines) : i
     impl_->pipelines = pipelines;
     if (!device) return;
     impl_->timer = std::make_unique<FrameTimer>(*device);
+    if (device->info().counts) impl_->counter = std::make_unique<PassCounter>(*device);
+    impl_->spans.reserve(FrameTimer::kMaxPasses);
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = device->queueFamily()};
     AG_VK(vkCreateCommandPool(device->handle(), &pool, nullptr, &impl_->ownPool));
+    device->setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, impl_->ownPool, "frame_graph.alone");
 }
 
 FrameGraph::~FrameGraph() {
@@ -164,7 +167,7 @@ const BufferInfo& FrameGraph::info(BufferHandle buffer) const {
 
 uint32_t FrameGraph::Impl::statsFor(std::string_view name) {
     const auto [entry, added] = statsOfName.try_emplace(hashText(name), uint32_t(stats.size()));
-    if (added) stats.push_back({.nameHash = entry->first});
+    if (added) stats.push_back({.nameHash = entry->first, .name = name});
     return entry->second;
 }
 

@@ -28,6 +28,7 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/frame/pass_counter.h"
 #include "engine/gpu/pipeline.h"
 
 namespace ag {
@@ -105,6 +106,7 @@ struct Geometry {
 };
 
 class FrameGraph;
+struct FrameDescription;  // frame_description.h
 
 // Fluent declaration of the pass last added; valid until the next pass is added.
 class PassBuilder {
@@ -165,18 +167,47 @@ class PassBuilder {
 
 enum class PassOutcome : uint8_t { kRan, kSkipped, kDropped };
 
+// Why.
+enum class PassReason : uint8_t {
+    kFirst,       // ran: for the first time
+    kInput,       // ran: something it reads changed
+    kParameters,  // ran: its constants, draws, pipeline or step changed
+    kHistory,     // ran: it goes on from the frame before
+    kLost,        // ran: what it had made is needed and no longer in memory
+    kAll,         // ran: nothing is skipped
+    kUnchanged,   // skipped: what it would make is there, or only skipped passes would read it
+    kUnread,      // dropped: nothing that was asked for needs what it writes
+};
+
 struct PassReport {
     std::string_view name;
     PassOutcome outcome = PassOutcome::kDropped;
-    double gpuMs = 0;       // of the last frame whose timestamps arrived, 0 if it did not run then
-    double cpuMs = 0;       // process CPU time, only in TimingMode::kProcessCpu
-    uint64_t runCount = 0;  // since the graph was made
+    PassReason reason = PassReason::kUnread;
+    std::string_view changed;  // kInput, kHistory: the first such resource
+    double gpuMs = 0;          // of the last frame whose timestamps arrived, 0 if it did not run then
+    double cpuMs = 0;          // process CPU time, only in TimingMode::kProcessCpu
+    uint64_t runCount = 0;     // since the graph was made
     uint32_t patches = 0, patchesDrawn = 0;  // of a pass that draws patches, when it ran last
+};
+
+std::string_view reasonText(PassReason reason);
+
+// When a pass ran, in ticks of the device's clock (see gpu::Device::readClocks).
+struct PassSpan {
+    std::string_view name;
+    uint64_t beginTicks = 0, endTicks = 0;
+};
+// The passes that ran in one frame, in order; they never overlap.
+struct FrameSpans {
+    uint64_t frame = 0;  // 0: none yet
+    std::span<const PassSpan> passes;
+    double nsPerTick = 1;
 };
 
 enum class TimingMode {
     kTimestamps,  // barrier, timestamp, barrier round every pass
     kProcessCpu,  // submit and wait per pass, process CPU time around it: the true cost on a CPU device
+    kCounts,      // no times: what the device counts in each pass (see counts())
     kOff,
 };
 
@@ -195,6 +226,8 @@ struct PassRecord {
 struct FrameGraphOptions {
     bool skip = true;   // engine.skip: false runs every needed pass; images are the same bit for bit
     bool alias = true;  // scratch resources share memory
+    std::string_view repeatPass;  // its work is done `repeats` times over: what an optimisation must find
+    uint32_t repeats = 1;
     TimingMode timing = TimingMode::kTimestamps;
 };
 
@@ -267,7 +300,13 @@ class FrameGraph {
     // --- What happened ---
     std::span<const PassReport> report() const;       // in order, of the frame last executed
     std::span<const PassRecord> nullRecords() const;  // null device only
-    uint64_t transientBytes() const;                  // device memory behind the graph's resources
+    uint64_t frame() const;                           // number of the frame last begun, from 1
+    FrameSpans spans() const;                         // of the last frame whose timestamps arrived
+    FrameDescription describe() const;                // of the frame last executed
+    // Of the frame last executed with TimingMode::kCounts: waits for its work. Empty where the device counts
+    // nothing (DeviceInfo::counts).
+    std::vector<PassCount> counts() const;
+    uint64_t transientBytes() const;  // device memory behind the graph's resources
     std::string graphviz() const;
 
   private:

@@ -141,7 +141,12 @@ void FrameGraph::Impl::synchronizeOutputs(VkCommandBuffer commands) {
 }
 
 void FrameGraph::Impl::finishPass(const Pass& pass) {
-    ++stats[pass.stats].runCount;
+    PassStats& known = stats[pass.stats];
+    ++known.runCount;
+    known.ownKey = ownKey(pass);
+    known.inputVersions.clear();
+    for (const Use& use : usesOf(pass))
+        known.inputVersions.push_back(use.versionBefore);
     for (const Use& use : usesOf(pass))
         if (writes(use.kind))
             slots[resources[use.resource].slot].halves[resources[use.resource].half].version =
@@ -173,10 +178,36 @@ double timeOnCpu(gpu::Device& device, VkCommandPool pool, F&& record) {
 
 }  // namespace
 
+void FrameGraph::Impl::readTimes(VkCommandBuffer commands) {
+    size_t count = 0;
+    const uint64_t read = timer->beginFrame(commands, frame, [&](uint32_t tag, uint64_t begin, uint64_t end) {
+        if (count++ == 0) spans.clear();
+        stats[tag].gpuMs = timer->milliseconds(end - begin);
+        spans.push_back({stats[tag].name, begin, end});
+    });
+    if (read) spansFrame = read;
+}
+
+// For passes whose results do not depend on what they wrote before.
+void FrameGraph::Impl::repeatPass(VkCommandBuffer commands, const Pass& pass) {
+    const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                               .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
+    for (uint32_t i = 1; i < options.repeats; ++i) {
+        vkCmdPipelineBarrier2(commands, &info);
+        recordPass(commands, pass);
+    }
+}
+
 void FrameGraph::execute(VkCommandBuffer commands) {
     Impl& g = *impl_;
     g.plan();
     const bool timed = g.device && g.options.timing == TimingMode::kTimestamps && commands;
+    const bool counted = g.counter && g.options.timing == TimingMode::kCounts && commands;
     const bool alone = g.device && g.options.timing == TimingMode::kProcessCpu;
     if (g.device) {
         g.device->collect();
@@ -186,14 +217,13 @@ void FrameGraph::execute(VkCommandBuffer commands) {
         else
             g.zeroNewHistories(commands);
     }
-    if (timed) g.timer->beginFrame(commands, [&](uint32_t tag, double ms) { g.stats[tag].gpuMs = ms; });
+    if (timed) g.readTimes(commands);
+    if (counted) g.counter->beginFrame(commands);
     g.report.clear();
     g.records.clear();
     for (const Pass& pass : g.passes) {
         PassStats& stats = g.stats[pass.stats];
-        const PassOutcome outcome = pass.runs     ? PassOutcome::kRan
-                                    : pass.wanted ? PassOutcome::kSkipped
-                                                  : PassOutcome::kDropped;
+        PassReport report = g.reportOf(pass);
         if (pass.runs) {
             PassRecord* record = g.device ? nullptr : &g.records.emplace_back(PassRecord{pass.name, {}});
             if (alone) {
@@ -204,16 +234,24 @@ void FrameGraph::execute(VkCommandBuffer commands) {
             } else {
                 g.synchronize(commands, pass, record);
                 if (timed) g.timer->begin(commands, pass.stats);
+                if (counted) g.counter->begin(commands, pass.name);
                 if (g.device) g.recordPass(commands, pass);
+                if (g.device && pass.name == g.options.repeatPass) g.repeatPass(commands, pass);
+                if (counted) g.counter->end(commands);
                 if (timed) g.timer->end(commands);
             }
             g.finishPass(pass);
         } else {
             stats.gpuMs = stats.cpuMs = 0;
         }
-        g.report.push_back({pass.name, outcome, stats.gpuMs, stats.cpuMs, stats.runCount, stats.patches,
-                            stats.patchesDrawn});
+        report.gpuMs = stats.gpuMs;
+        report.cpuMs = stats.cpuMs;
+        report.runCount = stats.runCount;
+        report.patches = stats.patches;
+        report.patchesDrawn = stats.patchesDrawn;
+        g.report.push_back(report);
     }
+    if (timed) g.timer->endFrame(commands);
     g.commitHistories();
     if (alone)
         timeOnCpu(*g.device, g.ownPool, [&](VkCommandBuffer own) { g.synchronizeOutputs(own); });

@@ -100,7 +100,7 @@ struct Use {
     bool previous = false;  // half of a history: not part of the step's key
     bool keyed = true;      // false: its version reaches the key another way
     glm::vec4 clear{0};
-    uint64_t versionAfter = 0;  // of a write
+    uint64_t versionBefore = 0, versionAfter = 0;  // of what it reads, of what it writes
 };
 
 enum class PassKind : uint8_t { kCompute, kFullscreen, kRaster, kFill, kUpload, kCopyImage, kCopyBuffer };
@@ -132,9 +132,13 @@ struct Pass {
 
 struct PassStats {
     uint64_t nameHash = 0;
+    std::string_view name;
     double gpuMs = 0, cpuMs = 0;
     uint64_t runCount = 0;
     uint64_t checkedPipeline = 0;  // bindings were checked against it
+    // When it ran last:
+    uint64_t ownKey = 0;
+    std::vector<uint64_t> inputVersions;  // by use
     uint32_t patches = 0, patchesDrawn = 0;
 };
 
@@ -152,6 +156,8 @@ struct FrameGraph::Impl {
     std::vector<std::byte> data;
     std::vector<PassReport> report;
     std::vector<PassRecord> records;
+    std::vector<PassSpan> spans;  // of frame `spansFrame`
+    uint64_t spansFrame = 0;
     std::vector<uint64_t> stepKeys;  // scratch, by slot
     std::vector<Patch> patches;      // scratch
 
@@ -162,10 +168,12 @@ struct FrameGraph::Impl {
     std::unordered_map<uint64_t, uint32_t> statsOfName;
     std::vector<AliasBucket> buckets;
     bool bucketsStale = false;
+    bool placedAliased = true;  // options.alias when scratch was placed
     std::array<VkSampler, 4> samplers{};
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
     std::unique_ptr<FrameTimer> timer;
+    std::unique_ptr<PassCounter> counter;                // null where the device counts nothing
     VkCommandPool ownPool = VK_NULL_HANDLE;              // TimingMode::kProcessCpu
     std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
@@ -181,6 +189,7 @@ struct FrameGraph::Impl {
     // Planning (frame_graph_plan.cpp)
     void plan();
     void resolvePipelines();
+    uint64_t ownKey(const Pass& pass) const;
     uint64_t passKey(const Pass& pass, bool withPrevious) const;
     void walkVersions(bool withPrevious);
     void chooseHalves();
@@ -216,6 +225,9 @@ struct FrameGraph::Impl {
     void recordTransfer(VkCommandBuffer commands, const Pass& pass);
     gpu::PipelineRequest requestFor(const Pass& pass, const RasterDraw* draw) const;
     void finishPass(const Pass& pass);
+    void readTimes(VkCommandBuffer commands);
+    void repeatPass(VkCommandBuffer commands, const Pass& pass);
+    PassReport reportOf(const Pass& pass) const;
 
     std::span<Use> usesOf(const Pass& pass) { return {uses.data() + pass.firstUse, pass.useCount}; }
     std::span<const Use> usesOf(const Pass& pass) const {

@@ -68,7 +68,8 @@ void FrameGraph::Impl::resolvePipelines() {
     }
 }
 
-uint64_t FrameGraph::Impl::passKey(const Pass& pass, bool withPrevious) const {
+// Of all that a pass is but the contents it reads.
+uint64_t FrameGraph::Impl::ownKey(const Pass& pass) const {
     uint64_t key = combineHash(stats[pass.stats].nameHash, pass.pipelineKey);
     key = hashBytes({pass.push.data(), pass.pushSizeBytes}, key);
     key = combineHash(combineHash(key, pass.extraKey), pass.fillWord);
@@ -79,9 +80,15 @@ uint64_t FrameGraph::Impl::passKey(const Pass& pass, bool withPrevious) const {
         key = hashDraw(key, draw);
     for (const Use& use : usesOf(pass)) {
         if (writes(use.kind)) key = hashValue(use.clear, combineHash(key, use.mip));
+    }
+    return key;
+}
+
+uint64_t FrameGraph::Impl::passKey(const Pass& pass, bool withPrevious) const {
+    uint64_t key = ownKey(pass);
+    for (const Use& use : usesOf(pass))
         if (readsOld(use.kind) && use.keyed && (withPrevious || !use.previous))
             key = combineHash(key, resources[use.resource].version);
-    }
     return key;
 }
 
@@ -113,6 +120,7 @@ void FrameGraph::Impl::walkVersions(bool withPrevious) {
             if (!withPrevious && history && (use.previous || writes(use.kind)))
                 stepKeys[r.slot] = combineHash(stepKeys[r.slot], key);
             ++index;
+            use.versionBefore = r.version;
             if (!writes(use.kind)) continue;
             use.versionAfter = combineHash(key, index) | 1;  // never 0
             r.version = use.versionAfter;

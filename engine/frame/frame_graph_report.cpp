@@ -1,9 +1,47 @@
 // What the graph can say of itself after a frame.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "engine/frame/frame_graph_impl.h"
 
 namespace ag {
+
+std::string_view reasonText(PassReason reason) {
+    static constexpr std::array<std::string_view, 8> kTexts = {
+        "for the first time",     "changed: ",      "its parameters changed",   "goes on from: ",
+        "its result was dropped", "all are to run", "nothing it reads changed", "nobody reads it"};
+    return kTexts[size_t(reason)];
+}
+
+// Before the pass is noted as run: compares it with how it ran last.
+PassReport FrameGraph::Impl::reportOf(const Pass& pass) const {
+    PassReport report{.name = pass.name};
+    if (!pass.runs) {
+        report.outcome = pass.wanted ? PassOutcome::kSkipped : PassOutcome::kDropped;
+        report.reason = pass.wanted ? PassReason::kUnchanged : PassReason::kUnread;
+        return report;
+    }
+    report.outcome = PassOutcome::kRan;
+    const PassStats& known = stats[pass.stats];
+    const std::span<const Use> uses = usesOf(pass);
+    report.reason = options.skip ? PassReason::kLost : PassReason::kAll;
+    if (known.runCount == 0) {
+        report.reason = PassReason::kFirst;
+    } else if (known.inputVersions.size() != uses.size() || known.ownKey != ownKey(pass)) {
+        report.reason = PassReason::kParameters;
+    } else {
+        for (size_t i = uses.size(); i-- > 0;) {
+            const Use& use = uses[i];
+            const bool changed =
+                readsOld(use.kind) && use.keyed && known.inputVersions[i] != use.versionBefore;
+            if (!changed || (use.previous && report.reason == PassReason::kInput)) continue;
+            report.reason = use.previous ? PassReason::kHistory : PassReason::kInput;
+            report.changed = resources[use.resource].name;
+        }
+    }
+    return report;
+}
 
 const gpu::Image& FrameGraph::physical(ImageHandle image) const {
     return impl_->imageOf(impl_->resources[image.index]);
@@ -42,6 +80,16 @@ std::span<const PassReport> FrameGraph::report() const {
 }
 std::span<const PassRecord> FrameGraph::nullRecords() const {
     return impl_->records;
+}
+
+uint64_t FrameGraph::frame() const {
+    return impl_->frame;
+}
+std::vector<PassCount> FrameGraph::counts() const {
+    return impl_->counter ? impl_->counter->read() : std::vector<PassCount>{};
+}
+FrameSpans FrameGraph::spans() const {
+    return {impl_->spansFrame, impl_->spans, impl_->device ? impl_->device->info().timestampPeriodNs : 1.0};
 }
 
 uint64_t FrameGraph::transientBytes() const {

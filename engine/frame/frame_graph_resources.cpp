@@ -46,6 +46,9 @@ VkSampler makeSampler(gpu::Device& device, Sampler kind) {
         .maxLod = mips ? VK_LOD_CLAMP_NONE : 0.25f};
     VkSampler sampler = VK_NULL_HANDLE;
     AG_VK(vkCreateSampler(device.handle(), &info, nullptr, &sampler));
+    constexpr const char* kNames[] = {"sampler.nearest_clamp", "sampler.linear_clamp",
+                                      "sampler.linear_repeat", "sampler.trilinear_repeat"};
+    device.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler, kNames[size_t(kind)]);
     return sampler;
 }
 
@@ -97,8 +100,9 @@ void FrameGraph::Impl::placeScratch() {
         overlap = overlap || r.firstPass + 1 <= buckets[b].busyUntil;
         buckets[b].busyUntil = std::max(buckets[b].busyUntil, r.lastPass + 1);
     }
-    if (!bucketsStale && !overlap) return;
+    if (!bucketsStale && !overlap && placedAliased == options.alias) return;
     bucketsStale = false;
+    placedAliased = options.alias;
 
     for (AliasBucket& bucket : buckets) {
         for (uint32_t slot : bucket.slots) {
@@ -230,6 +234,7 @@ VkDescriptorPool makePool(gpu::Device& device) {
                                           .pPoolSizes = sizes.data()};
     VkDescriptorPool pool = VK_NULL_HANDLE;
     AG_VK(vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool));
+    device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame_graph.sets");
     return pool;
 }
 
@@ -277,6 +282,7 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
         set = tryAllocate(*device, pools.back(), pipeline.setLayout);
     }
     AG_CHECK(set != VK_NULL_HANDLE);
+    device->setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, std::string(pass.name));
     std::array<VkDescriptorBufferInfo, kMostBindings> bufferInfos{};
     std::array<VkDescriptorImageInfo, kMostBindings> imageInfos{};
     std::array<VkBufferView, kMostBindings> views{};

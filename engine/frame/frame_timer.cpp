@@ -3,19 +3,29 @@
 #include <utility>
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/resources.h"
 
 namespace ag {
+namespace {
+
+constexpr uint32_t kTimestamps = FrameTimer::kMaxPasses + 1;
+
+}  // namespace
 
 FrameTimer::FrameTimer(gpu::Device& device) : device_(device), periodNs_(device.info().timestampPeriodNs) {
     for (Ring& ring : rings_) {
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                         .queryCount = 2 * kMaxPasses};
+                                         .queryCount = kTimestamps};
         AG_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &ring.pool));
-        vkResetQueryPool(device.handle(), ring.pool, 0, 2 * kMaxPasses);
+        vkResetQueryPool(device.handle(), ring.pool, 0, kTimestamps);
+        device.setDebugName(VK_OBJECT_TYPE_QUERY_POOL, ring.pool, "frame_timer");
+        ring.ticks =
+            std::make_unique<gpu::Buffer>(device, gpu::BufferDesc{.name = "frame_timer.ticks",
+                                                                  .sizeBytes = kTimestamps * sizeof(uint64_t),
+                                                                  .hostVisible = true});
         ring.tags.reserve(kMaxPasses);
     }
-    values_.resize(2 * kMaxPasses);
 }
 
 FrameTimer::~FrameTimer() {
@@ -23,15 +33,13 @@ FrameTimer::~FrameTimer() {
         vkDestroyQueryPool(device_.handle(), ring.pool, nullptr);
 }
 
-bool FrameTimer::readBack(Ring& ring) {
-    if (ring.tags.empty()) return false;
-    const uint32_t count = 2 * uint32_t(ring.tags.size());
-    return vkGetQueryPoolResults(device_.handle(), ring.pool, 0, count, count * 8, values_.data(), 8,
-                                 VK_QUERY_RESULT_64_BIT) == VK_SUCCESS;
+std::span<const uint64_t> FrameTimer::ticksOf(const Ring& ring) {
+    const auto* ticks = reinterpret_cast<const uint64_t*>(ring.ticks->mapped());
+    return {ticks, ring.tags.empty() ? 0 : ring.tags.size() + 1};
 }
 
 void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
-    vkCmdResetQueryPool(commands, ring.pool, 0, 2 * kMaxPasses);
+    vkCmdResetQueryPool(commands, ring.pool, 0, kTimestamps);
     ring.tags.clear();
     active_ = next_;
     next_ = (next_ + 1) % rings_.size();
@@ -54,13 +62,28 @@ void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {
     Ring& ring = rings_[active_];
     open_ = periodNs_ != 0 && ring.tags.size() < kMaxPasses;
     if (!open_) return;
-    stamp(commands, 2 * uint32_t(ring.tags.size()));
+    if (ring.tags.empty()) stamp(commands, 0);
     ring.tags.push_back(tag);
 }
 
 void FrameTimer::end(VkCommandBuffer commands) {
     if (!std::exchange(open_, false)) return;
-    stamp(commands, 2 * uint32_t(rings_[active_].tags.size()) - 1);
+    stamp(commands, uint32_t(rings_[active_].tags.size()));
+}
+
+void FrameTimer::endFrame(VkCommandBuffer commands) {
+    const Ring& ring = rings_[active_];
+    if (ring.tags.empty()) return;
+    vkCmdCopyQueryPoolResults(commands, ring.pool, 0, uint32_t(ring.tags.size()) + 1, ring.ticks->handle(), 0,
+                              sizeof(uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                  .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                  .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                  .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                  .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
+    vkCmdPipelineBarrier2(commands, &info);
 }
 
 }  // namespace ag

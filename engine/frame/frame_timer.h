@@ -1,56 +1,70 @@
-// GPU time of passes by timestamps, read a few frames later without stalling. A full barrier stands on both
-// sides of each timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is
-// taken.
+// GPU time of passes by timestamps, read a few frames later without stalling. A pass begins where the one
+// before it ended, so that its own barriers count as its own. A full barrier stands on both sides of each
+// timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is taken. The
+// device copies them to where the host reads them: asking it for query results waits on lavapipe for all its
+// work.
 #pragma once
 
 #include <volk.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace ag {
 
+constexpr uint32_t kTimerFrames = 3;  // so many later the times of a frame are read
+
 namespace gpu {
+class Buffer;
 class Device;
-}
+}  // namespace gpu
 
 class FrameTimer {
   public:
+    static constexpr uint32_t kMaxPasses = 256;
+
     explicit FrameTimer(gpu::Device& device);
     ~FrameTimer();
     FrameTimer(const FrameTimer&) = delete;
     FrameTimer& operator=(const FrameTimer&) = delete;
 
-    // Reads the results of the frame that used this slot before: calls back with (tag, ms) for each pass. Its
-    // work must have finished.
+    // Reads the results of the frame that used this slot before: calls back with (tag, first tick, last tick)
+    // for each pass, and returns that frame's number, 0 if there is none. Its work must have finished.
     template <class F>
-    void beginFrame(VkCommandBuffer commands, F&& result) {
+    uint64_t beginFrame(VkCommandBuffer commands, uint64_t frame, F&& result) {
         Ring& ring = rings_[next_];
-        if (readBack(ring))
-            for (size_t i = 0; i < ring.tags.size(); ++i)
-                result(ring.tags[i], double(values_[2 * i + 1] - values_[2 * i]) * 1e-6 * periodNs_);
+        const std::span<const uint64_t> ticks = ticksOf(ring);
+        const uint64_t read = ticks.empty() ? 0 : ring.frame;
+        for (size_t i = 0; i < ring.tags.size(); ++i)
+            result(ring.tags[i], ticks[i], ticks[i + 1]);
         restart(commands, ring);
+        ring.frame = frame;
+        return read;
     }
+    double milliseconds(uint64_t ticks) const { return double(ticks) * 1e-6 * periodNs_; }
     void begin(VkCommandBuffer commands, uint32_t tag);
     void end(VkCommandBuffer commands);
+    void endFrame(VkCommandBuffer commands);  // after the last pass
 
   private:
-    static constexpr uint32_t kMaxPasses = 256;
     struct Ring {
         VkQueryPool pool = VK_NULL_HANDLE;
+        std::unique_ptr<gpu::Buffer> ticks;  // the first pass's begin, then each one's end
         std::vector<uint32_t> tags;
+        uint64_t frame = 0;
     };
-    bool readBack(Ring& ring);
+    static std::span<const uint64_t> ticksOf(const Ring& ring);
     void restart(VkCommandBuffer commands, Ring& ring);
     void stamp(VkCommandBuffer commands, uint32_t query);
 
     gpu::Device& device_;
     double periodNs_;
-    std::array<Ring, 3> rings_;
+    std::array<Ring, kTimerFrames> rings_;
     size_t next_ = 0, active_ = 0;
     bool open_ = false;  // a begin() waits for its end()
-    std::vector<uint64_t> values_;
 };
 
 }  // namespace ag

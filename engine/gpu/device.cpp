@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "engine/core/log.h"
+#include "engine/gpu/debug_name.h"
 #include "engine/gpu/device_choice.h"
 
 namespace ag::gpu {
@@ -58,6 +59,16 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(const void* next) {
             .pfnUserCallback = onMessage};
 }
 
+// Of a device that has them as extensions only.
+void useExtensionNames() {
+    if (vkCmdPipelineBarrier2) return;
+    vkCmdBeginRendering = vkCmdBeginRenderingKHR;
+    vkCmdEndRendering = vkCmdEndRenderingKHR;
+    vkCmdPipelineBarrier2 = vkCmdPipelineBarrier2KHR;
+    vkCmdWriteTimestamp2 = vkCmdWriteTimestamp2KHR;
+    vkQueueSubmit2 = vkQueueSubmit2KHR;
+}
+
 std::filesystem::path cacheFile() {
     if (const char* dir = std::getenv("AFTERGLOW_CACHE_DIR")) return std::filesystem::path(dir) / "pipelines";
     if (const char* dir = std::getenv("XDG_CACHE_HOME"))
@@ -94,7 +105,6 @@ struct Device::Impl {
     int messagesBefore;
     GLFWwindow* window;
     FaultCounter faults;
-    bool debugNames = false;
 
     explicit Impl(const DeviceOptions& options)
         : messagesBefore(gValidationMessages), window(options.window), faults(options.fault) {}
@@ -117,8 +127,8 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
         if (!needed) return Error{"the window system has no Vulkan surface support"};
         extensions.assign(needed, needed + count);
     }
-    debugNames = hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    if (debugNames) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
     const VkValidationFeatureEnableEXT synchronization =
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -157,16 +167,20 @@ Status Device::Impl::createDevice(const DeviceOptions& options) {
     if (!opened) return opened.error();
     device = *opened;
     volkLoadDevice(device);
+    useExtensionNames();
     vkGetDeviceQueue(device, choice.queueFamily, 0, &queue);
     const VkSemaphoreTypeCreateInfo type{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
     const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
     AG_VK(vkCreateSemaphore(device, &semaphore, nullptr, &timeline));
+    gpu::setDebugName(device, VK_OBJECT_TYPE_SEMAPHORE, timeline, "device.timeline");
+    gpu::setDebugName(device, VK_OBJECT_TYPE_QUEUE, queue, "device.queue");
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = choice.queueFamily};
     AG_VK(vkCreateCommandPool(device, &pool, nullptr, &oncePool));
     memory = std::make_unique<MemoryAllocator>(choice.physical, device, faults);
+    gpu::setDebugName(device, VK_OBJECT_TYPE_COMMAND_POOL, oncePool, "device.once");
     createPipelineCache();
     return Ok{};
 }
@@ -177,6 +191,7 @@ void Device::Impl::createPipelineCache() {
                                    .initialDataSize = data.size(),
                                    .pInitialData = data.data()};
     AG_VK(vkCreatePipelineCache(device, &info, nullptr, &pipelineCache));
+    gpu::setDebugName(device, VK_OBJECT_TYPE_PIPELINE_CACHE, pipelineCache, "device.pipelines");
 }
 
 void Device::Impl::savePipelineCache() const {
@@ -328,6 +343,7 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
                                            .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
     AG_VK(vkAllocateCommandBuffers(impl_->device, &info, &commands));
+    gpu::setDebugName(impl_->device, VK_OBJECT_TYPE_COMMAND_BUFFER, commands, "device.once");
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     AG_VK(vkBeginCommandBuffer(commands, &begin));
@@ -348,6 +364,17 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
     vkFreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
 }
 
+std::optional<ClockPair> Device::readClocks() const {
+    if (!info().calibrated) return std::nullopt;
+    const VkCalibratedTimestampInfoEXT clocks[] = {
+        {.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT, .timeDomain = VK_TIME_DOMAIN_DEVICE_EXT},
+        {.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT,
+         .timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT}};
+    uint64_t times[2] = {0, 0}, deviation = 0;
+    AG_VK(vkGetCalibratedTimestampsEXT(impl_->device, 2, clocks, times, &deviation));
+    return ClockPair{times[0], times[1]};
+}
+
 int Device::validationMessageCount() const {
     return gValidationMessages - impl_->messagesBefore;
 }
@@ -355,13 +382,6 @@ int totalValidationMessages() {
     return gValidationMessages;
 }
 
-void Device::setDebugName(VkObjectType type, uint64_t handle, const std::string& name) {
-    if (!impl_->debugNames || name.empty()) return;
-    const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-                                             .objectType = type,
-                                             .objectHandle = handle,
-                                             .pObjectName = name.c_str()};
-    vkSetDebugUtilsObjectNameEXT(impl_->device, &info);
 }
 
 }  // namespace ag::gpu

@@ -9,10 +9,12 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/gpu/debug_name.h"
 #include "engine/gpu/device_faults.h"
 #include "engine/gpu/memory.h"
 
@@ -34,10 +36,17 @@ struct DeviceInfo {
     uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
     float timestampPeriodNs = 0;  // 0: no timestamps
+    bool calibrated = false;      // the device's clock can be read together with the host's
+    bool counts = false;          // pipeline statistics
     bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
     VkPhysicalDeviceLimits limits{};
     std::vector<std::string> enabled;  // feature and extension names switched on
     std::vector<std::string> missing;  // "name: what is done without it"
+};
+
+// The same moment on the device's clock and on the host's (std::chrono::steady_clock).
+struct ClockPair {
+    uint64_t deviceTicks = 0, hostNs = 0;
 };
 
 class Device {
@@ -75,12 +84,18 @@ class Device {
     void retire(std::function<void()> destroy);
     void collect();
 
+    // Nothing where the driver cannot tell (DeviceInfo::calibrated).
+    std::optional<ClockPair> readClocks() const;
+
     // Records with `record`, submits and waits: for loading and tests.
     void runOnce(const std::function<void(VkCommandBuffer)>& record);
 
     // Warnings and errors of the validation layers so far (also those while creating the device).
     int validationMessageCount() const;
-    void setDebugName(VkObjectType type, uint64_t handle, const std::string& name);
+    template <class Handle>
+    void setDebugName(VkObjectType type, Handle handle, const std::string& name) {
+        gpu::setDebugName(this->handle(), type, handle, name);
+    }
 
   private:
     explicit Device(const DeviceOptions& options);

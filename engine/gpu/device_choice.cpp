@@ -12,10 +12,17 @@ namespace {
 struct Features {
     VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceDynamicRenderingFeatures rendering{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES};
+    VkPhysicalDeviceSynchronization2Features synchronization{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
+    VkPhysicalDeviceMaintenance4Features maintenance{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
     Features() {
         core.pNext = &v12;
-        v12.pNext = &v13;
+        v12.pNext = &rendering;
+        rendering.pNext = &synchronization;
+        synchronization.pNext = &maintenance;
     }
     Features(const Features&) = delete;
     Features& operator=(const Features&) = delete;
@@ -36,9 +43,9 @@ const std::array kRequired = {AG_FEATURE(core.features, multiDrawIndirect),
                               AG_FEATURE(v12, timelineSemaphore),
                               AG_FEATURE(v12, scalarBlockLayout),
                               AG_FEATURE(v12, hostQueryReset),
-                              AG_FEATURE(v13, dynamicRendering),
-                              AG_FEATURE(v13, synchronization2),
-                              AG_FEATURE(v13, maintenance4)};
+                              AG_FEATURE(rendering, dynamicRendering),
+                              AG_FEATURE(synchronization, synchronization2),
+                              AG_FEATURE(maintenance, maintenance4)};
 
 constexpr const char* kSubgroupOperations = "subgroup shuffle, ballot and arithmetic";
 
@@ -80,9 +87,29 @@ DeviceInfo describe(VkPhysicalDevice physical) {
     return info;
 }
 
+bool hasExtension(VkPhysicalDevice physical, const char* name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::ranges::any_of(
+        extensions, [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+// What is used of Vulkan 1.3. A device that cannot replay buffer addresses is shown by RenderDoc as one
+// of 1.2 with these.
+constexpr std::array kPartsOf13 = {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME,
+                                   VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
+                                   VK_KHR_MAINTENANCE_4_EXTENSION_NAME};
+
+bool hasParts(VkPhysicalDevice physical) {
+    return std::ranges::all_of(kPartsOf13, [&](const char* part) { return hasExtension(physical, part); });
+}
+
 // Fills enabled and missing with the required features.
 void listFeatures(VkPhysicalDevice physical, DeviceInfo& info) {
-    if (info.apiVersion < VK_API_VERSION_1_3) {
+    if (info.apiVersion < VK_API_VERSION_1_2 ||
+        (info.apiVersion < VK_API_VERSION_1_3 && !hasParts(physical))) {
         info.missing.push_back("Vulkan 1.3");
         return;
     }
@@ -90,6 +117,19 @@ void listFeatures(VkPhysicalDevice physical, DeviceInfo& info) {
     vkGetPhysicalDeviceFeatures2(physical, &has.core);
     for (const RequiredFeature& feature : kRequired)
         (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
+    info.counts = has.core.features.pipelineStatisticsQuery;  // done without where not
+    if (info.counts) info.enabled.push_back("pipelineStatisticsQuery");
+}
+
+// Whether its timestamps can be put on the clock of the host's spans; done without where not.
+bool sharesClock(VkPhysicalDevice physical) {
+    if (!hasExtension(physical, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
+    uint32_t count = 0;
+    vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, nullptr);
+    std::vector<VkTimeDomainEXT> domains(count);
+    vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, domains.data());
+    return std::ranges::count(domains, VK_TIME_DOMAIN_DEVICE_EXT) > 0 &&
+           std::ranges::count(domains, VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT) > 0;
 }
 
 constexpr const char* kTimestamps = "timestamps";
@@ -156,7 +196,11 @@ Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, con
             best = std::move(choice);
         }
     }
-    if (bestScore > 0) return best;
+    if (bestScore > 0) {
+        best.info.calibrated = sharesClock(best.physical);
+        if (best.info.calibrated) best.info.enabled.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
+        return best;
+    }
     if (devices.empty())
         return Error{"no Vulkan device found (on Debian, mesa-vulkan-drivers brings a software device)"};
     return Error{"no usable Vulkan 1.3 device:" + lacks};
@@ -166,18 +210,23 @@ Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain) {
     Features features;
     for (const RequiredFeature& feature : kRequired)
         feature.field(features) = VK_TRUE;
+    features.core.features.pipelineStatisticsQuery = choice.info.counts;
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = choice.queueFamily,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
-    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    std::vector<const char*> extensions;
+    if (withSwapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (choice.info.apiVersion < VK_API_VERSION_1_3)
+        extensions.insert(extensions.end(), kPartsOf13.begin(), kPartsOf13.end());
+    if (choice.info.calibrated) extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.core,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
-                                  .enabledExtensionCount = withSwapchain ? 1u : 0u,
-                                  .ppEnabledExtensionNames = &swapchain};
+                                  .enabledExtensionCount = uint32_t(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data()};
     VkDevice device = VK_NULL_HANDLE;
     const VkResult result = vkCreateDevice(choice.physical, &info, nullptr, &device);
     if (result != VK_SUCCESS)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/check.h"
+#include "engine/gpu/debug_name.h"
 #include "engine/gpu/device.h"
 
 namespace ag::gpu {
@@ -63,6 +64,10 @@ uint32_t MemoryAllocator::addBlock(uint64_t sizeBytes, uint32_t type, bool hostV
                                     .allocationSize = sizeBytes,
                                     .memoryTypeIndex = type};
     AG_VK(vkAllocateMemory(device_, &info, nullptr, &block.memory));
+    setDebugName(device_, VK_OBJECT_TYPE_DEVICE_MEMORY, block.memory,
+                 hostVisible                 ? "memory.host"
+                 : use == MemoryUse::kBuffer ? "memory.buffers"
+                                             : "memory.images");
     if (hostVisible) {
         void* mapped = nullptr;
         AG_VK(vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped));

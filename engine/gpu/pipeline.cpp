@@ -103,7 +103,7 @@ struct PipelineLibrary::Impl {
     Shader& shader(std::string_view path);
     bool open(const std::string& path, Shader& shader, std::string* error) const;
     void mergeBindings(Pipeline& pipeline, const Shader& shader) const;
-    void makeLayout(Pipeline& pipeline, uint64_t shadersHash);
+    void makeLayout(Pipeline& pipeline, uint64_t shadersHash, const std::string& name);
     void makeCompute(const PipelineRequest& request, Pipeline& pipeline);
     void makeRaster(const PipelineRequest& request, Pipeline& pipeline);
 };
@@ -120,7 +120,7 @@ bool PipelineLibrary::Impl::open(const std::string& path, Shader& shader, std::s
                                         .codeSize = shader.module.spirv.size() * 4,
                                         .pCode = shader.module.spirv.data()};
     AG_VK(vkCreateShaderModule(device.handle(), &info, nullptr, &shader.handle));
-    device.setDebugName(VK_OBJECT_TYPE_SHADER_MODULE, uint64_t(shader.handle), path);
+    device.setDebugName(VK_OBJECT_TYPE_SHADER_MODULE, shader.handle, path);
     return true;
 }
 
@@ -154,7 +154,7 @@ void PipelineLibrary::Impl::mergeBindings(Pipeline& pipeline, const Shader& shad
     pipeline.pushSizeBytes = std::max(pipeline.pushSizeBytes, shader.module.pushSizeBytes);
 }
 
-void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash) {
+void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash, const std::string& name) {
     Layout& layout = layouts[shadersHash];
     if (!layout.pipeline) {
         std::vector<VkDescriptorSetLayoutBinding> bindings;
@@ -165,6 +165,7 @@ void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash)
             .bindingCount = uint32_t(bindings.size()),
             .pBindings = bindings.data()};
         AG_VK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &layout.set));
+        device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout.set, name);
         const VkPushConstantRange push{pipeline.pushStages, 0, pipeline.pushSizeBytes};
         const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                               .setLayoutCount = 1,
@@ -172,6 +173,7 @@ void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash)
                                               .pushConstantRangeCount = pipeline.pushSizeBytes ? 1u : 0u,
                                               .pPushConstantRanges = &push};
         AG_VK(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout.pipeline));
+        device.setDebugName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout.pipeline, name);
     }
     pipeline.setLayout = layout.set;
     pipeline.layout = layout.pipeline;
@@ -216,7 +218,7 @@ VkPipelineShaderStageCreateInfo stageInfo(VkShaderModule handle, const ShaderMod
 void PipelineLibrary::Impl::makeCompute(const PipelineRequest& request, Pipeline& pipeline) {
     const Shader& compute = shader(request.computeShader);
     mergeBindings(pipeline, compute);
-    makeLayout(pipeline, compute.hash);
+    makeLayout(pipeline, compute.hash, compute.module.path);
     pipeline.workgroupSize = compute.module.workgroupSize;
     pipeline.id = combineHash(compute.hash, requestHash(request));
     const Specialization specialization(request, compute.module, device.info());
@@ -225,6 +227,7 @@ void PipelineLibrary::Impl::makeCompute(const PipelineRequest& request, Pipeline
                                            .layout = pipeline.layout};
     AG_VK(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
                                    &pipeline.handle));
+    device.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, compute.module.path);
 }
 
 void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline& pipeline) {
@@ -233,7 +236,7 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
     const Shader& fragment = hasFragment ? shader(request.fragmentShader) : vertex;
     mergeBindings(pipeline, vertex);
     if (hasFragment) mergeBindings(pipeline, fragment);
-    makeLayout(pipeline, combineHash(vertex.hash, hasFragment ? fragment.hash : 0));
+    makeLayout(pipeline, combineHash(vertex.hash, hasFragment ? fragment.hash : 0), fragment.module.path);
     pipeline.bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
     pipeline.id =
         combineHash(combineHash(vertex.hash, hasFragment ? fragment.hash : 0), requestHash(request));
@@ -311,6 +314,7 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
                                             .layout = pipeline.layout};
     AG_VK(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
                                     &pipeline.handle));
+    device.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, fragment.module.path);
 }
 
 PipelineLibrary::PipelineLibrary(Device& device) : impl_(new Impl{.device = device}) {}

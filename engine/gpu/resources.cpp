@@ -52,6 +52,7 @@ VkImageView makeView(Device& device, const Image& image, uint32_t firstMip, uint
         .subresourceRange = {image.aspect(), firstMip, mips, 0, desc.layers}};
     VkImageView view = VK_NULL_HANDLE;
     AG_VK(vkCreateImageView(device.handle(), &info, nullptr, &view));
+    device.setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, desc.name);
     return view;
 }
 
@@ -73,13 +74,14 @@ Buffer::Buffer(Device& device, const BufferDesc& desc) : device_(device), desc_(
     memory_ = device.memory().allocate(requirements, desc.hostVisible, MemoryUse::kBuffer);
     AG_VK(vkBindBufferMemory(device.handle(), handle_, memory_.memory, memory_.offset));
     mapped_ = desc.hostVisible ? memory_.mapped : nullptr;
-    device.setDebugName(VK_OBJECT_TYPE_BUFFER, uint64_t(handle_), desc.name);
+    device.setDebugName(VK_OBJECT_TYPE_BUFFER, handle_, desc.name);
     if (desc.texelFormat == VK_FORMAT_UNDEFINED) return;
     const VkBufferViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .buffer = handle_,
                                       .format = desc.texelFormat,
                                       .range = VK_WHOLE_SIZE};
     AG_VK(vkCreateBufferView(device.handle(), &view, nullptr, &texelView_));
+    device.setDebugName(VK_OBJECT_TYPE_BUFFER_VIEW, texelView_, desc.name);
 }
 
 Buffer::~Buffer() {
@@ -101,7 +103,7 @@ Image::Image(Device& device, const ImageDesc& desc, const MemoryRange* memory)
         place = memory_ = device.memory().allocate(requirements, false, MemoryUse::kImage);
     }
     AG_VK(vkBindImageMemory(device.handle(), handle_, place.memory, place.offset));
-    device.setDebugName(VK_OBJECT_TYPE_IMAGE, uint64_t(handle_), desc.name);
+    device.setDebugName(VK_OBJECT_TYPE_IMAGE, handle_, desc.name);
     view_ = makeView(device, *this, 0, desc.mips);
     mipViews_ = std::make_unique<VkImageView[]>(desc.mips);
     for (uint32_t mip = 0; mip < desc.mips; ++mip)

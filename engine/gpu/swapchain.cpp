@@ -7,10 +7,11 @@
 namespace ag::gpu {
 namespace {
 
-VkSemaphore makeSemaphore(Device& device) {
+VkSemaphore makeSemaphore(Device& device, const char* name) {
     const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
     AG_VK(vkCreateSemaphore(device.handle(), &info, nullptr, &semaphore));
+    device.setDebugName(VK_OBJECT_TYPE_SEMAPHORE, semaphore, name);
     return semaphore;
 }
 
@@ -22,6 +23,8 @@ VkImageView makeView(Device& device, VkImage image, VkFormat format) {
                                      .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
     AG_VK(vkCreateImageView(device.handle(), &info, nullptr, &view));
+    device.setDebugName(VK_OBJECT_TYPE_IMAGE, image, "swapchain.image");
+    device.setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, "swapchain.image");
     return view;
 }
 
@@ -100,6 +103,7 @@ void Swapchain::create(glm::uvec2 wanted) {
     AG_VK(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh));
     vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
     handle_ = fresh;
+    device_.setDebugName(VK_OBJECT_TYPE_SWAPCHAIN_KHR, handle_, "swapchain");
     uint32_t count = 0;
     vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr);
     images_.resize(count);
@@ -107,9 +111,9 @@ void Swapchain::create(glm::uvec2 wanted) {
     for (VkImage image : images_)
         views_.push_back(makeView(device_, image, format_));
     for (uint32_t i = 0; i < count; ++i)
-        rendered_.push_back(makeSemaphore(device_));
+        rendered_.push_back(makeSemaphore(device_, "swapchain.rendered"));
     for (uint32_t i = 0; i <= count; ++i)
-        acquired_.push_back(makeSemaphore(device_));
+        acquired_.push_back(makeSemaphore(device_, "swapchain.acquired"));
     nextAcquire_ = 0;
 }
 

@@ -16,6 +16,11 @@ AG_FUNCTION vec3 specularF0(vec3 baseColor, float metallic, float specular) {
     return mix(vec3(0.04f * specular), baseColor, metallic);
 }
 
+// And at grazing angles.
+AG_FUNCTION float specularF90(float metallic, float specular) {
+    return mix(specular, 1.0f, metallic);
+}
+
 AG_FUNCTION vec3 fresnelSchlick(vec3 f0, vec3 f90, float cosine) {
     float m = clamp(1.0f - cosine, 0.0f, 1.0f);
     return f0 + (f90 - f0) * (m * m * m * m * m);
@@ -45,7 +50,7 @@ AG_FUNCTION vec3 metallicRoughnessBrdf(vec3 n, vec3 v, vec3 l, vec3 baseColor, f
     if (nv <= 0.0f || nl <= 0.0f) return vec3(0.0f);
     vec3 h = normalize(v + l);
     float alpha = max(roughness * roughness, kLeastAlpha);
-    vec3 f90 = vec3(mix(specular, 1.0f, metallic));
+    vec3 f90 = vec3(specularF90(metallic, specular));
     vec3 f = fresnelSchlick(specularF0(baseColor, metallic, specular), f90, dot(v, h));
     float lobe = ggxDistribution(dot(n, h), alpha) * smithMasking(nv, alpha) * smithMasking(nl, alpha) /
                  (4.0f * nv * nl);

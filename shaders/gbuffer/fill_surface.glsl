@@ -1,4 +1,4 @@
-// What the camera sees: shading normal, diffuse albedo, emitted radiance.
+// What the camera sees: shading normal, diffuse albedo, emitted radiance, specular reflectance.
 #define AG_SCENE_MATERIALS
 #include "scene/scene.glsl"
 #include "scene/surface_normal.glsl"
@@ -15,6 +15,13 @@ layout(location = 1) out vec4 outAlbedo;  // rgb: diffuse albedo; w: metallic
 #ifdef AG_EMISSIVE
 layout(location = 2) out vec4 outEmissive;  // W/(m² sr)
 #endif
+#ifdef AG_GLOSSY
+#ifdef AG_EMISSIVE
+layout(location = 3) out vec4 outReflectance;
+#else
+layout(location = 2) out vec4 outReflectance;  // rgb: head on; w: at grazing angles
+#endif
+#endif
 
 void main() {
     SurfaceMaterial m = fetchMaterial(material, uv);
@@ -27,5 +34,8 @@ void main() {
     vec3 emissive = m.emissive;
     if (kTextureClass != 0) emissive *= sampleSrgb(m.uv, m.layers.y).rgb;
     outEmissive = vec4(min(emissive, vec3(kMostHalf)), 1.0);
+#endif
+#ifdef AG_GLOSSY
+    outReflectance = vec4(specularF0(m.baseColor.rgb, m.metallic, m.specular), specularF90(m.metallic, m.specular));
 #endif
 }

@@ -66,6 +66,11 @@ void main() {
     uint mapIndex = 0;
     for (uint i = 0; i < push.settings.mapCount; ++i)
         if (cluster >= maps.items[i].firstCluster) mapIndex = i;
+    uint inMap = cluster - maps.items[mapIndex].firstCluster;  // before the first map: beyond any count
+    if (inMap >= maps.items[mapIndex].clusterCount) {
+        seeds.items[cluster] = deadSeed(mapIndex);
+        return;
+    }
 
     uint plan = kAdaptive ? plans.items[cluster] : kPlanKeep;
     if (plan != kPlanKeep && plan != kPlanAnew) {

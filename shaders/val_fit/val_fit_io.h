@@ -19,7 +19,9 @@ struct Val {        // 3 vec4; black lights pad the list to whole subgroups
 
 const uint kValCorners = 8;
 
-struct ValShapeVectors {     // 7 vec4
+// 7 vec4. Points of light that share maps of visibility: in halfU and halfV the place and the normal a map is
+// seen from, in inverseRectangle which one.
+struct ValShapeVectors {
     vec3 halfU;              // m, of the rectangle of the cluster's second moments, in the light's plane
     float inverseRectangle;  // 1/m²
     vec3 halfV;

@@ -15,9 +15,15 @@ const uint kShapeVectorDisk = 2;  // closed form of a disk's vector irradiance
 const uint kShapeRectangle = 3;   // of the second moments, by its edges
 const uint kShapePolygon = 4;     // of the farthest texels, by its edges
 
+layout(constant_id = 4) const bool kSharedMaps = false;
 const bool kPolygon = kShape == kShapePolygon;
 const bool kSoft = kVisibilityTaps > 1;  // else shadows are hard, or with 0 taps none
-const bool kRectangle = kShape == kShapeRectangle || kSoft;
+#ifdef AG_GLOSSY
+const bool kRectangle = true;
+#else
+const bool kRectangle = kShape == kShapeRectangle || kSoft || kSharedMaps;
+#endif
+const uint kNoMap = 0xffffu;  // nothing stands in the light's way
 
 struct AreaLight {
     vec4 place;   // centre; area, or radius² of a vector disk
@@ -26,17 +32,17 @@ struct AreaLight {
     vec3 halfU, halfV;
     vec4 corners[kValCorners / 2];  // two each
     vec4 gradient;
-    uint index;  // and so which depth map
+    uint map;  // of depths: its own, or one shared with others and seen from halfU with normal halfV
 };
 
 AreaLight loadLight(uint index) {
     AreaLight l;
     int at = int(index) * 3, shape = int(index * kValShapeVec4s);
-    l.index = index;
     l.place = texelFetch(vals, at);
     l.normal = texelFetch(vals, at + 1).xyz;
     l.power = texelFetch(vals, at + 2);
     vec4 u = kRectangle ? texelFetch(shapes, shape) : vec4(0.0);
+    l.map = kSharedMaps ? uint(u.w) : index;
     vec4 v = kRectangle || kPolygon ? texelFetch(shapes, shape + 1) : vec4(0.0);
     l.halfU = u.xyz;
     l.halfV = v.xyz;
@@ -55,7 +61,7 @@ AreaLight loadLight(uint index) {
 // The light another lane holds.
 AreaLight lightOfLane(AreaLight mine, uint lane) {
     AreaLight l;
-    l.index = subgroupShuffle(mine.index, lane);
+    l.map = subgroupShuffle(mine.map, lane);
     l.place = subgroupShuffle(mine.place, lane);
     l.normal = subgroupShuffle(mine.normal, lane);
     l.power = subgroupShuffle(mine.power, lane);
@@ -93,10 +99,23 @@ float shapeTerm(vec3 x, vec3 n, AreaLight l, LightFrame f) {
     return polygonVectorFactor(toFrame(f, x - l.place.xyz), toFrame(f, n), corners, l.gradient);
 }
 
+IsmTile tileOf(AreaLight l, uint ismTileSize) {
+    return IsmTile(int(l.map * ismTileSize * ismTileSize), int(ismTileSize));
+}
+
+// By the map of the light's cluster, with hard edges (Dong et al. 2009).
+float sharedVisibility(vec3 x, AreaLight l, uint ismTileSize) {
+    vec3 t, b, d = x - l.halfU;
+    orthonormalBasis(l.halfV, t, b);
+    d = vec3(dot(d, t), dot(d, b), dot(d, l.halfV));
+    return l.map == kNoMap ? 1.0 : ismHardVisibility(isms, tileOf(l, ismTileSize), d);
+}
+
 float visibility(vec3 x, AreaLight l, LightFrame f, uint ismTileSize) {
     if (kVisibilityTaps == 0) return 1.0;
+    if (kSharedMaps) return sharedVisibility(x, l, ismTileSize);
     vec3 d = toFrame(f, x - l.place.xyz) - vec3(0.0, 0.0, l.power.w);
-    IsmTile tile = IsmTile(int(l.index * ismTileSize * ismTileSize), int(ismTileSize));
+    IsmTile tile = tileOf(l, ismTileSize);
     if (!kSoft) return ismHardVisibility(isms, tile, d);
     return ismSoftVisibility(isms, tile, d, toFrame(f, l.halfU).xy, toFrame(f, l.halfV).xy, kVisibilityTaps);
 }

@@ -43,7 +43,7 @@ Box boxOfTile(uint tile) {
 
 void append(uint tile, uint list, bool mine, uint light, inout uint count) {
     uvec4 ballot = subgroupBallot(mine);
-    if (mine) lists.items[listStart(tile, list) + count + subgroupBallotExclusiveBitCount(ballot)] = light;
+    if (mine) lists.items[listStart(tile, list, push.p.valCount) + count + subgroupBallotExclusiveBitCount(ballot)] = light;
     count += subgroupBallotBitCount(ballot);
 }
 

@@ -34,5 +34,5 @@ ivec2 pixelOf(TileBlock b, int p) {
     return ivec2(b.origin + inPart * b.interleave + uvec2(b.part % b.interleave, b.part / b.interleave));
 }
 
-uint listStart(uint tile, uint list) { return (tile * kLightLists + list) * kMaxVals; }
+uint listStart(uint tile, uint list, uint valCount) { return (tile * kLightLists + list) * valCount; }
 #endif

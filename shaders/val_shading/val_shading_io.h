@@ -9,11 +9,10 @@
 namespace ag::io {
 #endif
 
-const uint kMaxVals = 1024;  // entries of a list
 const uint kNearList = 0, kFarList = 1, kLightLists = 2;
 
 struct ValShadingPush {
-    uint valCount;
+    uint valCount;  // and so the most entries of a list
     uint tileSize;  // pixels, a multiple of the interleaving
     uvec2 tiles;
     float nearReach;  // lights nearer than this many of their half lengths are near

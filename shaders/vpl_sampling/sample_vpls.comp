@@ -53,7 +53,8 @@ void main() {
         if (i >= maps.items[m].firstCluster) mapIndex = m;
     RsmMap map = maps.items[mapIndex];
     Val val = Val(vec3(0.0), 1.0, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0), 0.0);
-    if (i < push.vplCount) val = sampleMap(map, i - map.firstCluster, val);
+    uint inMap = i - map.firstCluster;  // before the first map: beyond any count
+    if (i < push.vplCount && inMap < map.clusterCount) val = sampleMap(map, inMap, val);
     val.area = 1e-8;
     val.radius = val.flux == vec3(0.0) ? 0.0 : 5e-5;
     ValShapeVectors point;

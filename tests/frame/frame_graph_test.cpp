@@ -43,6 +43,35 @@ void declareChain(FrameGraph& g, uint64_t version, uint32_t pushA = 0) {
     g.output(b);
 }
 
+TEST_F(NullGraph, SaysWhyEachPassRanOrDidNot) {
+    const auto declare = [&](uint64_t version, uint32_t push, uint64_t step, bool skip = true) {
+        options.skip = skip;
+        g.beginFrame(options);
+        declareChain(g, version, push);
+        const HistoryBuffer sum = g.historyBuffer("sum", kBuffer);
+        g.compute("make.sum", "sum.comp").readPrevious("before", sum).write("sum", sum.current).step(step);
+        g.output(sum.current);
+        g.compute("make.unread", "a.comp").write("u", g.buffer("u", kBuffer)).dispatchThreads(1);
+        g.execute(VK_NULL_HANDLE);
+        std::string all;
+        for (const PassReport& pass : g.report())
+            all += std::string(pass.name) + " " + std::string(reasonText(pass.reason)) +
+                   std::string(pass.changed) + "; ";
+        return all;
+    };
+    const std::string unread = "make.unread nobody reads it; ", still = "nothing it reads changed; ";
+    EXPECT_EQ(declare(1, 0, 1),
+              "make.a for the first time; make.b for the first time; make.sum for the first time; " + unread);
+    EXPECT_EQ(declare(1, 0, 1), "make.a " + still + "make.b " + still + "make.sum " + still + unread);
+    EXPECT_EQ(declare(2, 0, 1), "make.a changed: source; make.b changed: a; make.sum " + still + unread);
+    EXPECT_EQ(declare(2, 7, 1),
+              "make.a its parameters changed; make.b changed: a; make.sum " + still + unread);
+    EXPECT_EQ(declare(2, 7, 2),
+              "make.a " + still + "make.b " + still + "make.sum its parameters changed; " + unread);
+    EXPECT_EQ(declare(2, 7, 2, false),
+              "make.a all are to run; make.b all are to run; make.sum all are to run; " + unread);
+}
+
 TEST_F(NullGraph, SkipsWhatDidNotChange) {
     for (int frame = 0; frame < 5; ++frame) {
         g.beginFrame(options);

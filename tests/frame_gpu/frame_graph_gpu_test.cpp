@@ -5,6 +5,7 @@
 #include <random>
 
 #include "engine/frame/frame_graph.h"
+#include "engine/frame/frame_timer.h"
 #include "engine/gpu/resources.h"
 #include "tests/support/device_environment.h"
 
@@ -84,6 +85,42 @@ TEST(DeviceGraph, WhatIsReadBackIsOfTwoFramesBefore) {
     EXPECT_EQ(frame(5), 9u);
     EXPECT_EQ(frame(5), 9u);
     EXPECT_EQ(frame(5), 5u);
+}
+
+TEST(DeviceGraph, PassesHaveTheirPlaceOnTheHostsClock) {
+    DeviceGraph g;
+    g.options = {.skip = false};
+    const auto before = g.device.readClocks();
+    ASSERT_TRUE(before) << "lavapipe has calibrated timestamps";
+    const auto draw = [&](uint32_t repeats) {
+        g.options.repeatPass = "draw.first";
+        g.options.repeats = repeats;
+        g.graph.beginFrame(g.options);
+        const ImageInfo info{.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {512, 512}};
+        for (const std::string_view name : {"first", "second"}) {
+            const ImageHandle image = g.graph.image(name, info);
+            g.graph.fullscreen(name == "first" ? "draw.first" : "draw.second", "test/draw_value.frag")
+                .push(0.5f)
+                .colorClear(image, glm::vec4(0));
+            g.graph.output(image);
+        }
+        g.execute();
+    };
+    for (uint32_t frame = 0; frame < 2 * kTimerFrames; ++frame)
+        draw(40);
+    const auto after = g.device.readClocks();
+    const FrameSpans spans = g.graph.spans();
+    EXPECT_EQ(spans.frame + kTimerFrames, g.graph.frame());
+    ASSERT_EQ(spans.passes.size(), 2u);
+    const PassSpan first = spans.passes[0], second = spans.passes[1];
+    EXPECT_EQ(first.name, "draw.first");
+    EXPECT_LT(first.beginTicks, first.endTicks);
+    EXPECT_LE(first.endTicks, second.beginTicks);
+    EXPECT_LE(before->deviceTicks, first.beginTicks);
+    EXPECT_LE(second.endTicks, after->deviceTicks);
+    EXPECT_GT(after->hostNs, before->hostNs);
+    EXPECT_GT(first.endTicks - first.beginTicks, 5 * (second.endTicks - second.beginTicks))
+        << "forty times the work";
 }
 
 TEST(DeviceGraph, PassTimesArrive) {

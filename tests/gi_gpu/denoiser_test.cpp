@@ -191,6 +191,12 @@ TEST(Denoiser, SmoothsAndForgetsWhatIsGone) {
     setCamera(b->scene, pose, b->size);
     const double cut = errorOf(bounceImage(*b));
     EXPECT_LT(cut, 0.8 * raw) << "the first frame after a cut is filtered over the screen alone";
+    b->settings.denoiser.mostLength = 1;
+    const double early = (b->frame(), errorOf(bounceImage(*b)));
+    for (int i = 0; i < 16; ++i)
+        b->frame();
+    EXPECT_NEAR(errorOf(bounceImage(*b)) / early, 1, 0.15) << "without a history no frame knows of others";
+    EXPECT_GT(early, 1.2 * smooth);
     b->size = {80, 48};
     setCamera(b->scene, pose, b->size);
     for (const glm::vec3& p : bounceImage(*b).pixels)

@@ -560,6 +560,101 @@ TEST(Frame, SkippingChangesNoBit) {
     EXPECT_EQ(render(true), render(false));
 }
 
+using Ran = std::set<std::string>;
+
+// Techniques ("rsm" of "rsm.render") of which a pass ran in the last frame.
+Ran techniquesRun(Bench& b) {
+    Ran names;
+    for (const PassReport& pass : b.renderer.graph().report())
+        if (pass.outcome == PassOutcome::kRan) names.emplace(pass.name.substr(0, pass.name.find('.')));
+    return names;
+}
+
+// The hall with everything at rest.
+std::unique_ptr<Bench> restingHall() {
+    auto b = std::make_unique<Bench>(*scenegen::buildScene("hall", 0));
+    b->settings.valClustering.settleFrames = 2;
+    for (RenderInstance& instance : b->scene.instances)
+        instance.movable = false;
+    b->scene.instances.back().movable = true;
+    for (int i = 0; i < 6; ++i) {
+        b->frame();
+        b->scene.allInstancesChanged = false;
+    }
+    EXPECT_EQ(techniquesRun(*b), Ran{});
+    return b;
+}
+
+void moveLast(Bench& b, glm::vec3 by) {
+    const auto row = uint32_t(b.scene.instances.size() - 1);
+    b.scene.instances[row].worldFromLocal[3] += by;
+    b.scene.changedInstances = {{row, row + 1}};
+    ++b.scene.instancesVersion;
+    b.frame();
+    b.scene.changedInstances.clear();
+}
+
+// What a thing is out of sight and out of reach of runs nothing but what indirect light may meet it with.
+TEST(Frame, AThingOutOfSightLeavesViewAndLightMapsAlone) {
+    auto b = restingHall();
+    CameraPose away = cameraOf(b->asset, 0);
+    away.forward = {1, 0, 0.2f};
+    setCamera(b->scene, away, b->size);
+    for (RenderLight& light : b->scene.lights) {  // beams up into a corner
+        light.position = {5, 3, 3};
+        light.direction = glm::normalize(glm::vec3(1, 0.5f, 0.5f));
+        light.outerConeAngle = 0.5f;
+        light.innerConeAngle = 0.3f;
+    }
+    ++b->scene.lightsVersion;
+    for (int i = 0; i < 6; ++i)
+        b->frame();
+    ASSERT_EQ(techniquesRun(*b), Ran{});
+    moveLast(*b, {0, 0.05f, 0});
+    const Ran ran = techniquesRun(*b);
+    for (const char* step : {"gbuffer", "rsm", "importance", "val_clustering", "val_fit"})
+        EXPECT_FALSE(ran.contains(step)) << step;
+    for (const char* step : {"surface_points", "ism_atlas", "val_shading"})
+        EXPECT_TRUE(ran.contains(step)) << step;
+}
+
+TEST(Frame, LightsThatGoOutStopAllThatIsAboutThem) {
+    auto b = restingHall();
+    for (RenderLight& light : b->scene.lights)
+        light.intensity = glm::vec3(0);
+    ++b->scene.lightsVersion;
+    b->frame();
+    EXPECT_EQ(techniquesRun(*b), Ran{"composite"});
+    for (const PassReport& pass : b->renderer.graph().report())
+        for (const char* step :
+             {"rsm.", "importance.", "val_clustering.", "val_fit.", "ism_atlas.", "val_shading."})
+            EXPECT_FALSE(pass.name.starts_with(step)) << pass.name << " is not even declared";
+}
+
+TEST(Frame, AFlickeringLampLeavesTheOthersClustersAlone) {
+    const auto oldClusters = [](bool flickers) {  // of the other lamp, after two dozen frames
+        Bench b(*scenegen::buildScene("hall", 0), {64, 40});
+        b.settings.valClustering.adaptive = false;
+        const glm::vec3 bright = b.scene.lights[0].intensity;
+        for (int i = 0; i < 24; ++i) {
+            const float flame = i % 5 == 3 ? 0.0f : i % 2 ? 0.8f : 1.2f;
+            b.scene.lights[0].intensity = bright * (flickers ? flame : 1);
+            ++b.scene.lightsVersion;
+            b.frame();
+            // Light maps come and go: their memory is used again, which the validation layer takes for a
+            // hazard as it does not follow timeline semaphores.
+            b.renderer.waitIdle();
+        }
+        int count = 0;
+        for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters))
+            count += c.texelCount > 0 && c.lightIdLow == uint32_t(b.scene.lights[1].id) && c.age >= 12;
+        return count;
+    };
+    const int steady = oldClusters(false);
+    EXPECT_GT(steady, 16);
+    EXPECT_GE(oldClusters(true), steady * 3 / 4) << "hardly any was seeded anew";
+}
+
 TEST(Frame, WithoutLightThereIsNoGlobalIllumination) {
     Bench b(*scenegen::buildScene("cornell", 0));
     b.scene.lights.clear();
@@ -568,6 +663,20 @@ TEST(Frame, WithoutLightThereIsNoGlobalIllumination) {
         EXPECT_TRUE(pass.name.starts_with("scene.") || pass.name.starts_with("gbuffer.") ||
                     pass.name.starts_with("composite."))
             << pass.name;
+}
+
+// Materials are Lambert in the one and have coats in the other.
+TEST(Glossy, RunsOnlyWhereAMaterialIs) {
+    for (const char* name : {"cornell", "glossy"}) {
+        Bench b(*scenegen::buildScene(name, 0), {64, 36});
+        b.frame();
+        const bool glossy = std::string_view(name) == "glossy";
+        EXPECT_EQ(bool(b.last.gbuffer.reflectance), glossy);
+        EXPECT_EQ(bool(b.last.indirect.coat), glossy);
+        b.settings.valShading.glossy = false;
+        b.frame();
+        EXPECT_FALSE(b.last.indirect.coat);
+    }
 }
 
 }  // namespace

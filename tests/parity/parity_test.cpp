@@ -115,6 +115,43 @@ TEST(Parity, SecondBounce) {
 }
 
 // What is left is within a few hundredths of the truth's mean, and no energy is lost or won.
+struct GlossErrors {
+    ImageDifference coated, lambert;
+};
+
+// Where surfaces are glossy, with their coats and without.
+GlossErrors glossErrors(uint32_t percent, bool visibility) {
+    Parity p("glossy", percent);
+    Image truth =
+        p.trace({.paths = {.bounces = 1, .glossy = true, .unshadowed = !visibility}, .samplesPerPixel = 512})
+            .radiance;
+    GiSettings settings;
+    settings.ismAtlas.enabled = visibility;
+    Image with = p.render(Layer::kRadiance, settings, 32);
+    settings.valShading.glossy = false;
+    Image without = p.render(Layer::kRadiance, settings, 32);
+    for (size_t i = 0; i < truth.pixels.size(); ++i)
+        if (with.pixels[i] == without.pixels[i]) with.pixels[i] = without.pixels[i] = truth.pixels[i] = {};
+    const GlossErrors e{differ(truth, with), differ(truth, without)};
+    std::printf("roughness %.2f%s: mean ratio %.3f, relative RMSE %.3f; as Lambert %.3f, %.3f\n",
+                percent / 100.0, visibility ? "" : ", unshadowed", e.coated.meanRatio, e.coated.relativeRmse,
+                e.lambert.meanRatio, e.lambert.relativeRmse);
+    return e;
+}
+
+// Bells for lights are wider than a lobe of little roughness. With shadows it is those of the ball on itself
+// that are off, where light grazes it: that is where metal shines.
+TEST(Parity, GlossyReceivers) {
+    for (const uint32_t percent : {60u, 30u, 15u}) {
+        const GlossErrors e = glossErrors(percent, false);
+        EXPECT_NEAR(e.coated.meanRatio, 1, 0.05);
+        EXPECT_LT(e.coated.relativeRmse, 0.5 * e.lambert.relativeRmse);
+    }
+    const GlossErrors e = glossErrors(30, true);
+    EXPECT_NEAR(e.coated.meanRatio, 1, 0.05);
+    EXPECT_LT(e.coated.relativeRmse, 0.5 * e.lambert.relativeRmse);
+}
+
 TEST(Parity, FirstBounceThroughImperfectShadowMaps) {
     for (const char* name : {"cornell", "occluder"}) {
         Parity p(name);

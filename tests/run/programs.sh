@@ -118,6 +118,28 @@ done
 expect 2 "there is no technique 'magic'" "$bin/afterglow" bench --techniques magic
 expect 2 "does not exist" "$bin/afterglow" bench --scenes nowhere --techniques none
 
+# A capture leaves all its files; what cannot be written leaves none.
+expect 0 " passes, " "$bin/afterglow" capture cornell -o "$work/seen" --size 32x18 --frames 3 --warm-up 2 --schedule \
+  --walk 0.01,0,0 --reference --reference-spp 4 --validate
+for file in passes.csv pictures.csv trace.json frame_graph.dot frame_graph.svg schedule.dot schedule.svg report.html \
+  composite.display.png gbuffer.depth.png view.clusters.png reference.png; do
+  [[ -s $work/seen/$file ]] || fail "capture left no $file"
+done
+[[ ! -e $work/seen/.unfinished ]] || fail "capture left its unfinished files"
+expect 0 "no picture changed" "$bin/afterglow" capture --diff "$work/seen" "$work/seen"
+expect 2 "nowhere/passes.csv: the file cannot be opened" "$bin/afterglow" capture --diff "$work/seen" "$work/nowhere"
+expect 2 "capture needs -o DIR" "$bin/afterglow" capture cornell
+expect 2 "capture needs a SCENE" "$bin/afterglow" capture -o "$work/none"
+expect 2 "cannot make the folder /proc/none/seen" "$bin/afterglow" capture cornell -o /proc/none/seen
+expect 2 "no pass of the frame is named 'rsm.wash'" "$bin/afterglow" capture cornell -o "$work/none" --size 32x18 --frames 1 \
+  --warm-up 1 --repeat rsm.wash=3
+expect 2 "--repeat takes PASS=N" "$bin/afterglow" capture cornell -o "$work/none" --repeat rsm.render
+expect 2 "--schedule takes the lights of the scene's file" "$bin/afterglow" capture cornell -o "$work/none" --schedule --sun 0,-1,0
+# Files of 16 KiB at most: as on a full disk.
+full() { (trap '' XFSZ; ulimit -f 16; AFTERGLOW_CACHE_DIR=/proc/none "$@"); }
+expect 2 "cannot write" full "$bin/afterglow" capture cornell -o "$work/none" --size 32x18 --frames 1 --warm-up 1
+[[ ! -e $work/none ]] || fail "a refused capture left a folder"
+
 expect 0 "adaptive by flux" "$bin/afterglow" sweep --frames 8 --every 4 --csv "$work/s.csv" --plot "$work/s.svg"
 [[ $(wc -l <"$work/s.csv") == 3 && -s $work/s.svg ]] || fail "sweep left no table or plot"
 expect 2 "cannot write" "$bin/afterglow" sweep --frames 2 --csv /proc/none/s.csv

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# The demo in a real window on a virtual display: the menu, walking, picking up a crate, panels, another size, hidden and
+# The demo in a real window on a virtual display: the menu, walking, picking up a crate, panels, a capture, another size, hidden and
 # shown again, left for another window, quit from the menu; validation is silent, and the recording played again without
 # a window ends where the player did.
 set -u
 bin=$1
 work=$(mktemp -d)
 for tool in Xvfb xdotool; do
-  command -v $tool >/dev/null || { echo "FAILED: $tool is missing (see tools/packages.txt)"; exit 1; }
+  command -v $tool >/dev/null || { echo "FAILED: $tool is missing (see tools/test_packages.txt)"; exit 1; }
 done
 mkfifo "$work/display"
 Xvfb -displayfd 3 -screen 0 1024x768x24 3>"$work/display" >/dev/null 2>&1 &
@@ -61,7 +61,7 @@ await_end() {  # WHAT [CODE]
   [[ $code == "${2:-0}" ]] || { echo "FAILED: the demo exited with $code: $(tail -5 "$work/log")"; exit 1; }
 }
 
-start_demo --record "$work/run.replay"
+start_demo --record "$work/run.replay" --capture-frames 2
 keys Return  # Play
 turn 5 -52 0
 turn 5 0 50
@@ -73,7 +73,8 @@ sleep 0.5
 xdotool keydown s
 sleep 1
 xdotool keyup s
-keys F1 F2 F3 F4 8 9 1 F1 F2 F3 F4
+keys F9 F10  # the profiler; frames of this very view
+keys F1 F2 F3 F4 8 9 1 F1 F2 F3 F4 F9
 xdotool windowsize "$window" 400 240
 sleep 1
 xdotool windowunmap "$window"  # minimised
@@ -97,6 +98,10 @@ keys Escape
 keys Up Return
 if kill -0 "$demo" 2>/dev/null; then keys Escape Up Return; fi
 await_end "Quit"
+for file in report.html passes.csv trace.json schedule.svg composite.display.png; do
+  [[ -s $(echo "$work"/user/captures/*/"$file") ]] || { echo "FAILED: F10 left no $file: $(tail -5 "$work/log")"; exit 1; }
+done
+grep -q '"walkPlayer"' "$work"/user/captures/*/trace.json || { echo "FAILED: the captured ticks have no systems"; exit 1; }
 
 walked=$(awk 'NR > 1 && $2 > 0 { n += $1 } END { print n + 0 }' "$work/run.replay")
 looked=$(awk 'NR > 1 && $4 != 0' "$work/run.replay" | wc -l)

@@ -9,6 +9,7 @@
 #include "engine/core/flip.h"
 #include "engine/core/settings.h"
 #include "engine/scene/static_scene.h"
+#include "gi/frame_budget.h"
 #include "tools/bench/walking.h"
 #include "tools/reference/vpl_tracer.h"
 
@@ -17,9 +18,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr uint32_t kWarmFrames = 64;      // for clusters to settle
-constexpr uint32_t kEmitterMap = 32;      // texels along a light map's side
-constexpr uint32_t kTrendSamples = 1024;  // a pixel of each key of the flicker's trend
+constexpr uint32_t kWarmFrames = 64;                         // for clusters to settle
+constexpr uint32_t kBudgetFrames = 120, kBudgetJudged = 30;  // within which a budget is met; the last ones
+constexpr uint32_t kEmitterMap = 32;                         // texels along a light map's side
+constexpr uint32_t kTrendSamples = 1024;                     // a pixel of each key of the flicker's trend
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -81,10 +83,11 @@ SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::strin
 }
 
 reference::ReferenceSettings SceneBench::referenceSettings(std::string_view term) const {
-    return {.paths = {.bounces = term == "direct" ? 0u : 1u},
+    const uint32_t bounces = term == "direct" ? 0 : term == "all" ? 2 : 1;
+    return {.paths = {.bounces = bounces},
             .samplesPerPixel = options_.referenceSamples,
             .maxError = options_.referenceError,
-            .layer = std::string(term)};
+            .layer = std::string(layerOfTerm(term))};
 }
 
 Result<const Image*> SceneBench::reference(std::string_view term) {
@@ -142,6 +145,29 @@ void SceneBench::timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row
     if (nothing) row.gbufferMs = row.gpuMsMedian = 0;
 }
 
+// As a program with --budget-ms does it, frame after frame of a scene in which all passes run.
+void SceneBench::settleBudget(double budgetMs, gi::GiSettings& settings, gi::Layer layer, Row& row) {
+    gi::BudgetController budget(budgetMs, gi::firstFullSizeStep());
+    gi::FrameCost cost;
+    const auto apply = [&] { gi::applyQualityStep(gi::qualitySteps()[budget.step()], settings); };
+    apply();
+    Frame frame{renderer_, options_.size, layer};
+    std::vector<double> last;
+    uint32_t changes = 0;
+    for (uint32_t i = 0; i < kBudgetFrames; ++i) {
+        frame.render(scene_, settings, {.skip = false});
+        const double ms = cost.add(renderer_.graph().report());
+        if (i >= kBudgetFrames - kBudgetJudged) last.push_back(ms);
+        if (!budget.frame(ms)) continue;
+        ++changes;
+        apply();
+    }
+    row.settings["budget_ms"] = fmt::format("{:g}", budgetMs);
+    row.settings["budget_step"] = gi::qualitySteps()[budget.step()].name;
+    row.settings["budget_changes"] = std::to_string(changes);
+    row.settings["budget_median_ms"] = fmt::format("{:.2f}", quantile(last, 0.5));
+}
+
 Status SceneBench::measureFlicker(const gi::GiSettings& settings, gi::Layer layer, Row& row) {
     const auto truth = trend(row.term);
     if (!truth) return truth.error();
@@ -194,16 +220,17 @@ Status SceneBench::measureGpu(const Technique& technique, const Variant& variant
     gi::GiSettings settings;
     Settings registry;
     gi::registerSettings(registry, settings);
-    if (!gi::applyPreset(technique.name, settings))
-        return Error{fmt::format("there is no preset '{}'", technique.name)};
+    const std::string_view preset = technique.preset.empty() ? technique.name : technique.preset;
+    if (!gi::applyPreset(preset, settings)) return Error{fmt::format("there is no preset '{}'", preset)};
     for (const std::string& assignment : variant.settings) {
         if (const Status set = registry.set(assignment); !set) return set;
         const size_t equals = assignment.find('=');
         row.settings[assignment.substr(0, equals)] = assignment.substr(equals + 1);
     }
-    const auto layer = gi::layerFromName(row.term);
+    const auto layer = gi::layerFromName(layerOfTerm(row.term));
     if (!layer) return Error{fmt::format("there is no layer '{}'", row.term)};
     renderer_.load(*scene_.geometry);
+    if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};
     for (uint32_t i = 0; i < kWarmFrames; ++i)
         frame.render(scene_, settings, {});
@@ -244,7 +271,7 @@ Row SceneBench::tracePaths(const Row& row, const Image& truth) {
                                                    row.gpuMsMedian * 1e-3, runner_);
     paths.gpuMsMedian = paths.gpuMsP99 = row.gpuMsMedian;
     paths.frames = 1;
-    const Image& image = *reference::layerOf(traced, row.term);
+    const Image& image = *reference::layerOf(traced, layerOfTerm(row.term));
     if (const auto difference = compareImages(truth, image)) paths.error = *difference;
     paths.flip = meanFlip(truth, image);
     return paths;

@@ -38,6 +38,7 @@ class SceneBench {
     void measureEmitters(Row& row, Image& image);
     void timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row& row);
     Status measureFlicker(const gi::GiSettings& settings, gi::Layer layer, Row& row);
+    void settleBudget(double budgetMs, gi::GiSettings& settings, gi::Layer layer, Row& row);
     void measureWalking(const gi::GiSettings& settings, gi::Layer layer, Row& row);
     Row tracePaths(const Row& row, const Image& truth);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "gi/frame_budget.h"
+
 namespace ag::bench {
 namespace {
 
@@ -30,6 +32,40 @@ std::vector<Variant> ours() {
         variants.push_back({fmt::format("{}, map 512²", count),
                             {fmt::format("val_clustering.count={}", count), "rsm.resolution=512"}});
     variants.push_back({"128 not adaptive", {"val_clustering.adaptive=off"}});
+    return variants;
+}
+
+std::vector<Variant> twoBounces() {
+    std::vector<Variant> variants;
+    for (const int count : {128, 256})
+        variants.push_back({fmt::format("{}, map 512²", count),
+                            {fmt::format("val_clustering.count={}", count), "rsm.resolution=512",
+                             "later_bounces.feedback=off"}});
+    return variants;
+}
+
+std::vector<Variant> paraboloids() {
+    std::vector<Variant> variants;
+    for (const int count : {4, 8, 16, 32})
+        variants.push_back({fmt::format("{} clusters", count), {fmt::format("ssvp.clusters={}", count)}});
+    variants.push_back({"32 clusters, 1024 lights", {"ssvp.clusters=32", "ssvp.second_count=1024"}});
+    variants.push_back(
+        {"the same, squares", {"ssvp.clusters=32", "ssvp.second_count=1024", "ssvp.disk=off"}});
+    return variants;
+}
+
+// What a budget chooses among.
+std::vector<Variant> qualityLadder() {
+    std::vector<Variant> variants;
+    for (const gi::QualityStep& s : gi::qualitySteps().subspan(gi::firstFullSizeStep()))
+        variants.push_back({s.name,
+                            {fmt::format("rsm.resolution={}", s.mapResolution),
+                             fmt::format("val_clustering.count={}", s.valCount),
+                             fmt::format("ism_atlas.tile_size={}", s.ismTile),
+                             fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
+                             fmt::format("val_shading.interleave={}", s.interleave),
+                             fmt::format("val_shading.near_reach={}", s.nearReach),
+                             fmt::format("val_shading.taps={}", s.taps)}});
     return variants;
 }
 
@@ -77,6 +113,19 @@ std::vector<Technique> makeTechniques() {
         {.name = "low", .description = "ours, least work", .variants = {{"", {}}}},
         {.name = "high", .description = "ours, for more accuracy", .variants = {{"", {}}}},
         {.name = "ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},
+        {.name = "ssvp",
+         .description = "point lights and what their clusters see, two bounces (Aranha et al.)",
+         .term = "all",
+         .variants = paraboloids()},
+        {.name = "afterglow-bounces",
+         .description = "ours, two bounces",
+         .term = "all",
+         .variants = twoBounces()},
+        {.name = "steps",
+         .preset = "afterglow",
+         .description = "ours, the steps of quality that --budget-ms chooses among",
+         .onlyByName = true,
+         .variants = qualityLadder()},
         {.name = "lights-reference",
          .description = "direct light of lamps, a shadow map each",
          .term = "direct",
@@ -94,9 +143,20 @@ std::vector<Technique> makeTechniques() {
 
 }  // namespace
 
+Technique budgetTechnique(const std::vector<double>& budgetsMs) {
+    Technique budget{.name = "budget", .preset = "afterglow", .description = "ours within a time"};
+    for (const double ms : budgetsMs)
+        budget.variants.push_back({fmt::format("{:g} ms", ms), {}, ms});
+    return budget;
+}
+
 std::span<const Technique> techniques() {
     static const std::vector<Technique> all = makeTechniques();
     return all;
+}
+
+std::string_view layerOfTerm(std::string_view term) {
+    return term == "all" ? "indirect" : term;
 }
 
 const Technique* findTechnique(std::string_view name) {

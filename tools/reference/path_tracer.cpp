@@ -142,9 +142,9 @@ struct PixelSums {
 
 // What techniques without visibility of indirect light aim at: every surface along the ray counts, as if the
 // ones before it were not there.
-void traceThrough(const RayScene& scene, const Surface& first, glm::vec3 toViewer, bool glossy, glm::vec2 uv,
-                  PixelSums& sums, uint64_t& rays) {
-    const Sample sample = sampleDirection(first, toViewer, glossy, uv.x, uv.y, 0);
+void traceThrough(const RayScene& scene, const Surface& first, glm::vec3 toViewer, bool glossy,
+                  Random& random, glm::vec2 uv, PixelSums& sums, uint64_t& rays) {
+    const Sample sample = sampleDirection(first, toViewer, glossy, uv.x, uv.y, glossy ? random.next() : 0);
     if (sample.incident <= 0 || glm::dot(sample.direction, first.geometricNormal) <= 0) return;
     Surface met;
     glm::vec3 origin = leaveSurface(scene, first);
@@ -252,7 +252,7 @@ void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& 
         PixelSums pixel;
         for (uint32_t s = first; s < first + count; ++s)
             if (settings.unshadowed)
-                traceThrough(scene, hits.surfaces[i], -hits.directions[i], settings.glossy,
+                traceThrough(scene, hits.surfaces[i], -hits.directions[i], settings.glossy, random,
                              evenPoint(s, shift), pixel, rayCount);
             else
                 tracePath(scene, hits.surfaces[i], -hits.directions[i], settings, random, evenPoint(s, shift),

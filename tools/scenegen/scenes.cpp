@@ -57,6 +57,33 @@ SceneAsset occluder(uint32_t) {
     return b.finish();
 }
 
+// A lit wall in two colours before a glossy floor and a metal ball, of roughness param / 100 (default 0.3).
+// The lamp reaches Lambert surfaces alone, so that gloss shows in receivers and nowhere else.
+SceneAsset glossy(uint32_t param) {
+    SceneBuilder b("glossy");
+    const float roughness = param ? float(param) / 100.0f : 0.3f;
+    const uint32_t red = b.material("red", kRed), green = b.material("green", kGreen),
+                   white = b.material("white", kWhite), floor = b.material("floor", glm::vec3(0.2f)),
+                   metal = b.material("metal", {0.9f, 0.7f, 0.4f});
+    b.materialAt(floor).roughness = b.materialAt(metal).roughness = roughness;
+    b.materialAt(floor).specular = 1;
+    b.materialAt(metal).metallic = 1;
+    b.room("room", {-2, 0, -1.5f}, {2, 2, 1.5f}, {white, white, floor, white, ~0u, ~0u});
+    b.quad("left", {-2, 0, -1.5f}, {2, 0, 0}, {0, 2, 0}, red);
+    b.quad("right", {0, 0, -1.5f}, {2, 0, 0}, {0, 2, 0}, green);
+    std::vector<glm::vec2> arc;
+    for (int i = 0; i <= 32; ++i) {
+        const float angle = 3.14159265f * float(i) / 32;
+        arc.push_back({0.35f * std::sin(angle), -0.35f * std::cos(angle)});
+    }
+    MeshParts ball;
+    addLathe(ball, metal, arc, 64, glm::vec3(0));
+    b.model("ball", ball, {0.7f, 0.35f, 0.1f});
+    b.spot("lamp", {0, 1.7f, 0.6f}, {0, -0.15f, -1}, glm::vec3(10), 20, 28);
+    b.camera("camera", {0.05f, 1.1f, 4.1f}, {0, 0.6f, 0}, 38);
+    return b.finish();
+}
+
 // A closed box of albedo rho = param / 100 (default 0.5) with a point light in its middle.
 SceneAsset furnace(uint32_t param) {
     SceneBuilder b("furnace");
@@ -202,15 +229,16 @@ struct Entry {
     SceneAsset (*build)(uint32_t param);
 };
 
-constexpr std::array<Entry, 9> kScenes = {{{"cornell", cornell},
-                                           {"corner", corner},
-                                           {"occluder", occluder},
-                                           {"corridor", corridor},
-                                           {"furnace", furnace},
-                                           {"lamps", lamps},
-                                           {"crowd", crowd},
-                                           {"hall", hall},
-                                           {"gallery", gallery}}};
+constexpr std::array<Entry, 10> kScenes = {{{"cornell", cornell},
+                                            {"corner", corner},
+                                            {"occluder", occluder},
+                                            {"corridor", corridor},
+                                            {"glossy", glossy},
+                                            {"furnace", furnace},
+                                            {"lamps", lamps},
+                                            {"crowd", crowd},
+                                            {"hall", hall},
+                                            {"gallery", gallery}}};
 constexpr auto kNames = [] {
     std::array<std::string_view, kScenes.size()> names;
     for (size_t i = 0; i < names.size(); ++i)

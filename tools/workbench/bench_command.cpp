@@ -16,6 +16,7 @@ namespace ag::workbench {
 namespace {
 
 struct BenchOptions {
+    std::vector<double> budgets;  // ms
     std::vector<std::string> scenes = {"cornell", "occluder", "corridor"};
     std::vector<std::string> techniques;
     std::string size = "640x360", flickerSize = "160x90";
@@ -44,7 +45,7 @@ Result<std::vector<const bench::Technique*>> chosenTechniques(const std::vector<
     std::vector<const bench::Technique*> chosen;
     if (names.empty())
         for (const bench::Technique& t : bench::techniques())
-            if (t.term == "bounce1") chosen.push_back(&t);
+            if (t.term == "bounce1" && !t.onlyByName) chosen.push_back(&t);
     for (const std::string& name : names) {
         chosen.push_back(bench::findTechnique(name));
         if (chosen.back()) continue;
@@ -119,8 +120,10 @@ int runBench(BenchOptions o) {
     const auto size = parseSize(o.size), flickerSize = parseSize(o.flickerSize);
     if (!size) return refuse(size.error().message);
     if (!flickerSize) return refuse(flickerSize.error().message);
-    const auto techniques = chosenTechniques(o.techniques);
+    auto techniques = chosenTechniques(o.techniques);
     if (!techniques) return refuse(techniques.error().message);
+    const bench::Technique budget = bench::budgetTechnique(o.budgets);
+    if (!o.budgets.empty()) techniques->push_back(&budget);
     auto device = gpu::Device::create({});
     if (!device) return refuse(device.error().message);
     o.measure.size = *size;
@@ -151,6 +154,11 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
         ->capture_default_str();
     command->add_option("--techniques", o->techniques, "comma-separated; by default all of indirect light")
         ->delimiter(',');
+    command
+        ->add_option("--budget-ms", o->budgets,
+                     "ms of a frame's passes, comma-separated: ours with the quality each allows")
+        ->delimiter(',')
+        ->check(CLI::Range(0.1, 100000.0));
     command->add_option("--param", o->param, "number of the built-in scenes that take one");
     command->add_option("--size", o->size, "pixels, WxH")->capture_default_str();
     command->add_option("--frames", o->measure.frames, "to time")

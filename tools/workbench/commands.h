@@ -10,9 +10,11 @@ void addInfoCommand(CLI::App& program, int& exitCode);
 void addRenderCommand(CLI::App& program, int& exitCode);
 void addReferenceCommand(CLI::App& program, int& exitCode);
 void addSceneCommand(CLI::App& program, int& exitCode);
+void addCaptureCommand(CLI::App& program, int& exitCode);
 void addCompareCommand(CLI::App& program, int& exitCode);
 void addBenchCommand(CLI::App& program, int& exitCode);
 void addEcsBenchCommand(CLI::App& program, int& exitCode);
+void addSkippingCommand(CLI::App& program, int& exitCode);
 void addSweepCommand(CLI::App& program, int& exitCode);
 void addStressCommand(CLI::App& program, int& exitCode);
 

@@ -24,7 +24,9 @@ int main(int argc, char** argv) {
     ag::workbench::addSceneCommand(program, exitCode);
     ag::workbench::addCompareCommand(program, exitCode);
     ag::workbench::addBenchCommand(program, exitCode);
+    ag::workbench::addCaptureCommand(program, exitCode);
     ag::workbench::addEcsBenchCommand(program, exitCode);
+    ag::workbench::addSkippingCommand(program, exitCode);
     ag::workbench::addSweepCommand(program, exitCode);
     ag::workbench::addStressCommand(program, exitCode);
     try {

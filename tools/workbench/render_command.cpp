@@ -8,6 +8,7 @@
 
 #include "engine/core/log.h"
 #include "engine/core/settings.h"
+#include "gi/frame_budget.h"
 #include "gi/gi_renderer.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/scene_options.h"
@@ -25,6 +26,7 @@ struct RenderOptions {
     bool listSettings = false;
     bool times = false;
     std::string walk;  // DX,DY,DZ
+    double budgetMs = 0;
     bool validate = false;
     std::vector<std::string> without;
     std::string fault;
@@ -111,6 +113,28 @@ void printTimesOfWalk(gi::GiRenderer& renderer, LoadedScene& loaded, RenderSetti
     std::cout << fmt::format("{:<36} {:8.2f}\n", "sum", total);
 }
 
+// --budget-ms: the quality follows what frames take.
+class Budget {
+  public:
+    Budget(double ms, gi::GiSettings& gi) : controller_(ms, gi::firstFullSizeStep()) {
+        if (ms > 0) gi::applyQualityStep(gi::qualitySteps()[controller_.step()], gi);
+    }
+    void follow(gi::GiRenderer& renderer, gi::GiSettings& gi) {
+        lastMs_ = cost_.add(renderer.graph().report());
+        if (controller_.frame(lastMs_)) gi::applyQualityStep(gi::qualitySteps()[controller_.step()], gi);
+    }
+    void print() const {
+        std::cout << fmt::format("budget {:.1f} ms: quality step {}, passes of a whole frame {:.1f} ms\n",
+                                 controller_.budgetMs(), gi::qualitySteps()[controller_.step()].name,
+                                 lastMs_);
+    }
+
+  private:
+    gi::BudgetController controller_;
+    gi::FrameCost cost_;
+    double lastMs_ = 0;
+};
+
 int runRender(const RenderOptions& options) {
     RenderSettings settings;
     if (!gi::applyPreset(options.preset, settings.gi))
@@ -145,7 +169,9 @@ int runRender(const RenderOptions& options) {
     ImageHandle shown;
     const auto start = std::chrono::steady_clock::now();
     auto lastLine = start;
+    Budget budget(options.budgetMs, settings.gi);
     for (uint32_t i = 0; i < std::max(options.frames, 1u); ++i) {
+        if (options.budgetMs > 0 && i > 0) budget.follow(renderer, settings.gi);
         renderer.render(loaded->scene, loaded->size, settings.gi, settings.graph,
                         [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
                             shown = png ? gi::addLayerView(graph, view, frame, *layer, loaded->size,
@@ -159,6 +185,7 @@ int runRender(const RenderOptions& options) {
             lastLine = now;
         }
     }
+    if (options.budgetMs > 0) budget.print();
     const Image image =
         shown ? gi::readImage(renderer, shown) : Image(int(loaded->size.x), int(loaded->size.y));
     if (const Status saved = saveImage(image, options.output); !saved) return refuse(saved.error().message);
@@ -184,6 +211,11 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
                         "which intermediate; radiance (exr, pfm) or final (png) by default");
     command->add_option("--preset", options->preset, fmt::format("{}", fmt::join(gi::presetNames(), ", ")))
         ->capture_default_str();
+    command
+        ->add_option("--budget-ms", options->budgetMs,
+                     "choose the quality so that a frame's passes take about so long")
+        ->check(CLI::Range(0.1, 100000.0))
+        ->excludes("--preset");
     command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
     command->add_flag("--list-settings", options->listSettings,
                       "every setting with default, range, unit, help");

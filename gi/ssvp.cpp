@@ -1,0 +1,123 @@
+#include "gi/ssvp.h"
+
+#include <algorithm>
+
+#include "gi/light_views.h"
+#include "gi/scene_draws.h"
+#include "shaders/ssvp/ssvp_io.h"
+
+namespace ag::gi {
+namespace {
+
+struct Clustered {
+    BufferHandle first;     // io::Val
+    BufferHandle clusters;  // io::SsvpCluster
+    BufferHandle owners;    // uint a light
+};
+
+Clustered addClusters(FrameGraph& graph, const RsmSet& rsm, uint32_t firstCount, uint32_t clusterCount,
+                      uint32_t rounds) {
+    Clustered c;
+    c.first = graph.buffer("ssvp.first", {.sizeBytes = firstCount * sizeof(io::Val)});
+    graph.compute("ssvp.sample_first", "ssvp/sample_first.comp")
+        .read("texels", rsm.texels)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
+        .write("vpls", c.first)
+        .push(glm::uvec3(firstCount, rsm.atlas.size.x, rsm.atlas.mapCount))
+        .dispatchThreads(firstCount);
+    const HistoryBuffer clusters =
+        graph.historyBuffer("ssvp.clusters", {.sizeBytes = clusterCount * sizeof(io::SsvpCluster)});
+    c.clusters = clusters.current;
+    c.owners = graph.buffer("ssvp.owners", {.sizeBytes = firstCount * sizeof(uint32_t)});
+    graph.compute("ssvp.cluster", "ssvp/cluster_vpls.comp")
+        .read("vpls", c.first)
+        .readPrevious("before", clusters)
+        .write("clusters", c.clusters)
+        .write("owners", c.owners)
+        .push(glm::uvec4(firstCount, clusterCount, rounds, clusters.valid))
+        .dispatchGroups(1);
+    return c;
+}
+
+struct Paraboloids {
+    ImageHandle position, normal, albedo, depth;
+};
+
+// Where the clusters are is known to the device alone, so every cluster draws the whole scene.
+Paraboloids addMaps(FrameGraph& graph, const SceneView& scene, BufferHandle clusters, uint32_t clusterCount,
+                    uint32_t mapSize) {
+    const uint32_t columns = std::min(clusterCount, io::kSsvpMapColumns);
+    const glm::uvec2 size =
+        glm::uvec2(columns, (clusterCount + io::kSsvpMapColumns - 1) / io::kSsvpMapColumns) * mapSize;
+    const Paraboloids maps{
+        graph.image("ssvp.positions", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size}),
+        graph.image("ssvp.normals", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size}),
+        graph.image("ssvp.albedos", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size}),
+        graph.image("ssvp.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = size})};
+    PassBuilder pass = graph.raster("ssvp.render_maps", "ssvp/render_maps.vert", "ssvp/render_maps.frag",
+                                    gpu::VertexLayout::kPositionsAndAttributes);
+    pass.colorClear(maps.position, glm::vec4(0))
+        .colorClear(maps.normal, glm::vec4(0))
+        .colorClear(maps.albedo, glm::vec4(0))
+        .depthClear(maps.depth)
+        .geometry(scene.geometry)
+        .read("instances", scene.instances)
+        .read("clusters", clusters);
+    bindMaterials(pass, scene);
+    const Bounds& bounds = scene.scene->bounds;
+    const glm::mat4 everything = sunView({0, -1, 0}, bounds, 0.1f).clipFromWorld;
+    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), everything);
+    for (uint32_t c = 0; c < clusterCount; ++c) {
+        const struct {
+            uint32_t cluster;
+            float farDistance;
+        } push{c, glm::distance(bounds.min, bounds.max)};
+        const glm::uvec2 origin = glm::uvec2(c % io::kSsvpMapColumns, c / io::kSsvpMapColumns) * mapSize;
+        drawView(pass, scene, draws, std::as_bytes(std::span(&push, 1)), {origin, mapSize, mapSize},
+                 DrawFilter::kAll, Viewer::kLight);
+    }
+    return maps;
+}
+
+}  // namespace
+
+Ssvp addSsvp(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, uint32_t firstCount,
+             const SsvpSettings& s) {
+    if (rsm.empty()) return {};
+    firstCount = std::min(firstCount, io::kMostSsvpVpls);
+    const uint32_t clusterCount = std::clamp(s.clusters, 1u, io::kMostSsvpClusters);
+    const Clustered c = addClusters(graph, rsm, firstCount, clusterCount, s.rounds);
+    const Paraboloids maps = addMaps(graph, scene, c.clusters, clusterCount, s.mapSize);
+    Ssvp result{.firstCount = firstCount};
+    result.maps = {
+        .mapCount = clusterCount, .tileSize = s.mapSize, .mapping = IsmMapping::kParaboloid, .shared = true};
+    result.maps.planes =
+        graph.buffer("ssvp.planes", {.sizeBytes = uint64_t(clusterCount) * s.mapSize * s.mapSize * 16,
+                                     .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    graph.compute("ssvp.resolve_depths", "ssvp/resolve_depths.comp")
+        .sample("positions", maps.position)
+        .read("clusters", c.clusters)
+        .write("planes", result.maps.planes)
+        .push(s.mapSize)
+        .dispatchThreads(s.mapSize * s.mapSize, clusterCount);
+    result.vals = allocateVals(graph, "ssvp.vals", "ssvp.shapes", firstCount + s.secondCount);
+    struct Push {
+        uint32_t firstCount, secondCount, valCount, clusterCount, mapSize;
+    };
+    graph.compute("ssvp.list_vpls", "ssvp/list_vpls.comp")
+        .read("first", c.first)
+        .read("clusters", c.clusters)
+        .read("owners", c.owners)
+        .sample("positions", maps.position)
+        .sample("normals", maps.normal)
+        .sample("albedos", maps.albedo)
+        .write("vals", result.vals.vals)
+        .write("shapes", result.vals.shapes)
+        .spec(0, s.disk)
+        .push(Push{firstCount, s.secondCount, result.vals.count, clusterCount, s.mapSize})
+        .dispatchThreads(result.vals.count);
+    return result;
+}
+
+}  // namespace ag::gi

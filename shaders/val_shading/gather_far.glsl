@@ -1,0 +1,63 @@
+// Irradiance from far lights. Of each n x n pixels of a tile each takes another n²-th of the tile's list (Wald et al.
+// 2002; ACRSM section 3.2.3); four pixels an invocation share the loads.
+layout(constant_id = 0) const uint kShape = 2;
+layout(constant_id = 1) const int kVisibilityTaps = 0;
+layout(constant_id = 2) const uint kInterleave = 1;
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 3) uniform samplerBuffer vals;
+layout(set = 0, binding = 4) uniform samplerBuffer shapes;
+layout(set = 0, binding = 5) uniform samplerBuffer isms;
+layout(set = 0, binding = 6) uniform usamplerBuffer lists;
+#include "val_shading/receiver.glsl"
+#include "val_shading/screen_tiles.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
+layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
+layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
+#ifdef AG_GLOSSY
+layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D coatParts;
+#endif
+
+void main() {
+    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
+    uvec2 size = camera.camera.size;
+    Receiver r[kPixels];
+    float distance_[kPixels];  // m along the camera's axis; 0: sky
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = min(pixelOf(block, p), ivec2(size) - 1);
+        float depth = texelFetch(depthMap, pixel, 0).x;
+        distance_[p] = depth > 0.0 ? camera.camera.near / depth : 0.0;
+        r[p] = receiverAt(pixel, worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0),
+                          camera.camera.position);
+    }
+    const uint kParts = kInterleave * kInterleave;
+    uint start = listStart(block.tile, kFarList, push.p.valCount), count = counts.items[block.tile].y;
+    if (kLaneParallel) {
+        for (uint base = block.part; base < count; base += kSubgroupSize * kParts) {
+            uint entry = base + gl_SubgroupInvocationID * kParts;
+            AreaLight mine = loadLight(texelFetch(lists, int(start + min(entry, count - 1))).x);
+            if (entry >= count) mine.power = vec4(0.0);
+            [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
+                AreaLight l = lightOfLane(mine, lane);
+                [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
+            }
+        }
+    } else {
+        for (uint entry = block.part; entry < count; entry += kParts) {
+            AreaLight l = loadLight(texelFetch(lists, int(start + entry)).x);
+            [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
+        }
+    }
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = pixelOf(block, p);
+        if (any(greaterThanEqual(pixel, ivec2(size)))) continue;
+        imageStore(parts, pixel, vec4(min(r[p].irradiance, vec3(kMostHalf)), distance_[p]));
+#ifdef AG_GLOSSY
+        imageStore(coatParts, pixel, vec4(min(r[p].coated, vec3(kMostHalf)), 1.0));
+#endif
+    }
+}

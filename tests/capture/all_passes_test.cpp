@@ -1,0 +1,90 @@
+// Every pass that the GI frame can declare is in the table of a capture that has it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+#include "capture/pass_table.h"
+#include "capture/record.h"
+#include "engine/core/safe_file.h"
+#include "engine/scene/static_scene.h"
+#include "tests/support/device_environment.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::capture {
+namespace {
+
+// From gi/*.cpp: the names given where a pass is added. Views for debugging are no part of the frame.
+std::set<std::string> passesOfTheSource() {
+    static const std::regex kAdded(
+        R"re((?:compute|fullscreen|raster|fill|upload|copyImage)\(\s*"(\w+\.\w+)")re");
+    std::set<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(AFTERGLOW_SOURCE_DIR "/gi")) {
+        if (file.path().extension() != ".cpp" || file.path().stem() == "debug_view") continue;
+        const std::string text = *readFile(file.path());
+        for (std::sregex_iterator i(text.begin(), text.end(), kAdded), end; i != end; ++i)
+            names.insert((*i)[1]);
+    }
+    return names;
+}
+
+constexpr std::array<std::string_view, 4> kSamePasses = {"low", "medium", "high", "ultra"};  // as afterglow
+
+struct Case {
+    std::string_view preset;
+    const char* scene;
+    uint32_t param = 0;
+    bool laterBounces = false;
+};
+
+void moveLast(RenderScene& scene) {
+    const uint32_t last = uint32_t(scene.instances.size()) - 1;
+    scene.instances[last].worldFromLocal[3].x += 0.01f;
+    scene.changedInstances = {{last, last + 1}};
+    scene.allInstancesChanged = scene.instancesVersion == 1;
+    ++scene.instancesVersion;
+}
+
+void addPasses(const Case& c, std::set<std::string>& names) {
+    SceneAsset asset = *scenegen::buildScene(c.scene, c.param);
+    asset.geometry.materials[0].alphaMode = AlphaMode::kMask;
+    RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
+    ASSERT_TRUE(gi::applyPreset(c.preset, settings.gi));
+    settings.gi.laterBounces.enabled = c.laterBounces;
+    settings.gi.denoiser.enabled = settings.gi.denoiser.motion = true;
+    settings.gi.stochasticRsm.interpolate = true;
+    settings.gi.valClustering.count = 64;
+    RenderScene scene = staticScene(asset);
+    setCamera(scene, cameraOf(asset, 0), settings.size);
+    scene.instances.back().movable = true;
+    scene.lights.push_back({.kind = LightKind::kDirectional, .direction = {0, -1, 0}, .id = 1000});
+    scene.probes = {{.position = scene.camera.position, .id = 1}};
+    gi::GiRenderer renderer(test::device());
+    renderer.load(asset.geometry);
+    Capture capture;
+    const auto next = [&](std::vector<Span>&) -> const RenderScene& {
+        moveLast(scene);
+        return scene;
+    };
+    recordFrames(renderer, next, settings, capture);
+    for (const PassRow& row : makeTable(capture))
+        names.insert(row.name);
+}
+
+TEST(PassTable, HasEveryPassThatTheFrameCanHave) {
+    const std::set<std::string> wanted = passesOfTheSource();
+    ASSERT_GT(wanted.size(), 40u) << "the source is read as it is written";
+    std::set<std::string> captured;
+    addPasses({"afterglow", "cornell", 0, true}, captured);
+    addPasses({"afterglow", "lamps", 20}, captured);
+    for (const std::string_view preset : gi::presetNames())
+        if (std::ranges::count(kSamePasses, preset) == 0) addPasses({preset, "cornell"}, captured);
+    for (const std::string& name : wanted)
+        EXPECT_TRUE(captured.contains(name)) << name;
+}
+
+}  // namespace
+}  // namespace ag::capture

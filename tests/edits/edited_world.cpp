@@ -1,0 +1,231 @@
+#include "tests/edits/edited_world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/scene/extract_system.h"
+#include "engine/scene/spawn_scene.h"
+#include "engine/scene/transform_system.h"
+#include "gi/gi_systems.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::test {
+namespace {
+
+constexpr size_t kMostThings = 28, kMostLights = 7;
+
+// Every kind of surface the passes tell apart.
+SceneAsset variedHall() {
+    SceneAsset asset = *scenegen::buildScene("hall", 0);
+    std::vector<Material>& materials = asset.geometry.materials;
+    materials[0].alphaMode = AlphaMode::kMask;
+    materials[1].doubleSided = true;
+    materials[2].emissive = {0.4f, 0.3f, 0.1f};
+    return asset;
+}
+
+// Small, so that a frame is quick, and soon at rest.
+gi::GiSettings smallSettings() {
+    gi::GiSettings gi;
+    gi.rsm.resolution = 64;
+    gi.valClustering.count = 24;
+    gi.valClustering.settleFrames = 2;
+    gi.ismAtlas.tileSize = 32;
+    gi.ismAtlas.pointsPerMap = 128;
+    gi.laterBounces.settleFrames = 2;
+    gi.stochasticRsm.samples = 4;
+    gi.stochasticRsm.settleFrames = 2;
+    gi.shadowMaps.resolution = 64;
+    gi.shadowMaps.cascades = 2;
+    gi.lightClusters.most = 4;
+    gi.lampShadows.faceResolution = 32;
+    gi.lampShadows.atlasSize = 512;
+    return gi;
+}
+
+}  // namespace
+
+EditedWorld::EditedWorld(uint32_t seed) : random_(seed), asset_(variedHall()), settings_(smallSettings()) {
+    gi::registerSettings(registry_, settings_);
+    for (const Entity entity : spawnScene(world_, asset_)) {
+        if (world_.has<MeshInstance>(entity)) things_.push_back(entity);
+        if (world_.has<PunctualLight>(entity)) lights_.push_back(entity);
+    }
+    for (const Entity thing : things_)
+        meshes_.push_back(*world_.get<MeshInstance>(thing));
+    spawnLight(LightKind::kDirectional);
+    for (const glm::dvec3 place : {glm::dvec3(-2, 1, 0), glm::dvec3(3, 1, 2)})
+        world_.create(LocalTransform{.translation = place}, WorldTransform{}, gi::IrradianceProbe{});
+    world_.setResource<ExtractState>();
+    world_.setResource<ActiveCamera>(cameraOf(asset_, 0), size_);
+    world_.setResource<RenderScene>().geometry = &asset_.geometry;
+    schedule_.add("updateRootTransforms", updateRootTransforms);
+    schedule_.add("updateChildTransforms", updateChildTransforms);
+    schedule_.add("extractScene", extractScene);
+    schedule_.add("extractProbes", gi::extractProbes);
+}
+
+std::string EditedWorld::step() {
+    const std::string done = edit();
+    world_.resource<ActiveCamera>().size = size_;
+    schedule_.run(world_, runner_);
+    return done;
+}
+
+std::string EditedWorld::edit() {
+    struct Kind {
+        uint32_t weight;
+        std::string (EditedWorld::*apply)();
+    };
+    static constexpr std::array kKinds = {
+        Kind{20, &EditedWorld::moveThing},   Kind{5, &EditedWorld::addThing},
+        Kind{5, &EditedWorld::removeThing},  Kind{14, &EditedWorld::switchLight},
+        Kind{9, &EditedWorld::moveLight},    Kind{4, &EditedWorld::addLight},
+        Kind{4, &EditedWorld::removeLight},  Kind{14, &EditedWorld::moveCamera},
+        Kind{3, &EditedWorld::resize},       Kind{9, &EditedWorld::changeSetting},
+        Kind{3, &EditedWorld::resetSettings}};
+    uint32_t at = below(100);
+    for (const Kind& kind : kKinds) {
+        if (at < kind.weight) return (this->*kind.apply)();
+        at -= kind.weight;
+    }
+    return "nothing";
+}
+
+std::string EditedWorld::moveThing() {
+    if (things_.empty()) return addThing();
+    const uint32_t pick = below(things_.size());
+    LocalTransform& local = *world_.write<LocalTransform>(things_[pick]);
+    local.translation += glm::dvec3{between(-1, 1), between(-0.3f, 0.3f), between(-1, 1)};
+    if (below(3) == 0) local.rotation = glm::angleAxis(between(0, 6), glm::vec3(0, 1, 0));
+    return fmt::format("moved thing {}", pick);
+}
+
+std::string EditedWorld::addThing() {
+    if (things_.size() >= kMostThings) return removeThing();
+    MeshInstance mesh = meshes_[below(meshes_.size())];
+    mesh.movable = below(2);
+    things_.push_back(
+        world_.create(LocalTransform{.translation = glm::dvec3(inside()), .scale = glm::vec3(0.5f)},
+                      WorldTransform{}, mesh));
+    return fmt::format("added a thing, movable: {}", mesh.movable);
+}
+
+std::string EditedWorld::removeThing() {
+    if (things_.empty()) return addThing();
+    const uint32_t pick = below(things_.size());
+    world_.destroy(things_[pick]);
+    things_.erase(things_.begin() + pick);
+    return fmt::format("removed thing {}", pick);
+}
+
+// Off and on again, or something about it that does not move it.
+std::string EditedWorld::switchLight() {
+    if (lights_.empty()) return addLight();
+    const uint32_t pick = below(lights_.size());
+    const Entity entity = lights_[pick];
+    PunctualLight& light = *world_.write<PunctualLight>(entity);
+    const uint32_t what = below(6);
+    if (what == 0) light.castsShadow = !light.castsShadow;
+    if (what == 1) light.range = light.range > 0 ? 0 : between(1, 8);
+    if (what == 2) light.intensity *= between(0.3f, 3);
+    if (what == 3 && !world_.has<BounceLight>(entity)) {
+        world_.add(entity, BounceLight{.rsmResolution = 32u << below(3)});
+    } else if (what == 3) {
+        world_.remove<BounceLight>(entity);
+    } else if (what > 3) {
+        const bool dark = light.intensity == glm::vec3(0);
+        light.intensity = dark ? glm::vec3{between(1, 40), between(1, 40), between(1, 40)} : glm::vec3(0);
+    }
+    return fmt::format("switched light {} ({})", pick, what);
+}
+
+std::string EditedWorld::moveLight() {
+    if (lights_.empty()) return addLight();
+    const uint32_t pick = below(lights_.size());
+    LocalTransform& local = *world_.write<LocalTransform>(lights_[pick]);
+    if (below(2)) local.translation += glm::dvec3(inside() * 0.1f);
+    local.rotation =
+        glm::normalize(local.rotation * glm::angleAxis(between(-0.3f, 0.3f), glm::vec3(1, 0, 0)));
+    return fmt::format("moved light {}", pick);
+}
+
+Entity EditedWorld::spawnLight(LightKind kind) {
+    const Entity entity = world_.create(
+        LocalTransform{.translation = glm::dvec3(inside()),
+                       .rotation = glm::angleAxis(between(-2, -1), glm::vec3(1, 0, 0))},
+        WorldTransform{},
+        PunctualLight{
+            .intensity = glm::vec3(between(2, 20)), .outerConeAngle = between(0.3f, 1.2f), .kind = kind});
+    lights_.push_back(entity);
+    return entity;
+}
+
+std::string EditedWorld::addLight() {
+    if (lights_.size() >= kMostLights) return removeLight();
+    const LightKind kind = LightKind(below(3));
+    const Entity entity = spawnLight(kind);
+    const bool bounces = below(2);
+    if (bounces) world_.add(entity, BounceLight{.rsmResolution = 64});
+    return fmt::format("added a light of kind {}, bounces: {}", uint32_t(kind), bounces);
+}
+
+std::string EditedWorld::removeLight() {
+    if (lights_.empty()) return addLight();
+    const uint32_t pick = below(lights_.size());
+    world_.destroy(lights_[pick]);
+    lights_.erase(lights_.begin() + pick);
+    return fmt::format("removed light {}", pick);
+}
+
+// A step, a turn, a jump; now and then so far that everything is placed about another origin, and back.
+std::string EditedWorld::moveCamera() {
+    CameraPose& pose = world_.resource<ActiveCamera>().pose;
+    const uint32_t what = below(12);
+    if (what == 0) {
+        pose.position.x += pose.position.x > 1000 ? -3000 : 3000;
+        return "sent the camera far";
+    }
+    if (what < 6) pose.position += glm::dvec3{between(-0.2f, 0.2f), 0, between(-0.2f, 0.2f)};
+    if (what >= 6)
+        pose.forward =
+            glm::normalize(pose.forward + glm::vec3{between(-0.3f, 0.3f), 0, between(-0.3f, 0.3f)});
+    if (what == 11) pose = {.position = glm::dvec3(inside()), .forward = glm::normalize(-inside())};
+    return fmt::format("moved the camera ({})", what);
+}
+
+std::string EditedWorld::resize() {
+    static constexpr std::array kSizes = {glm::uvec2(48, 32), glm::uvec2(31, 45), glm::uvec2(1, 1),
+                                          glm::uvec2(65, 17)};
+    size_ = kSizes[below(kSizes.size())];
+    return fmt::format("resized to {}x{}", size_.x, size_.y);
+}
+
+// Any setting there is; numbers stay near or under the small ones this starts with.
+std::string EditedWorld::changeSetting() {
+    const Setting& s = registry_.all()[below(registry_.all().size())];
+    const double usual = s.defaultValue;
+    double value = std::holds_alternative<bool*>(s.value) ? 1 - settingValue(s)
+                   : s.info.choices.empty()
+                       ? std::clamp(usual * double(between(0.25f, 1.5f)), s.info.min, s.info.max)
+                       : double(below(s.info.choices.size()));
+    if (std::holds_alternative<uint32_t*>(s.value) || std::holds_alternative<int32_t*>(s.value))
+        value = std::round(value);
+    const std::string text = fmt::format("{}.{}={}", s.info.group, s.info.name, settingText(s, value));
+    const Status set = registry_.set(text);
+    return set ? text : text + " was refused: " + set.error().message;
+}
+
+std::string EditedWorld::resetSettings() {
+    settings_ = smallSettings();
+    if (below(2)) settings_.firstBounce = gi::FirstBounce(below(5));
+    settings_.laterBounces.enabled = below(3) == 0;
+    settings_.denoiser.enabled = below(3) == 0;
+    return fmt::format("settings anew: first bounce {}, later bounces {}, denoiser {}",
+                       uint32_t(settings_.firstBounce), settings_.laterBounces.enabled,
+                       settings_.denoiser.enabled);
+}
+
+}  // namespace ag::test

@@ -1,0 +1,92 @@
+// How lights share the clusters: by flux, all of them, and steadily.
+#include <gtest/gtest.h>
+
+#include "gi/rsm_views.h"
+
+namespace ag::gi {
+namespace {
+
+RenderScene threeLamps() {
+    RenderScene scene;
+    scene.bounds = {glm::vec3(-2), glm::vec3(2)};
+    for (uint64_t id = 1; id <= 3; ++id)
+        scene.lights.push_back(
+            {.kind = LightKind::kSpot, .intensity = glm::vec3(10 * float(id)), .bounces = true, .id = id});
+    return scene;
+}
+
+struct Range {
+    uint32_t first, count;
+    bool operator==(const Range&) const = default;
+};
+
+Range rangeOf(const RsmLayout& layout, uint64_t id) {
+    for (uint32_t m = 0; m < layout.mapCount; ++m)
+        if (layout.maps[m].lightIdLow == id)
+            return {layout.maps[m].firstCluster, layout.maps[m].clusterCount};
+    return {0, 0};
+}
+
+TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
+    for (const uint32_t budget : {16u, 40u, 64u, 100u, 128u, 1024u}) {
+        RenderScene scene = threeLamps();
+        ClusterShares shares;
+        const RsmLayout layout = layoutRsm(scene, {}, budget, shares);
+        uint32_t next = 0;
+        for (uint64_t id = 1; id <= 3 && budget >= 24; ++id) {
+            const Range range = rangeOf(layout, id);
+            EXPECT_EQ(range.first, next);
+            EXPECT_NEAR(range.count, std::max(float(budget * id) / 6, 8.0f), 8) << "of " << budget;
+            next = range.first + range.count;
+        }
+        if (budget >= 24) EXPECT_EQ(next, budget);
+        for (uint64_t id = 1; id <= 3; ++id)
+            EXPECT_LE(rangeOf(layout, id).first + rangeOf(layout, id).count, budget);
+    }
+}
+
+TEST(ClusterShares, ALampThatFlickersTakesNothingFromTheOthers) {
+    RenderScene scene = threeLamps();
+    ClusterShares shares;
+    const RsmLayout before = layoutRsm(scene, {}, 128, shares);
+    for (int frame = 0; frame < 100; ++frame) {
+        const float flame = frame % 7 == 0 ? 0 : frame % 2 ? 0.75f : 1.3f;  // it goes out now and then
+        scene.lights[1].intensity = glm::vec3(20 * flame);
+        const RsmLayout now = layoutRsm(scene, {}, 128, shares);
+        EXPECT_EQ(now.mapCount, flame == 0 ? 2u : 3u);
+        for (const uint64_t id : {1, 3})
+            EXPECT_EQ(rangeOf(now, id), rangeOf(before, id)) << "frame " << frame;
+        if (flame > 0) EXPECT_EQ(rangeOf(now, 2), rangeOf(before, 2));
+    }
+}
+
+TEST(ClusterShares, FollowLightThatStaysChanged) {
+    RenderScene scene = threeLamps();
+    ClusterShares shares;
+    const uint32_t before = rangeOf(layoutRsm(scene, {}, 128, shares), 1).count;
+    scene.lights[0].intensity *= 9.0f;
+    ClusterShares fresh;
+    const RsmLayout brighter = layoutRsm(scene, {}, 128, shares);
+    EXPECT_GT(rangeOf(brighter, 1).count, 2 * before);
+    EXPECT_EQ(rangeOf(brighter, 1), rangeOf(layoutRsm(scene, {}, 128, fresh), 1));
+}
+
+TEST(ClusterShares, OfALightThatStaysDarkGoToTheOthers) {
+    RenderScene scene = threeLamps();
+    ClusterShares shares;
+    layoutRsm(scene, {}, 128, shares);
+    scene.lights[2].intensity = glm::vec3(0);
+    uint32_t frames = 0, all = 0;
+    for (; all < 128 && frames < 1000; ++frames) {
+        const RsmLayout now = layoutRsm(scene, {}, 128, shares);
+        all = rangeOf(now, 1).count + rangeOf(now, 2).count;
+    }
+    EXPECT_GT(frames, 60u);
+    EXPECT_EQ(all, 128u);
+    EXPECT_EQ(shares.count, 2u);
+    scene.lights[0].intensity = scene.lights[1].intensity = glm::vec3(0);
+    EXPECT_EQ(layoutRsm(scene, {}, 128, shares).mapCount, 0u) << "no light, no map";
+}
+
+}  // namespace
+}  // namespace ag::gi
