@@ -16,31 +16,31 @@ std::string_view reasonText(PassReason reason) {
 
 // Before the pass is noted as run: compares it with how it ran last.
 PassReport FrameGraph::Impl::reportOf(const Pass& pass) const {
-    PassReport report{.name = pass.name};
+    PassReport out{.name = pass.name};
     if (!pass.runs) {
-        report.outcome = pass.wanted ? PassOutcome::kSkipped : PassOutcome::kDropped;
-        report.reason = pass.wanted ? PassReason::kUnchanged : PassReason::kUnread;
-        return report;
+        out.outcome = pass.wanted ? PassOutcome::kSkipped : PassOutcome::kDropped;
+        out.reason = pass.wanted ? PassReason::kUnchanged : PassReason::kUnread;
+        return out;
     }
-    report.outcome = PassOutcome::kRan;
+    out.outcome = PassOutcome::kRan;
     const PassStats& known = stats[pass.stats];
-    const std::span<const Use> uses = usesOf(pass);
-    report.reason = options.skip ? PassReason::kLost : PassReason::kAll;
+    const std::span<const Use> read = usesOf(pass);
+    out.reason = options.skip ? PassReason::kLost : PassReason::kAll;
     if (known.runCount == 0) {
-        report.reason = PassReason::kFirst;
-    } else if (known.inputVersions.size() != uses.size() || known.ownKey != ownKey(pass)) {
-        report.reason = PassReason::kParameters;
+        out.reason = PassReason::kFirst;
+    } else if (known.inputVersions.size() != read.size() || known.ownKey != ownKey(pass)) {
+        out.reason = PassReason::kParameters;
     } else {
-        for (size_t i = uses.size(); i-- > 0;) {
-            const Use& use = uses[i];
+        for (size_t i = read.size(); i-- > 0;) {
+            const Use& use = read[i];
             const bool changed =
                 readsOld(use.kind) && use.keyed && known.inputVersions[i] != use.versionBefore;
-            if (!changed || (use.previous && report.reason == PassReason::kInput)) continue;
-            report.reason = use.previous ? PassReason::kHistory : PassReason::kInput;
-            report.changed = resources[use.resource].name;
+            if (!changed || (use.previous && out.reason == PassReason::kInput)) continue;
+            out.reason = use.previous ? PassReason::kHistory : PassReason::kInput;
+            out.changed = resources[use.resource].name;
         }
     }
-    return report;
+    return out;
 }
 
 const gpu::Image& FrameGraph::physical(ImageHandle image) const {

@@ -382,6 +382,4 @@ int totalValidationMessages() {
     return gValidationMessages;
 }
 
-}
-
 }  // namespace ag::gpu

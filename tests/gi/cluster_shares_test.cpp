@@ -39,7 +39,9 @@ TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
             EXPECT_NEAR(range.count, std::max(float(budget * id) / 6, 8.0f), 8) << "of " << budget;
             next = range.first + range.count;
         }
-        if (budget >= 24) EXPECT_EQ(next, budget);
+        if (budget >= 24) {
+            EXPECT_EQ(next, budget);
+        }
         for (uint64_t id = 1; id <= 3; ++id)
             EXPECT_LE(rangeOf(layout, id).first + rangeOf(layout, id).count, budget);
     }
@@ -56,7 +58,9 @@ TEST(ClusterShares, ALampThatFlickersTakesNothingFromTheOthers) {
         EXPECT_EQ(now.mapCount, flame == 0 ? 2u : 3u);
         for (const uint64_t id : {1, 3})
             EXPECT_EQ(rangeOf(now, id), rangeOf(before, id)) << "frame " << frame;
-        if (flame > 0) EXPECT_EQ(rangeOf(now, 2), rangeOf(before, 2));
+        if (flame > 0) {
+            EXPECT_EQ(rangeOf(now, 2), rangeOf(before, 2));
+        }
     }
 }
 
