@@ -198,6 +198,7 @@ std::string decodeExr(const std::string& text, ExrFile& exr) {
         if (exr.header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT) return "it holds whole numbers";
         exr.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
     }
+    exr.pixels.num_channels = exr.header.num_channels;  // else the decoder forgets broken channels' memory
     if (LoadEXRImageFromMemory(&exr.pixels, &exr.header, bytes, text.size(), &exr.message) !=
         TINYEXR_SUCCESS) {
         InitEXRImage(&exr.pixels);  // the decoder gave it back already

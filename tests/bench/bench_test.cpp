@@ -84,7 +84,8 @@ TEST(Bench, EveryTechniqueIsAPresetWithValidSettings) {
         gi::GiSettings settings;
         Settings registry;
         gi::registerSettings(registry, settings);
-        EXPECT_TRUE(gi::applyPreset(technique.name, settings)) << technique.name;
+        const std::string_view preset = technique.preset.empty() ? technique.name : technique.preset;
+        EXPECT_TRUE(gi::applyPreset(preset, settings)) << technique.name;
         for (const Variant& variant : technique.variants)
             for (const std::string& assignment : variant.settings)
                 EXPECT_TRUE(registry.set(assignment)) << assignment;

@@ -73,7 +73,8 @@ TEST(Flowers, MeasureWhatThePathTracerMeasures) {
     const glm::vec3 lit[] = {{-4, 1.5f, -5.0f}, {4, 1.3f, -6.0f}, {-5, 1.5f, -14.4f}};
     for (size_t i = 0; i < 3; ++i) {
         const gi::ProbeLight measured = lightFlower(stage, i, lampPlaces[i], lit[i]);
-        const glm::vec3 truth = referenceLight(stage.game.scene(), glm::vec3(stage.flowerAt(i)));
+        const glm::vec3 truth =
+            referenceLight(stage.game.scene(), glm::vec3(stage.flowerAt(i) - stage.game.scene().originWorld));
         std::printf("flower %zu: %.4f %.4f %.4f, the path tracer %.4f %.4f %.4f\n", i, measured.bounced.x,
                     measured.bounced.y, measured.bounced.z, truth.x, truth.y, truth.z);
         EXPECT_NEAR(measured.bounced.x, truth.x, 0.1f * truth.x) << "flower " << i;

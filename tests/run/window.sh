@@ -47,7 +47,7 @@ keys() {
 }
 
 await_end() {  # WHAT [CODE]
-  for _ in $(seq 75); do
+  for _ in $(seq 300); do
     kill -0 "$demo" 2>/dev/null || break
     sleep 0.2
   done
@@ -131,7 +131,7 @@ for fault in out_of_date:3 surface_lost:3; do
   await_end "$fault"
   [[ -s $work/$fault.png ]] || { echo "FAILED: $fault left no picture"; exit 1; }
 done
-start_demo --fault submit:600
+start_demo --fault submit:300
 keys Return  # Play
 await_end "a lost device" 3
 grep -q "the graphics device was lost" "$work/log" || { echo "FAILED: a lost device said nothing: $(cat "$work/log")"; exit 1; }

@@ -24,7 +24,7 @@ int runStress(Options options) {
     if (options.quick) {
         options.stress.scenes = {"cornell"};
         options.stress.frames = 12;
-        options.stress.movingFrames = 96;
+        options.stress.movingFrames = 256;
         options.stress.twice = false;
     }
     auto device = gpu::Device::create({.validation = options.validate});
