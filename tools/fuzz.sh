@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Looks for input that breaks a reader: all targets of tests/fuzz share the seconds given (600 without). What is found
-# lies in build-fuzz/found; a file of it put into tests/fuzz/corpus is tested from then on.
+# Looks for input that breaks a reader: all targets of tests/fuzz share the seconds given (600 without); a second number is
+# the seed, so that a run can be had again. What is found lies in build-fuzz/found; a file of it put into tests/fuzz/corpus
+# is tested from then on.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v clang++ >/dev/null || { echo "afterglow: fuzzing needs clang++ (Debian package clang)" >&2; exit 77; }
@@ -15,7 +16,7 @@ broken=0
 for target in "${targets[@]}"; do
   mkdir -p "build-fuzz/corpus/$target"
   echo "fuzz $target, $share s"
-  build-fuzz/bin/"fuzz_$target" -max_total_time="$share" -rss_limit_mb=4096 -timeout=20 -max_len=65536 -verbosity=0 \
+  build-fuzz/bin/"fuzz_$target" -max_total_time="$share" ${2:+-seed="$2"} -rss_limit_mb=4096 -timeout=20 -max_len=65536 -verbosity=0 \
     -print_final_stats=1 -artifact_prefix="build-fuzz/found/$target-" \
     "build-fuzz/corpus/$target" "tests/fuzz/corpus/$target" || broken=1
 done

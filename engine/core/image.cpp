@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -157,9 +158,31 @@ struct ExrFile {
     ExrFile& operator=(const ExrFile&) = delete;
 };
 
+// The attribute "type" of a file's header, empty if it has none. The decoder ends the program at one it does
+// not know, so that one has to look first. Attributes are name, type (both ended by a zero), size, bytes.
+std::string_view exrPartType(std::string_view text) {
+    size_t at = 8;  // after the magic number and the version
+    const auto word = [&] {
+        const size_t end = std::min(text.find('\0', std::min(at, text.size())), text.size());
+        const std::string_view found = text.substr(std::min(at, end), end - std::min(at, end));
+        at = end + 1;
+        return found;
+    };
+    for (std::string_view name = word(); !name.empty(); name = word()) {
+        word();
+        if (at + 4 > text.size()) break;
+        uint32_t size = 0;
+        std::memcpy(&size, text.data() + at, 4);
+        at += 4;
+        if (size > text.size() - at) break;
+        if (name == "type") return text.substr(at, size);
+        at += size;
+    }
+    return {};
+}
+
 // Why an image is not even tried: the decoder believes what the header says.
-const char* whyRefused(const EXRVersion& version, const EXRHeader& header) {
-    if (version.multipart || version.non_image || version.tiled) return "it is not one part of scan lines";
+const char* whyRefused(const EXRHeader& header) {
     const EXRBox2i& w = header.data_window;
     if (!reasonable(int64_t(w.max_x) - w.min_x + 1, int64_t(w.max_y) - w.min_y + 1))
         return "its size is larger than the limit or none";
@@ -190,10 +213,14 @@ std::string decodeExr(const std::string& text, ExrFile& exr) {
     EXRVersion version;
     if (ParseEXRVersionFromMemory(&version, bytes, text.size()) != TINYEXR_SUCCESS)
         return "its first bytes are others";
+    const std::string_view type = exrPartType(text);
+    const bool lines = !version.multipart && !version.non_image && !version.tiled;
+    if (!lines || !(type.empty() || type.starts_with("scanlineimage")))
+        return "it is not one part of scan lines";
     const auto said = [&](const char* otherwise) { return exr.message ? exr.message : otherwise; };
     if (ParseEXRHeaderFromMemory(&exr.header, &version, bytes, text.size(), &exr.message) != TINYEXR_SUCCESS)
         return said("its header is broken");
-    if (const char* why = whyRefused(version, exr.header)) return why;
+    if (const char* why = whyRefused(exr.header)) return why;
     for (int c = 0; c < exr.header.num_channels; ++c) {
         if (exr.header.pixel_types[c] == TINYEXR_PIXELTYPE_UINT) return "it holds whole numbers";
         exr.header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;

@@ -80,14 +80,18 @@ size_t dropDegenerate(Triangles& t) {
     return dropped;
 }
 
+// Of the triangle whose indices start there; it has an area.
+glm::vec3 faceNormal(const Triangles& t, size_t first) {
+    const glm::dvec3 a(t.positions[t.indices[first]]), b(t.positions[t.indices[first + 1]]),
+        c(t.positions[t.indices[first + 2]]);
+    return glm::vec3(glm::normalize(glm::cross(b - a, c - a)));
+}
+
 // glTF asks for flat normals where none are given: every triangle then needs vertices of its own.
 void makeFlatNormals(Triangles& t) {
     Triangles flat;
     for (size_t i = 0; i + 2 < t.indices.size(); i += 3) {
-        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]],
-                        c = t.positions[t.indices[i + 2]];
-        const glm::vec3 normal(
-            glm::normalize(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a))));
+        const glm::vec3 normal = faceNormal(t, i);
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t old = t.indices[i + k];
             flat.indices.push_back(uint32_t(flat.positions.size()));
@@ -101,24 +105,21 @@ void makeFlatNormals(Triangles& t) {
     t = std::move(flat);
 }
 
-// Zero or broken normals take that of a triangle they belong to.
+// Zero or broken normals take that of a triangle they belong to, or any where they belong to none.
 size_t repairNormals(Triangles& t) {
     size_t repaired = 0;
     std::vector<bool> broken(t.positions.size(), false);
     for (size_t i = 0; i < t.positions.size(); ++i) {
         glm::vec3& n = t.attributes[i].normal;
-        const float length = glm::length(n);
-        broken[i] = !finite(n) || !(length > 1e-6f);
-        if (!broken[i]) n /= length;
+        const double length = glm::length(glm::dvec3(n));
+        broken[i] = !finite(n) || !(length > 1e-6);
+        n = broken[i] ? glm::vec3(0, 1, 0) : glm::vec3(glm::dvec3(n) / length);
         repaired += broken[i];
     }
     if (repaired == 0) return 0;
     for (size_t i = 0; i + 2 < t.indices.size(); i += 3) {
-        const glm::vec3 a = t.positions[t.indices[i]], b = t.positions[t.indices[i + 1]],
-                        c = t.positions[t.indices[i + 2]];
         for (size_t k = 0; k < 3; ++k)
-            if (broken[t.indices[i + k]])
-                t.attributes[t.indices[i + k]].normal = glm::normalize(glm::cross(b - a, c - a));
+            if (broken[t.indices[i + k]]) t.attributes[t.indices[i + k]].normal = faceNormal(t, i);
     }
     return repaired;
 }
