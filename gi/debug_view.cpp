@@ -145,6 +145,10 @@ std::optional<Layer> layerFromName(std::string_view name) {
     return std::nullopt;
 }
 
+bool showsGloss(Layer layer) {
+    return layer == Layer::kFinal || layer == Layer::kRadiance;
+}
+
 ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f, Layer layer) {
     const bool lit = !f.rsm.empty();
     const ImageHandle direct = f.direct.image, bounce = f.indirect.image;

@@ -32,6 +32,9 @@ enum class Layer : uint32_t {
 std::string_view layerName(Layer layer);
 std::optional<Layer> layerFromName(std::string_view name);
 
+// Whether gloss is in it; the others are the same without, and cheaper.
+bool showsGloss(Layer layer);
+
 // The layer as floats; an invalid handle where the frame has none (no light, say: the layer is black).
 ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& frame, Layer layer);
 // The layer as display values of `size` pixels.

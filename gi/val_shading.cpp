@@ -66,7 +66,9 @@ Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffe
                          const IsmAtlas& isms, const ValShadingSettings& settings,
                          const ValShadingNames& names) {
     if (vals.count == 0) return {};
-    const uint32_t n = std::clamp(settings.interleave, 1u, 4u), tileSize = tileSizeFor(n);
+    const bool glossy = settings.glossy && gbuffer.reflectance && settings.farShape != ValShape::kPoint;
+    // What a neighbour's coat reflects is no part of what this pixel's does: other normal, other material.
+    const uint32_t n = glossy ? 1 : std::clamp(settings.interleave, 1u, 4u), tileSize = tileSizeFor(n);
     const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
     const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
     const Gather g{
@@ -88,19 +90,18 @@ Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffe
     const ImageHandle parts = graph.image(names.parts, info);
     Irradiance result{graph.image(names.irradiance, info)};
     addClassification(g, names.classify);
-    const bool glossy = settings.glossy && gbuffer.reflectance && settings.farShape != ValShape::kPoint;
-    const ImageHandle coatParts = glossy ? graph.image(names.coatParts, info) : ImageHandle{};
+    const ImageHandle farCoat = glossy ? graph.image(names.farCoat, info) : ImageHandle{};
     if (glossy) result.coat = graph.image(names.coat, info);
     PassBuilder far =
         addGather(g, names.far, glossy ? "val_shading/gather_far_glossy.comp" : "val_shading/gather_far.comp",
                   settings.farShape, settings.farTaps);
     far.write("parts", parts);
-    if (glossy) bindCoat(far, gbuffer).write("coatParts", coatParts);
+    if (glossy) bindCoat(far, gbuffer).write("farCoat", farCoat);
     PassBuilder near = addGather(
         g, names.near, glossy ? "val_shading/gather_near_glossy.comp" : "val_shading/gather_near.comp",
         settings.shape, settings.taps);
     near.sample("parts", parts).write("irradiance", result.image);
-    if (glossy) bindCoat(near, gbuffer).sample("coatParts", coatParts).write("coat", result.coat);
+    if (glossy) bindCoat(near, gbuffer).sample("farCoat", farCoat).write("coat", result.coat);
     return result;
 }
 

@@ -1,25 +1,13 @@
 // Irradiance from far lights. Of each n x n pixels of a tile each takes another n²-th of the tile's list (Wald et al.
 // 2002; ACRSM section 3.2.3); four pixels an invocation share the loads.
 layout(constant_id = 0) const uint kShape = 2;
-layout(constant_id = 1) const int kVisibilityTaps = 0;
 layout(constant_id = 2) const uint kInterleave = 1;
-
-layout(set = 0, binding = 0) uniform sampler2D normalMap;
-layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 3) uniform samplerBuffer vals;
-layout(set = 0, binding = 4) uniform samplerBuffer shapes;
-layout(set = 0, binding = 5) uniform samplerBuffer isms;
-layout(set = 0, binding = 6) uniform usamplerBuffer lists;
-#include "val_shading/receiver.glsl"
-#include "val_shading/screen_tiles.glsl"
+#include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
 #ifdef AG_GLOSSY
-layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D coatParts;
+layout(set = 0, binding = 14, rgba16f) uniform writeonly image2D farCoat;
 #endif
 
 void main() {
@@ -57,7 +45,7 @@ void main() {
         if (any(greaterThanEqual(pixel, ivec2(size)))) continue;
         imageStore(parts, pixel, vec4(min(r[p].irradiance, vec3(kMostHalf)), distance_[p]));
 #ifdef AG_GLOSSY
-        imageStore(coatParts, pixel, vec4(min(r[p].coated, vec3(kMostHalf)), 1.0));
+        imageStore(farCoat, pixel, vec4(min(r[p].coated, vec3(kMostHalf)), 1.0));
 #endif
     }
 }

@@ -1,30 +1,18 @@
 // Irradiance from near lights, all of them at every pixel, and the far ones' from the n x n pixels that hold a part each
 // (Laine et al. 2007): only from those on the same surface and in the same tile, whose parts fit together.
 layout(constant_id = 0) const uint kShape = 4;
-layout(constant_id = 1) const int kVisibilityTaps = 0;
 layout(constant_id = 2) const int kInterleave = 1;
-
-layout(set = 0, binding = 0) uniform sampler2D normalMap;
-layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 3) uniform samplerBuffer vals;
-layout(set = 0, binding = 4) uniform samplerBuffer shapes;
-layout(set = 0, binding = 5) uniform samplerBuffer isms;
-layout(set = 0, binding = 6) uniform usamplerBuffer lists;
-#include "val_shading/receiver.glsl"
-#include "val_shading/screen_tiles.glsl"
+#include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
 layout(set = 0, binding = 8) uniform sampler2D parts;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D irradiance;
 #ifdef AG_GLOSSY
-layout(set = 0, binding = 14) uniform sampler2D coatParts;
+layout(set = 0, binding = 14) uniform sampler2D farCoat;
 layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D coat;
-vec3 coatPartAt(ivec2 at) { return texelFetch(coatParts, at, 0).rgb; }
+vec3 coatOfFarLights(ivec2 pixel) { return texelFetch(farCoat, pixel, 0).rgb; }
 #else
-vec3 coatPartAt(ivec2 at) { return vec3(0.0); }
+vec3 coatOfFarLights(ivec2 pixel) { return vec3(0.0); }
 #endif
 
 const float kMostPlaneShare = 0.0025;  // of the depth, from the plane: surfaces at an angle part within a pixel or two
@@ -52,7 +40,7 @@ Surface surfaceAt(ivec2 pixel) {
 
 struct Pixel {  // of the window about a block
     float depth;  // 0: sky or outside the tile
-    vec3 part, coatPart;
+    vec3 part;
 };
 
 struct TileBounds {
@@ -63,22 +51,14 @@ Pixel fetchPixel(TileBounds bounds, ivec2 at) {
     bool inside = all(greaterThanEqual(at, bounds.first)) && all(lessThan(at, bounds.end));
     at = clamp(at, bounds.first, bounds.end - 1);
     vec4 part = texelFetch(parts, at, 0);  // and the distance
-    return Pixel(inside && part.w > 0.0 ? camera.camera.near / part.w : 0.0, part.rgb, coatPartAt(at));
+    return Pixel(inside && part.w > 0.0 ? camera.camera.near / part.w : 0.0, part.rgb);
 }
 
-struct Parts {  // sums over pixels of one surface
-    vec3 irradiance, coated;
-    float count;
-};
-
-// Adds the parts of a pixel so far aside; false where it is on another surface.
-bool addPart(Pixel pixel, Surface s, ivec2 aside, inout Parts sum) {
+// Of a pixel so far aside: its part and 1, or nothing where it is on another surface.
+vec4 partOf(Pixel pixel, Surface s, ivec2 aside) {
     float expected = s.depth + dot(s.slope, vec2(aside));
     bool same = pixel.depth > 0.0 && abs(pixel.depth - expected) <= kMostPlaneShare * s.depth;
-    sum.irradiance += same ? pixel.part : vec3(0.0);
-    sum.coated += same ? pixel.coatPart : vec3(0.0);
-    sum.count += same ? 1.0 : 0.0;
-    return same;
+    return same ? vec4(pixel.part, 1.0) : vec4(0.0);
 }
 
 // The parts of each of a block's pixels: from the nearest that hold them, out of a window the block shares, or, where
@@ -92,27 +72,27 @@ void addFarIrradiance(TileBounds bounds, ivec2 corner, Surface s[kPixels], inout
         window[i] = fetchPixel(bounds, first + ivec2(i % kWindow, i / kWindow));
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 place = ivec2(p & 1, p >> 1);
-        Parts sum = Parts(vec3(0.0), vec3(0.0), 0.0);
+        vec4 sum = vec4(0.0);
         uint missing = 0;
         [[unroll]] for (int i = 0; i < kInterleave * kInterleave; ++i) {
             ivec2 at = ivec2(i % kInterleave, i / kInterleave) + place;
-            bool same = addPart(window[at.y * kWindow + at.x], s[p], first - corner - place + at, sum);
-            missing |= !same && s[p].depth > 0.0 ? 1u << i : 0u;
+            vec4 part = partOf(window[at.y * kWindow + at.x], s[p], first - corner - place + at);
+            sum += part;
+            missing |= part.w == 0.0 && s[p].depth > 0.0 ? 1u << i : 0u;
         }
         // A loop over the few that miss: CPU devices skip rounds but not branches.
         [[dont_unroll]] for (uint tries = missing; tries != 0u; tries &= tries - 1u) {
             int i = findLSB(tries);
             ivec2 toward = first - corner + ivec2(i % kInterleave, i / kInterleave);
             ivec2 back = kInterleave * (1 - 2 * ivec2(greaterThanEqual(toward, ivec2(0))));
-            bool found = false;
-            [[dont_unroll]] for (int k = 1; k < 4 && !found; ++k) {
+            vec4 part = vec4(0.0);
+            [[dont_unroll]] for (int k = 1; k < 4 && part.w == 0.0; ++k) {
                 ivec2 aside = toward + back * ivec2(k & 1, k >> 1);
-                found = addPart(fetchPixel(bounds, corner + place + aside), s[p], aside, sum);
+                part = partOf(fetchPixel(bounds, corner + place + aside), s[p], aside);
             }
+            sum += part;
         }
-        float scale = float(kInterleave * kInterleave) / max(sum.count, 1.0);
-        r[p].irradiance += sum.irradiance * scale;
-        r[p].coated += sum.coated * scale;
+        r[p].irradiance += sum.rgb * (float(kInterleave * kInterleave) / max(sum.w, 1.0));
     }
 }
 
@@ -127,7 +107,7 @@ void main() {
         s[p] = surfaceAt(pixel);
         r[p] = receiverAt(pixel, s[p].position, texelFetch(normalMap, pixel, 0), camera.camera.position);
         if (kInterleave == 1) r[p].irradiance = texelFetch(parts, pixel, 0).rgb;
-        if (kInterleave == 1) r[p].coated = coatPartAt(pixel);
+        r[p].coated = coatOfFarLights(pixel);
     }
     if (kInterleave > 1) addFarIrradiance(bounds, pixelOf(block, 0), s, r);
     uint start = listStart(block.tile, kNearList, push.p.valCount), count = counts.items[block.tile].x;

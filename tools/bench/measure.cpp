@@ -229,6 +229,7 @@ Status SceneBench::measureGpu(const Technique& technique, const Variant& variant
     }
     const auto layer = gi::layerFromName(layerOfTerm(row.term));
     if (!layer) return Error{fmt::format("there is no layer '{}'", row.term)};
+    if (!gi::showsGloss(*layer)) settings.valShading.glossy = false;
     renderer_.load(*scene_.geometry);
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};

@@ -150,6 +150,7 @@ int runRender(const RenderOptions& options) {
     if (options.output.empty()) return refuse("render needs -o FILE.(exr|pfm|png)");
     const auto layer = gi::layerFromName(layerOf(options));
     if (!layer) return refuse(fmt::format("there is no layer '{}'", options.layer));
+    if (!gi::showsGloss(*layer)) settings.gi.valShading.glossy = false;
     const std::string extension = std::filesystem::path(options.output).extension();
     if (extension != ".png" && extension != ".exr" && extension != ".pfm")
         return refuse(fmt::format("{} must end in .exr, .pfm or .png", options.output));

@@ -1,0 +1,19 @@
+// What both gathers read. Needs the constants kShape and kInterleave.
+#ifndef AG_GATHER_INPUTS_GLSL
+#define AG_GATHER_INPUTS_GLSL
+
+layout(constant_id = 1) const int kVisibilityTaps = 0;
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 3) uniform samplerBuffer vals;
+layout(set = 0, binding = 4) uniform samplerBuffer shapes;
+layout(set = 0, binding = 5) uniform samplerBuffer isms;
+layout(set = 0, binding = 6) uniform usamplerBuffer lists;
+#include "val_shading/receiver.glsl"
+#include "val_shading/screen_tiles.glsl"
+
+layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
+layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
+#endif
