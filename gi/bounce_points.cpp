@@ -58,7 +58,8 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
              .instance = s.instance,
              .normalLocal = s.normalLocal,
              .area = cutOut ? 0 : float(area * share),
-             .albedo = albedoAbout(*scene.geometry, scene.geometry->materials[p.material], samples.uvs[at])});
+             .albedo = albedoAbout(*scene.geometry, scene.geometry->materials[p.material], samples.uvs[at]),
+             .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}});
     }
     return points;
 }

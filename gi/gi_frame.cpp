@@ -24,7 +24,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     if (s.firstBounce == FirstBounce::kPointLights)
         f.vals = addVplSampling(graph, f.rsm, f.importance, s.valClustering.count);
     else if (s.firstBounce != FirstBounce::kSsvp)
-        f.vals = addValFit(graph, f.rsm, f.clusters);
+        f.vals = addValFit(graph, f.rsm, f.laterLight, f.clusters);
     f.firstCount = std::min(f.vals.count, f.rsm.firstLater());
 
     // What each of them sees

@@ -24,11 +24,14 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
         "later_bounces.irradiance", {.sizeBytes = light.count * sizeof(glm::vec4), .texelFormat = vec4});
     light.texels = graph.buffer("later_bounces.texels",
                                 {.sizeBytes = light.count * sizeof(io::RsmTexel), .texelFormat = vec4});
+    light.edges = graph.buffer("later_bounces.edges",
+                               {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge), .texelFormat = vec4});
     graph.compute("later_bounces.emit", "later_bounces/emit.comp")
         .read("instances", scene.instances)
         .read("points", scene.bouncePoints)
         .readPrevious("irradiance", light.irradiance)
         .write("texels", light.texels)
+        .write("edges", light.edges)
         .push(io::EmitPush{.count = light.count, .known = light.irradiance.valid})
         .key(r.instancesVersion)
         .step(step)

@@ -24,6 +24,7 @@ struct LaterBouncesSettings {
 // The points' emission as texels of a light map, and where the light on them goes.
 struct LaterLight {
     BufferHandle texels;       // io::RsmTexel, tile by tile; invalid: no later bounces
+    BufferHandle edges;        // io::SurfaceEdge, two a point: where its surface ends
     HistoryBuffer irradiance;  // vec4: W/m²
     uint32_t count = 0;
     uint32_t side = 0;  // texels of the square map

@@ -19,7 +19,7 @@ Vals firstVals(Vals vals, uint32_t end) {
     return vals;
 }
 
-Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters) {
+Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters) {
     if (clusters.count == 0) return {};
     const Vals v = allocateVals(graph, "val_fit.vals", "val_fit.shapes", clusters.count);
     graph.compute("val_fit.fit", "val_fit/fit_vals.comp")
@@ -28,6 +28,7 @@ Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters) {
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
+        .read("edges", later.edges ? later.edges : rsm.texels)
         .write("vals", v.vals)
         .write("shapes", v.shapes)
         .push(glm::uvec3(clusters.count, v.count, rsm.atlas.size.x))

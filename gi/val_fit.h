@@ -20,6 +20,6 @@ Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view sha
 // The same without those from `end` on.
 Vals firstVals(Vals vals, uint32_t end);
 
-Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const Clusters& clusters);
+Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters);
 
 }  // namespace ag::gi

@@ -3,6 +3,7 @@
 #define AG_LATER_BOUNCES_IO_H
 
 #include "common/portable.h"
+#include "surface_points/surface_points_io.h"
 
 #ifdef __cplusplus
 namespace ag::io {
@@ -14,6 +15,7 @@ struct BouncePoint {  // moves with its instance
     vec3 normalLocal;  // unit
     float area;        // m² it stands for; 0: none
     vec3 albedo;       // diffuse, the mean of what it stands for
+    SurfaceEdge edgesLocal[2];
 };
 
 const float kMostAlbedo = 0.95;  // in the loop of bounces, which would not end otherwise

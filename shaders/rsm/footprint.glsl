@@ -3,7 +3,6 @@
 #define AG_FOOTPRINT_GLSL
 
 #extension GL_EXT_control_flow_attributes : require
-#include "common/sampling.h"
 #include "rsm/rsm.glsl"
 
 const float kMostStretch = 4.0;  // of a footprint seen slantwise, over the root of its area
@@ -66,28 +65,5 @@ struct Reach {  // texels
 Reach reachOf(TexelView v) {
     return Reach(reachToward(v, ivec2(-1, 0)), reachToward(v, ivec2(1, 0)), reachToward(v, ivec2(0, -1)),
                  reachToward(v, ivec2(0, 1)));
-}
-
-// Of a point that stands for surface round it: a square, of half its sides. Those that make a cluster's outline are the
-// nearest to a crease, and what of an outline stood out over it would light nothing (a furnace loses 1.6 % a bounce).
-void squareFootprint(RsmSurface s, out vec3 corners[4]) {
-    vec3 t, b;
-    orthonormalBasis(s.normal, t, b);
-    float half_ = 0.25 * sqrt(s.area);
-    [[unroll]] for (int i = 0; i < 4; ++i)
-        corners[i] = s.position + half_ * (t * (i == 1 || i == 2 ? -1.0 : 1.0) + b * (i > 1 ? -1.0 : 1.0));
-}
-
-void footprint(uint texel, uint mapIndex, uint atlasWidth, out vec3 corners[4]) {
-    TexelView v = viewTexel(texel, mapIndex, atlasWidth);
-    if (v.map.kind == kMapOfSurfaces) {
-        squareFootprint(v.s, corners);
-        return;
-    }
-    Reach r = reachOf(v);
-    corners[0] = onPlane(v, vec2(r.right, r.up));
-    corners[1] = onPlane(v, vec2(-r.left, r.up));
-    corners[2] = onPlane(v, vec2(-r.left, -r.down));
-    corners[3] = onPlane(v, vec2(r.right, -r.down));
 }
 #endif

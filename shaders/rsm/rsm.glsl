@@ -32,4 +32,11 @@ uvec2 rsmTexelCoord(uint tile, uint inTile, uint atlasWidth) {
     return uvec2(tile % tilesX, tile / tilesX) * kRsmTileSize +
            uvec2(inTile % kRsmTileSize, inTile / kRsmTileSize);
 }
+
+// Of a texel of the atlas in one of its faces, stored tile by tile by itself.
+uint rsmIndexInFace(uint texel, RsmFace face, uint atlasWidth) {
+    const uint kTileTexels = kRsmTileSize * kRsmTileSize;
+    uvec2 tile = (rsmTexelCoord(texel / kTileTexels, 0, atlasWidth) - face.origin) / kRsmTileSize;
+    return rsmTexelIndex(tile.y * (face.size / kRsmTileSize) + tile.x, texel % kTileTexels);
+}
 #endif

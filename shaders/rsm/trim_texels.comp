@@ -26,9 +26,7 @@ void main() {
     RsmMap m = maps.items[min(map, push.atlas.mapCount - 1)];
     bool surfaces = map < push.atlas.mapCount && m.kind == kMapOfSurfaces;
     if (surfaces) {
-        RsmFace face = faces.items[m.firstFace];
-        uvec2 tileInFace = (rsmTexelCoord(tile, 0, push.atlas.size.x) - face.origin) / kRsmTileSize;
-        int at = int(rsmTexelIndex(tileInFace.y * (face.size / kRsmTileSize) + tileInFace.x, gl_LocalInvocationID.x)) * 3;
+        int at = int(rsmIndexInFace(index, faces.items[m.firstFace], push.atlas.size.x)) * 3;
         a = texelFetch(later, at);
         b = texelFetch(later, at + 1);
         c = texelFetch(later, at + 2);

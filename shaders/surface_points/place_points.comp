@@ -4,19 +4,13 @@
 // Samples of the surfaces to where their instances are this frame.
 #define AG_SCENE_INSTANCES
 #include "scene/scene.glsl"
-#include "surface_points/surface_points_io.h"
+#include "surface_points/place_edge.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { uint count; } push;
 
 layout(set = 0, binding = 1) uniform samplerBuffer samples;
 layout(set = 0, binding = 2, scalar) writeonly buffer Points { SurfacePoint items[]; } points;
-
-SurfaceEdge placeEdge(InstanceTransform t, vec4 edge) {
-    vec3 d = transformDirection(t, edge.xyz);
-    float scale = length(d);
-    return SurfaceEdge(d / max(scale, 1e-20), edge.w < 0.0 ? edge.w : edge.w * scale);
-}
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -29,6 +23,6 @@ void main() {
     p.normal = normalize(transformNormal(t, n.xyz));
     p.bend = n.w / max(length(transformDirection(t, n.xyz)), 1e-20);
     p.unused = 0.0;
-    for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, texelFetch(samples, int(i) * 4 + 2 + k));
+    for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, edgeOf(texelFetch(samples, int(i) * 4 + 2 + k)));
     points.items[i] = p;
 }

@@ -20,6 +20,17 @@ layout(set = 0, binding = 5, scalar) writeonly buffer Extents { ClusterExtent it
 
 const int kSumVec4s = 6;
 
+// What stands farther before the centre has less than a ninth of the flux (Chebyshev): a light is not moved for the dark
+// underside of a box below it, which faces the same way.
+const float kMostDeviations = 3.0;
+
+// Standard deviation of the flux along a line, m.
+float deviationAlong(Cluster c, vec3 direction) {
+    vec3 mixed = vec3(dot(c.covarianceMixed.xy, direction.yz), dot(c.covarianceMixed.xz, direction.xz),
+                      dot(c.covarianceMixed.yz, direction.xy));
+    return sqrt(max(dot(c.covarianceDiagonal * direction + mixed, direction), 0.0));
+}
+
 struct Extreme {  // of a tile's texels in one direction
     float reach;
     uint texel;
@@ -77,7 +88,7 @@ void main() {
     c.map = seed.map;
     c.age = seed.age;
     clusters.items[cluster] = c;
-    extent.before = max(before - dot(offset, seed.normal), 0.0);
+    extent.before = clamp(before - dot(offset, seed.normal), 0.0, kMostDeviations * deviationAlong(c, c.normal));
     extent.areaCentre = empty ? vec3(0.0) : sums[5].xyz / max(c.area, 1e-38) - offset;
     extents.items[cluster] = extent;
 }

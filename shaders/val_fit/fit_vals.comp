@@ -6,6 +6,7 @@
 // texels. Empty clusters and the padding to whole subgroups become black lights.
 #include "common/sampling.h"
 #include "rsm/rsm.glsl"
+#include "surface_points/surface_points_io.h"
 #include "val_clustering/val_clustering_io.h"
 #include "val_fit/val_fit_io.h"
 
@@ -21,10 +22,11 @@ layout(set = 0, binding = 3, scalar) readonly buffer Extents { ClusterExtent ite
 layout(set = 0, binding = 4) uniform samplerBuffer texels;
 layout(set = 0, binding = 5, scalar) readonly buffer Faces { RsmFace items[]; } faces;
 layout(set = 0, binding = 6, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 7, scalar) readonly buffer Edges { SurfaceEdge items[]; } edges;
 layout(set = 0, binding = 1, scalar) writeonly buffer Vals { Val items[]; } vals;
 layout(set = 0, binding = 2, scalar) writeonly buffer Shapes { ValShapeVectors items[]; } shapes;
 
-#include "rsm/footprint.glsl"
+#include "val_fit/texel_corners.glsl"
 
 // Fewer texels than this have no outline worth following.
 const float kLeastTexels = 8.0;
@@ -93,7 +95,7 @@ vec4 gradientOf(PolygonMoments m, vec2 areaCentre, vec2 corners[kValCorners]) {
 void fitPolygon(Cluster c, ClusterExtent extent, vec3 t, vec3 b, inout ValShapeVectors shape) {
     for (int i = 0; i < int(kValCorners); ++i) {
         vec3 corners[4];
-        footprint(extent.texels[i], c.map, push.atlasWidth, corners);
+        texelCorners(extent.texels[i], c.map, push.atlasWidth, corners);
         float angle = float(i) * (kPi / 4.0), most = -3.0e38;
         for (int k = 0; k < 4; ++k) {
             vec2 p = vec2(dot(corners[k] - c.position, t), dot(corners[k] - c.position, b));

@@ -86,6 +86,28 @@ TEST(LaterBounces, CostNothingWhenOffAndRestWhenNothingChanges) {
     EXPECT_EQ(b->last.indirect.image.index, b->last.bounce1.image.index);
 }
 
+// The dark undersides of the boxes face as the ceiling does and end up in its clusters; they must not pull
+// the lights down to where the boxes cast no shadow.
+TEST(LaterBounces, LightsOfTheCeilingLookFromTheCeiling) {
+    const auto b = laterBench("cornell", 0);
+    b->settings.valClustering.count = 256;
+    b->output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.vals.vals); };
+    for (int i = 0; i < 64; ++i)
+        b->frame();
+    const std::vector<io::Val> vals = b->read<io::Val>(b->last.vals.vals);
+    float ceiling = -1e9f;
+    for (const io::RsmTexel& t : b->read<io::RsmTexel>(b->last.rsm.texels))
+        if (t.weight > 0) ceiling = std::max(ceiling, t.position.y);
+    int above = 0;
+    for (size_t i = b->last.firstCount; i < vals.size(); ++i) {
+        if (vals[i].flux == glm::vec3(0) || vals[i].normal.y > -0.99f) continue;
+        if (vals[i].position.y < ceiling - 0.02f) continue;
+        ++above;
+        EXPECT_LT(vals[i].before, 0.2f) << "m, light " << i;
+    }
+    EXPECT_GT(above, 2);
+}
+
 TEST(LaterBounces, SameFrameTwiceSameBits) {
     std::vector<glm::vec4> first;
     for (int run = 0; run < 2; ++run) {
