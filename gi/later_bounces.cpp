@@ -24,8 +24,8 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
         "later_bounces.irradiance", {.sizeBytes = light.count * sizeof(glm::vec4), .texelFormat = vec4});
     light.texels = graph.buffer("later_bounces.texels",
                                 {.sizeBytes = light.count * sizeof(io::RsmTexel), .texelFormat = vec4});
-    light.edges = graph.buffer("later_bounces.edges",
-                               {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge), .texelFormat = vec4});
+    light.edges =
+        graph.buffer("later_bounces.edges", {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge)});
     graph.compute("later_bounces.emit", "later_bounces/emit.comp")
         .read("instances", scene.instances)
         .read("points", scene.bouncePoints)

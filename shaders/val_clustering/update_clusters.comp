@@ -6,7 +6,7 @@
 // flux-weighted mean. Flux and area are sums over the texels (not the centre's sample: ACRSM section 4.7 differs).
 #include "common/lane_loop.glsl"
 #include "rsm/rsm.glsl"
-#include "val_clustering/val_clustering_io.h"
+#include "val_clustering/covariance.glsl"
 
 layout(local_size_x_id = 100) in;  // one subgroup a cluster
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
@@ -23,13 +23,6 @@ const int kSumVec4s = 6;
 // What stands farther before the centre has less than a ninth of the flux (Chebyshev): a light is not moved for the dark
 // underside of a box below it, which faces the same way.
 const float kMostDeviations = 3.0;
-
-// Standard deviation of the flux along a line, m.
-float deviationAlong(Cluster c, vec3 direction) {
-    vec3 mixed = vec3(dot(c.covarianceMixed.xy, direction.yz), dot(c.covarianceMixed.xz, direction.xz),
-                      dot(c.covarianceMixed.yz, direction.xy));
-    return sqrt(max(dot(c.covarianceDiagonal * direction + mixed, direction), 0.0));
-}
 
 struct Extreme {  // of a tile's texels in one direction
     float reach;
@@ -88,7 +81,8 @@ void main() {
     c.map = seed.map;
     c.age = seed.age;
     clusters.items[cluster] = c;
-    extent.before = clamp(before - dot(offset, seed.normal), 0.0, kMostDeviations * deviationAlong(c, c.normal));
+    float deviation = sqrt(max(dot(c.normal, covarianceOf(c) * c.normal), 0.0));
+    extent.before = clamp(before - dot(offset, seed.normal), 0.0, kMostDeviations * deviation);
     extent.areaCentre = empty ? vec3(0.0) : sums[5].xyz / max(c.area, 1e-38) - offset;
     extents.items[cluster] = extent;
 }

@@ -7,7 +7,7 @@
 #include "common/sampling.h"
 #include "rsm/rsm.glsl"
 #include "surface_points/surface_points_io.h"
-#include "val_clustering/val_clustering_io.h"
+#include "val_clustering/covariance.glsl"
 #include "val_fit/val_fit_io.h"
 
 layout(local_size_x = 64) in;
@@ -33,9 +33,7 @@ const float kLeastTexels = 8.0;
 const float kLeastFill = 0.5;     // of the cluster's area by the polygon
 
 void fitRectangle(Cluster c, vec3 t, vec3 b, inout ValShapeVectors shape) {
-    mat3 moments = mat3(c.covarianceDiagonal.x, c.covarianceMixed.x, c.covarianceMixed.y,
-                        c.covarianceMixed.x, c.covarianceDiagonal.y, c.covarianceMixed.z,
-                        c.covarianceMixed.y, c.covarianceMixed.z, c.covarianceDiagonal.z);
+    mat3 moments = covarianceOf(c);
     float tt = dot(t, moments * t), bb = dot(b, moments * b), tb = dot(t, moments * b);
     float middle = 0.5 * (tt + bb), half_ = 0.5 * (tt - bb);
     float spread = sqrt(half_ * half_ + tb * tb);
