@@ -15,14 +15,16 @@ constexpr uint32_t kMostLevels = 6;
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 
 // The graph keeps views of pass names, so they are literals.
-constexpr std::array<std::string_view, kMostLevels> kPullNames = {"ism_atlas.pull1", "ism_atlas.pull2",
+constexpr std::array<std::string_view, kMostLevels> kPullNames = {"ism_atlas.close", "ism_atlas.pull2",
                                                                   "ism_atlas.pull3", "ism_atlas.pull4",
                                                                   "ism_atlas.pull5", "ism_atlas.pull6"};
 constexpr std::array<std::string_view, kMostLevels> kPushNames = {"ism_atlas.push1", "ism_atlas.push2",
                                                                   "ism_atlas.push3", "ism_atlas.push4",
                                                                   "ism_atlas.push5", "ism_atlas.push6"};
 
-void addPullPush(FrameGraph& graph, BufferHandle planes, uint32_t mapCount, uint32_t tileSize) {
+// Holes in planes are closed first, then empty texels are filled from coarser levels.
+void addPullPush(FrameGraph& graph, BufferHandle resolved, const IsmAtlas& atlas) {
+    const uint32_t mapCount = atlas.mapCount, tileSize = atlas.tileSize;
     std::array<io::IsmLevelPush, kMostLevels> levels{};
     uint32_t count = 0, fine = 0;
     for (uint32_t size = tileSize / 2; size >= kCoarsestSize; size /= 2) {
@@ -30,16 +32,22 @@ void addPullPush(FrameGraph& graph, BufferHandle planes, uint32_t mapCount, uint
         levels[count++] = {size, fine, coarse};
         fine = coarse;
     }
-    for (uint32_t i = 0; i < count; ++i)
+    graph.compute(kPullNames[0], "ism_atlas/close_holes.comp")
+        .read("resolved", resolved)
+        .write("pyramid", atlas.planes)
+        .spec(3, atlas.mapping == IsmMapping::kParaboloid)
+        .push(levels[0])
+        .dispatchGroups((levels[0].coarseSize * levels[0].coarseSize + 63) / 64, mapCount);
+    for (uint32_t i = 1; i < count; ++i)
         graph.compute(kPullNames[i], "ism_atlas/pull_level.comp")
-            .readWrite("pyramid", planes)
+            .readWrite("pyramid", atlas.planes)
             .push(levels[i])
             .dispatchGroups((levels[i].coarseSize * levels[i].coarseSize + 63) / 64, mapCount);
     for (uint32_t i = count; i-- > 0;)
         graph.compute(kPushNames[i], "ism_atlas/push_level.comp")
-            .readWrite("pyramid", planes)
+            .readWrite("pyramid", atlas.planes)
             .push(levels[i])
-            .dispatchGroups(levels[i].coarseSize * levels[i].coarseSize * 4 / 64, mapCount);
+            .dispatchGroups((levels[i].coarseSize * levels[i].coarseSize + 63) / 64, mapCount);
 }
 
 // What still layers are made of and like, as a number; 0: none are kept.
@@ -178,16 +186,20 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
     if (moving > 0)
         keys =
             addMovingLayer(splat, keys, layerPush(push, points.moving, still, moving, settings.splatScale));
+    const BufferHandle resolved =
+        settings.pullPush ? graph.buffer("ism_atlas.resolved", {.sizeBytes = texels * 16,
+                                                                .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT})
+                          : atlas.planes;
     graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
         .read("points", points.points)
         .read("vals", vals.vals)
         .read("keys", keys)
         .read("chosen", atlas.chosen)
-        .write("planes", atlas.planes)
+        .write("planes", resolved)
         .spec(0, settings.planes)
         .push(push)
         .dispatchGroups(splat.texelGroups(), atlas.mapCount);
-    if (settings.pullPush) addPullPush(graph, atlas.planes, atlas.mapCount, atlas.tileSize);
+    if (settings.pullPush) addPullPush(graph, resolved, atlas);
     return atlas;
 }
 

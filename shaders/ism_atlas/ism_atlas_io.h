@@ -12,6 +12,9 @@ namespace ag::io {
 
 const uint kMaxIsms = 1024;
 
+// Half the side of a texel of 2 pi / size², times size; rad, or over the distance.
+const float kIsmHalfTexel = 1.2533141f;
+
 // A splat's key: distance above, point below, so that the least key is the nearest point's. The distance is 4
 // bits of octave and 11 of mantissa below the greatest distance.
 const uint kIsmPointBits = 17;

@@ -5,15 +5,12 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "ism_atlas/ism_map.glsl"
 
-// Beyond a plane by less than this share of the distance counts as on it.
-const float kIsmPlaneSlack = 0.01;
-
 struct IsmTile {
     int first, size;  // texels
 };
 
 // d: from the light to the place, in the light's frame.
-float ismShadow(vec4 plane, vec3 d) { return dot(plane.xyz, d) > 1.0 + kIsmPlaneSlack ? 1.0 : 0.0; }
+float ismShadow(vec4 plane, vec3 d, int size) { return ismBeyond(dot(plane.xyz, d), size) ? 1.0 : 0.0; }
 
 // What was met in a direction, which need not be unit.
 vec4 ismPlane(samplerBuffer atlas, IsmTile tile, vec3 direction) {
@@ -27,9 +24,10 @@ float ismHardVisibility(samplerBuffer atlas, IsmTile tile, vec3 d) {
     vec2 at = ismEncode(vec3(d.xy, max(d.z, 0.0))) * float(tile.size) - 0.5;
     vec2 low = clamp(floor(at), vec2(0.0), vec2(float(tile.size) - 2.0)), f = clamp(at - low, vec2(0.0), vec2(1.0));
     int texel = tile.first + int(low.y) * tile.size + int(low.x);
-    vec4 shadow = vec4(ismShadow(texelFetch(atlas, texel), d), ismShadow(texelFetch(atlas, texel + 1), d),
-                       ismShadow(texelFetch(atlas, texel + tile.size), d),
-                       ismShadow(texelFetch(atlas, texel + tile.size + 1), d));
+    vec4 shadow = vec4(ismShadow(texelFetch(atlas, texel), d, tile.size),
+                       ismShadow(texelFetch(atlas, texel + 1), d, tile.size),
+                       ismShadow(texelFetch(atlas, texel + tile.size), d, tile.size),
+                       ismShadow(texelFetch(atlas, texel + tile.size + 1), d, tile.size));
     return 1.0 - mix(mix(shadow.x, shadow.y, f.x), mix(shadow.z, shadow.w, f.x), f.y);
 }
 
@@ -42,7 +40,7 @@ float ismSoftVisibility(samplerBuffer atlas, IsmTile tile, vec3 d, vec2 u, vec2 
     float blockers = 0.0, share = 0.0;
     [[unroll]] for (int i = 0; i < 5; ++i) {
         vec4 plane = ismPlane(atlas, tile, d + vec3(u * kSearch[i].x + v * kSearch[i].y, 0.0));
-        float beyond = dot(plane.xyz, d), shadow = beyond > 1.0 + kIsmPlaneSlack ? 1.0 : 0.0;
+        float beyond = dot(plane.xyz, d), shadow = ismBeyond(beyond, tile.size) ? 1.0 : 0.0;
         blockers += shadow;
         share += shadow / max(beyond, 1.0);
     }
@@ -51,7 +49,7 @@ float ismSoftVisibility(samplerBuffer atlas, IsmTile tile, vec3 d, vec2 u, vec2 
     float shadow = 0.0;
     [[unroll]] for (int i = 0; i < taps; ++i) {
         vec2 s = fract(vec2(0.5) + float(i) * vec2(0.7548776662, 0.5698402910)) * 2.0 - 1.0;
-        shadow += ismShadow(ismPlane(atlas, tile, d + vec3(u * s.x + v * s.y, 0.0) * spread), d);
+        shadow += ismShadow(ismPlane(atlas, tile, d + vec3(u * s.x + v * s.y, 0.0) * spread), d, tile.size);
     }
     return 1.0 - shadow / float(taps);
 }

@@ -3,6 +3,7 @@
 #define AG_ISM_MAP_GLSL
 
 #include "common/hemisphere_map.h"
+#include "ism_atlas/ism_atlas_io.h"
 
 layout(constant_id = 3) const bool kParaboloid = false;
 
@@ -13,4 +14,8 @@ void ismGradients(vec3 d, out vec3 u, out vec3 v) {
     if (kParaboloid) paraboloidGradients(d, u, v);
     else hemisphereGradients(d, u, v);
 }
+
+// Places farther than a texel's plane by less than half its width may show in it as well: the sides and the foot of a
+// panel beside its front. `beyond` is over the plane's distance.
+bool ismBeyond(float beyond, int size) { return beyond > 1.0 + kIsmHalfTexel / float(size); }
 #endif

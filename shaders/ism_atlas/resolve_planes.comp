@@ -10,7 +10,6 @@ layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
 layout(constant_id = 0) const bool kPlanes = true;  // else distances
-const float kTexelShare = 1.2533141;  // half the side of a texel of 2 pi / tileSize²
 
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
@@ -21,7 +20,7 @@ layout(set = 0, binding = 3, scalar) writeonly buffer Planes { vec4 items[]; } p
 // How far the surface may lie behind what the texel holds, within a disk or the texel, whichever is larger: a bend of k
 // gives k r² / 2; what is known by its distance alone may slope as it likes.
 float depthWithin(float bend, float radius, float distance_) {
-    float r = max(radius, kTexelShare * distance_ / float(push.p.tileSize));
+    float r = max(radius, kIsmHalfTexel * distance_ / float(push.p.tileSize));
     return kPlanes ? min(0.5 * bend * r * r, r) : r;
 }
 
