@@ -19,7 +19,7 @@ struct Gather {
     const Vals& vals;
     const IsmAtlas& isms;
     io::ValShadingPush push;
-    BufferHandle lists, counts;
+    BufferHandle lists, counts, lackingCounts, lacking;
     uint32_t interleave;
 };
 
@@ -31,6 +31,7 @@ void addClassification(const Gather& g, std::string_view name) {
         .read("shapes", g.vals.shapes)
         .write("lists", g.lists)
         .write("counts", g.counts)
+        .write("lackingCounts", g.lackingCounts)
         .push(g.push)
         .dispatchGroups(g.push.tiles.x * g.push.tiles.y);
 }
@@ -51,8 +52,7 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
         .spec(2, g.interleave)
         .spec(3, g.isms.mapping == IsmMapping::kParaboloid)
         .spec(4, g.isms.shared)
-        .push(g.push)
-        .dispatchThreads(g.push.tiles.x * g.push.tiles.y * g.push.tileSize * g.push.tileSize / 4);
+        .push(g.push);
     return pass;
 }
 
@@ -85,23 +85,36 @@ Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffe
         .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * vals.count * 4,
                                             .texelFormat = VK_FORMAT_R32_UINT}),
         .counts = graph.buffer(names.counts, {.sizeBytes = tileCount * 8}),
+        .lackingCounts = graph.buffer(names.lackingCounts, {.sizeBytes = tileCount * 4}),
+        .lacking = graph.buffer(names.lacking,
+                                {.sizeBytes = n > 1 ? uint64_t(tileCount) * tileSize * tileSize * 4 : 4}),
         .interleave = n};
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle parts = graph.image(names.parts, info);
     Irradiance result{graph.image(names.irradiance, info)};
     addClassification(g, names.classify);
+    const uint32_t blocks = uint32_t(tileCount) * tileSize * tileSize / 4;
     const ImageHandle farCoat = glossy ? graph.image(names.farCoat, info) : ImageHandle{};
     if (glossy) result.coat = graph.image(names.coat, info);
     PassBuilder far =
         addGather(g, names.far, glossy ? "val_shading/gather_far_glossy.comp" : "val_shading/gather_far.comp",
                   settings.farShape, settings.farTaps);
-    far.write("parts", parts);
+    far.write("parts", parts).dispatchThreads(blocks);
     if (glossy) bindCoat(far, gbuffer).write("farCoat", farCoat);
     PassBuilder near = addGather(
         g, names.near, glossy ? "val_shading/gather_near_glossy.comp" : "val_shading/gather_near.comp",
         settings.shape, settings.taps);
-    near.sample("parts", parts).write("irradiance", result.image);
-    if (glossy) bindCoat(near, gbuffer).sample("farCoat", farCoat).write("coat", result.coat);
+    near.sample("parts", parts).write("irradiance", result.image).dispatchThreads(blocks);
+    if (glossy)
+        bindCoat(near, gbuffer).sample("farCoat", farCoat).write("coat", result.coat);
+    else
+        near.readWrite("lackingCounts", g.lackingCounts).write("lacking", g.lacking);
+    if (n > 1)
+        addGather(g, names.fill, "val_shading/gather_lacking.comp", settings.farShape, settings.farTaps)
+            .read("lackingCounts", g.lackingCounts)
+            .read("lacking", g.lacking)
+            .readWrite("irradiance", result.image)
+            .dispatchGroups(uint32_t(tileCount));
     return result;
 }
 

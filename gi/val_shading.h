@@ -33,16 +33,19 @@ struct Irradiance {
 
 // Passes and resources of one gathering; literals, because the graph keeps views of them.
 struct ValShadingNames {
-    std::string_view classify, far, near, lists, counts, parts, irradiance, farCoat, coat;
+    std::string_view classify, far, near, fill, lists, counts, lacking, lackingCounts, parts, irradiance,
+        farCoat, coat;
 };
 constexpr ValShadingNames kFirstBounceShading = {
-    "val_shading.classify",   "val_shading.far",      "val_shading.near",
-    "val_shading.lists",      "val_shading.counts",   "val_shading.parts",
-    "val_shading.irradiance", "val_shading.far_coat", "val_shading.coat"};
-constexpr ValShadingNames kAllBouncesShading = {
-    "val_shading.classify_all",   "val_shading.far_all",      "val_shading.near_all",
-    "val_shading.lists_all",      "val_shading.counts_all",   "val_shading.parts_all",
-    "val_shading.irradiance_all", "val_shading.far_coat_all", "val_shading.coat_all"};
+    "val_shading.classify", "val_shading.far",        "val_shading.near",     "val_shading.fill",
+    "val_shading.lists",    "val_shading.counts",     "val_shading.lacking",  "val_shading.lacking_counts",
+    "val_shading.parts",    "val_shading.irradiance", "val_shading.far_coat", "val_shading.coat"};
+constexpr ValShadingNames kAllBouncesShading = {"val_shading.classify_all", "val_shading.far_all",
+                                                "val_shading.near_all",     "val_shading.fill_all",
+                                                "val_shading.lists_all",    "val_shading.counts_all",
+                                                "val_shading.lacking_all",  "val_shading.lacking_counts_all",
+                                                "val_shading.parts_all",    "val_shading.irradiance_all",
+                                                "val_shading.far_coat_all", "val_shading.coat_all"};
 
 Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
                          const IsmAtlas& isms, const ValShadingSettings& settings,

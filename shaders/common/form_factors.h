@@ -132,7 +132,15 @@ AG_FUNCTION float rectangleVectorFactor(vec3 x, vec3 n, vec3 c, vec3 m, vec3 u, 
 // over the polygon as gradient.xy . y + gradient.z: it is taken where the mean direction to the polygon meets
 // it, plus what the receiver's cosine adds to first order (its logarithm's slope times the second moment
 // gradient.w), less so where the polygon fills the view. Returns the form factor: E = flux / area x factor.
-AG_FUNCTION float polygonVectorFactor(vec3 p, vec3 n, vec2 corners[8], vec4 gradient) {
+// Nearer to the plane than `least` [m] counts as that far before it: the receiver is not a point but has some
+// width, and in a crease rounding would decide on which side of the plane it is. Only where it faces the
+// polygon: not in the plane itself, nor beyond a convex edge.
+AG_FUNCTION float polygonVectorFactor(vec3 p, vec3 n, vec2 corners[8], vec4 gradient, float least) {
+    const float kLeastSine = 1e-3f;
+    least = max(least, kLeastSine * sqrt(dot(p, p)));
+    float toward = -(n.x * p.x + n.y * p.y) * inversesqrt(max(p.x * p.x + p.y * p.y, 1e-20f));
+    float before = p.z > least ? 1.0f : p.z > -least ? clamp(20.0f * toward, 0.0f, 1.0f) : 0.0f;
+    p.z = max(p.z, least);
     vec3 sum = vec3(0.0f);
     vec3 a = vec3(corners[7].x - p.x, corners[7].y - p.y, -p.z);
     float ra = inversesqrt(max(dot(a, a), 1e-20f));
@@ -154,9 +162,7 @@ AG_FUNCTION float polygonVectorFactor(vec3 p, vec3 n, vec2 corners[8], vec4 grad
     float nd = max(dot(n, d), 0.0f);
     float tilt = gradient.w * (gradient.x * n.x + gradient.y * n.y);
     radiosity += tilt * nd / (nd * nd + gradient.w + 1e-12f);
-    // On the polygon's own plane rounding decides the sign of everything.
-    float above_ = clamp(p.z * inversesqrt(max(dot(p, p), 1e-20f)) * 1e3f - 1.0f, 0.0f, 1.0f);
-    return above_ * factor * clamp(radiosity, 0.0f, 4.0f);
+    return before * factor * clamp(radiosity, 0.0f, 4.0f);
 }
 
 AG_END

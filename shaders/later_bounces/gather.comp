@@ -26,10 +26,10 @@ void main() {
             AreaLight mine = loadLight(min(base + gl_SubgroupInvocationID, push.p.valCount - 1));
             uint here = min(kSubgroupSize, push.p.valCount - base);
             [[dont_unroll]] for (uint lane = 0; lane < here; ++lane)
-                e += irradianceFrom(lightOfLane(mine, lane), x, n, push.p.ismTileSize);
+                e += irradianceFrom(lightOfLane(mine, lane), x, n, 0.0, push.p.ismTileSize);
         }
     } else {
-        for (uint l = 0; l < push.p.valCount; ++l) e += irradianceFrom(loadLight(l), x, n, push.p.ismTileSize);
+        for (uint l = 0; l < push.p.valCount; ++l) e += irradianceFrom(loadLight(l), x, n, 0.0, push.p.ismTileSize);
     }
     if (i < push.p.count) irradiance.items[i] = vec4(e, 1.0);
 }

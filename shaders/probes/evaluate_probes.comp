@@ -64,7 +64,7 @@ vec3 directFrom(RsmFace face, RsmMap map, vec3 x, vec3 n, bool allRound) {
 vec3 bouncedFrom(uint index, vec3 x, vec3 n, bool allRound) {
     AreaLight l = loadLight(index);
     vec3 toward = normalize(l.place.xyz - x + vec3(0.0, 1e-9, 0.0));
-    return irradianceFrom(l, x, allRound ? toward : n, push.p.ismTileSize) * (allRound ? kSphere : 1.0);
+    return irradianceFrom(l, x, allRound ? toward : n, 0.0, push.p.ismTileSize) * (allRound ? kSphere : 1.0);
 }
 
 void main() {

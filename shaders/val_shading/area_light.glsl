@@ -86,7 +86,7 @@ LightFrame frameOf(AreaLight l) {
 
 vec3 toFrame(LightFrame f, vec3 v) { return vec3(dot(v, f.t), dot(v, f.b), dot(v, f.n)); }
 
-float shapeTerm(vec3 x, vec3 n, AreaLight l, LightFrame f) {
+float shapeTerm(vec3 x, vec3 n, float width, AreaLight l, LightFrame f) {
     if (kShape == kShapePoint) return vplTerm(x, n, l.place.xyz, l.normal);
     if (kShape == kShapeDisk) return diskPublishedTerm(x, n, l.place.xyz, l.normal, l.place.w);
     if (kShape == kShapeVectorDisk) return diskVectorFactor(x, n, l.place.xyz, l.normal, l.place.w);
@@ -96,7 +96,7 @@ float shapeTerm(vec3 x, vec3 n, AreaLight l, LightFrame f) {
         corners[2 * i] = l.corners[i].xy;
         corners[2 * i + 1] = l.corners[i].zw;
     }
-    return polygonVectorFactor(toFrame(f, x - l.place.xyz), toFrame(f, n), corners, l.gradient);
+    return polygonVectorFactor(toFrame(f, x - l.place.xyz), toFrame(f, n), corners, l.gradient, 0.25 * width);
 }
 
 IsmTile tileOf(AreaLight l, uint ismTileSize) {
@@ -120,8 +120,9 @@ float visibility(vec3 x, AreaLight l, LightFrame f, uint ismTileSize) {
     return ismSoftVisibility(isms, tile, d, toFrame(f, l.halfU).xy, toFrame(f, l.halfV).xy, kVisibilityTaps);
 }
 
-vec3 irradianceFrom(AreaLight l, vec3 x, vec3 n, uint ismTileSize) {
+// At a receiver of some width, m, that the light may be as near to.
+vec3 irradianceFrom(AreaLight l, vec3 x, vec3 n, float width, uint ismTileSize) {
     LightFrame f = frameOf(l);
-    return l.power.rgb * (shapeTerm(x, n, l, f) * visibility(x, l, f, ismTileSize));
+    return l.power.rgb * (shapeTerm(x, n, width, l, f) * visibility(x, l, f, ismTileSize));
 }
 #endif

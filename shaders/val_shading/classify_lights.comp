@@ -19,6 +19,7 @@ layout(set = 0, binding = 2) uniform samplerBuffer vals;
 layout(set = 0, binding = 3) uniform samplerBuffer shapes;
 layout(set = 0, binding = 4, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 5, scalar) writeonly buffer Counts { uvec2 items[]; } counts;
+layout(set = 0, binding = 6, scalar) writeonly buffer LackingCounts { uint items[]; } lackingCounts;
 
 struct Box {
     vec3 least, most;
@@ -67,5 +68,8 @@ void main() {
         append(tile, kNearList, near, light, count.x);
         append(tile, kFarList, reaches && !near, light, count.y);
     }
-    if (gl_SubgroupInvocationID == 0) counts.items[tile] = count;
+    if (gl_SubgroupInvocationID == 0) {
+        counts.items[tile] = count;
+        lackingCounts.items[tile] = 0;
+    }
 }

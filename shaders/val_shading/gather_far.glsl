@@ -20,7 +20,7 @@ void main() {
         float depth = texelFetch(depthMap, pixel, 0).x;
         distance_[p] = depth > 0.0 ? camera.camera.near / depth : 0.0;
         r[p] = receiverAt(pixel, worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0),
-                          camera.camera.position);
+                          0.0, camera.camera.position);
     }
     const uint kParts = kInterleave * kInterleave;
     uint start = listStart(block.tile, kFarList, push.p.valCount), count = counts.items[block.tile].y;

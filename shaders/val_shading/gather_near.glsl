@@ -12,14 +12,26 @@ layout(set = 0, binding = 14) uniform sampler2D farCoat;
 layout(set = 0, binding = 15, rgba16f) uniform writeonly image2D coat;
 vec3 coatOfFarLights(ivec2 pixel) { return texelFetch(farCoat, pixel, 0).rgb; }
 #else
+layout(set = 0, binding = 10, scalar) buffer LackingCounts { uint items[]; } lackingCounts;
+layout(set = 0, binding = 11, scalar) writeonly buffer Lacking { uint items[]; } lacking;
 vec3 coatOfFarLights(ivec2 pixel) { return vec3(0.0); }
+
+// For gather_lacking.comp. In any order: each pixel is on its own there.
+void noteLacking(TileBlock block, int p, uint parts) {
+    if (parts == 0u) return;
+    uvec2 inTile = block.inPart + uvec2(p & 1, p >> 1);
+    uint first = block.tile * push.p.tileSize * push.p.tileSize;
+    lacking.items[first + atomicAdd(lackingCounts.items[block.tile], 1u)] =
+        packLacking(inTile.y * push.p.tileSize + inTile.x, parts);
+}
 #endif
 
-const float kMostPlaneShare = 0.0025;  // of the depth, from the plane: surfaces at an angle part within a pixel or two
+const float kMostPlaneShare = 0.0015;  // of the depth, from the plane: surfaces at an angle part within a pixel or two
 
 struct Surface {
     vec3 position, normal;
     float depth;
+    float width;  // m, of the pixel
     vec2 slope;  // of depth over pixels: near / distance is linear in the image along a plane
 };
 
@@ -35,6 +47,8 @@ Surface surfaceAt(ivec2 pixel) {
     vec3 across = worldFromPixel(worldFromClip, size, pixel + ivec2(1, 0), 1.0) - eye;
     vec3 down = worldFromPixel(worldFromClip, size, pixel + ivec2(0, 1), 1.0) - eye;
     s.slope = vec2(dot(s.normal, across), dot(s.normal, down)) / min(height, -1e-9) - s.depth;
+    vec3 here = worldFromPixel(worldFromClip, size, pixel, 1.0) - eye;
+    s.width = distance(here, across) / max(s.depth, 1e-9);
     return s;
 }
 
@@ -61,9 +75,14 @@ vec4 partOf(Pixel pixel, Surface s, ivec2 aside) {
     return same ? vec4(pixel.part, 1.0) : vec4(0.0);
 }
 
-// The parts of each of a block's pixels: from the nearest that hold them, out of a window the block shares, or, where
-// those are on another surface, from the ones n further to the other sides.
-void addFarIrradiance(TileBounds bounds, ivec2 corner, Surface s[kPixels], inout Receiver r[kPixels]) {
+uint partIdOf(TileBounds bounds, ivec2 pixel) {
+    ivec2 inBlock = (pixel - bounds.first) % kInterleave;
+    return uint(inBlock.y * kInterleave + inBlock.x);
+}
+
+// The parts of each of a block's pixels, from the nearest that hold them, out of a window the block shares. Returns those
+// that are on other surfaces there.
+void addFarIrradiance(TileBounds bounds, ivec2 corner, Surface s[kPixels], inout Receiver r[kPixels], out uint lackingParts[kPixels]) {
     const int kWindow = kInterleave + 1;
     // Moved into the tile where it would stand out: it holds each part all the same.
     ivec2 first = clamp(corner - kInterleave / 2, bounds.first, max(bounds.end - kWindow, bounds.first));
@@ -73,26 +92,14 @@ void addFarIrradiance(TileBounds bounds, ivec2 corner, Surface s[kPixels], inout
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 place = ivec2(p & 1, p >> 1);
         vec4 sum = vec4(0.0);
-        uint missing = 0;
+        lackingParts[p] = 0;
         [[unroll]] for (int i = 0; i < kInterleave * kInterleave; ++i) {
             ivec2 at = ivec2(i % kInterleave, i / kInterleave) + place;
             vec4 part = partOf(window[at.y * kWindow + at.x], s[p], first - corner - place + at);
             sum += part;
-            missing |= part.w == 0.0 && s[p].depth > 0.0 ? 1u << i : 0u;
+            lackingParts[p] |= part.w == 0.0 && s[p].depth > 0.0 ? 1u << partIdOf(bounds, first + at) : 0u;
         }
-        // A loop over the few that miss: CPU devices skip rounds but not branches.
-        [[dont_unroll]] for (uint tries = missing; tries != 0u; tries &= tries - 1u) {
-            int i = findLSB(tries);
-            ivec2 toward = first - corner + ivec2(i % kInterleave, i / kInterleave);
-            ivec2 back = kInterleave * (1 - 2 * ivec2(greaterThanEqual(toward, ivec2(0))));
-            vec4 part = vec4(0.0);
-            [[dont_unroll]] for (int k = 1; k < 4 && part.w == 0.0; ++k) {
-                ivec2 aside = toward + back * ivec2(k & 1, k >> 1);
-                part = partOf(fetchPixel(bounds, corner + place + aside), s[p], aside);
-            }
-            sum += part;
-        }
-        r[p].irradiance += sum.rgb * (float(kInterleave * kInterleave) / max(sum.w, 1.0));
+        r[p].irradiance += sum.rgb;
     }
 }
 
@@ -105,11 +112,17 @@ void main() {
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = min(pixelOf(block, p), size - 1);
         s[p] = surfaceAt(pixel);
-        r[p] = receiverAt(pixel, s[p].position, texelFetch(normalMap, pixel, 0), camera.camera.position);
+        r[p] = receiverAt(pixel, s[p].position, texelFetch(normalMap, pixel, 0), s[p].width, camera.camera.position);
         if (kInterleave == 1) r[p].irradiance = texelFetch(parts, pixel, 0).rgb;
         r[p].coated = coatOfFarLights(pixel);
     }
-    if (kInterleave > 1) addFarIrradiance(bounds, pixelOf(block, 0), s, r);
+    if (kInterleave > 1) {
+        uint lackingParts[kPixels];
+        addFarIrradiance(bounds, pixelOf(block, 0), s, r, lackingParts);
+#ifndef AG_GLOSSY
+        for (int p = 0; p < kPixels; ++p) noteLacking(block, p, lackingParts[p]);
+#endif
+    }
     uint start = listStart(block.tile, kNearList, push.p.valCount), count = counts.items[block.tile].x;
     if (kLaneParallel) {
         for (uint base = 0; base < count; base += kSubgroupSize) {

@@ -64,6 +64,7 @@ vec3 coatRadiance(Coat c, vec3 x, vec3 n, AreaLight l, vec3 e) {
 
 struct Receiver {
     vec3 position, normal;
+    float width;      // m, of the pixel there
     vec3 irradiance;  // sums
     vec3 coated;      // W/(m² sr)
 #ifdef AG_GLOSSY
@@ -71,10 +72,11 @@ struct Receiver {
 #endif
 };
 
-Receiver receiverAt(ivec2 pixel, vec3 position, vec4 normalAndRoughness, vec3 eye) {
+Receiver receiverAt(ivec2 pixel, vec3 position, vec4 normalAndRoughness, float width, vec3 eye) {
     Receiver r;
     r.position = position;
     r.normal = normalAndRoughness.xyz;
+    r.width = width;
     r.irradiance = r.coated = vec3(0.0);
 #ifdef AG_GLOSSY
     r.coat = coatAt(pixel, position, eye, normalAndRoughness.w);
@@ -83,7 +85,7 @@ Receiver receiverAt(ivec2 pixel, vec3 position, vec4 normalAndRoughness, vec3 ey
 }
 
 void addLight(AreaLight l, uint ismTileSize, inout Receiver r) {
-    vec3 e = irradianceFrom(l, r.position, r.normal, ismTileSize);
+    vec3 e = irradianceFrom(l, r.position, r.normal, r.width, ismTileSize);
     r.irradiance += e;
 #ifdef AG_GLOSSY
     r.coated += coatRadiance(r.coat, r.position, r.normal, l, e);

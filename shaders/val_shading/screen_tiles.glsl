@@ -34,5 +34,9 @@ ivec2 pixelOf(TileBlock b, int p) {
     return ivec2(b.origin + inPart * b.interleave + uvec2(b.part % b.interleave, b.part / b.interleave));
 }
 
+// A pixel of a tile and which of the parts of its far lights it still lacks.
+const uint kLackingPixelBits = 10u;
+uint packLacking(uint inTile, uint parts) { return parts << kLackingPixelBits | inTile; }
+
 uint listStart(uint tile, uint list, uint valCount) { return (tile * kLightLists + list) * valCount; }
 #endif

@@ -164,6 +164,26 @@ TEST(Parity, FirstBounceThroughImperfectShadowMaps) {
     }
 }
 
+// Each pixel meets a ninth of the far lights. On slats a pixel or two wide none near by holds most of the
+// others.
+TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
+    scenegen::SceneBuilder b("slats");
+    const uint32_t white = b.material("white", glm::vec3(0.8f)), red = b.material("red", {0.8f, 0.1f, 0.1f});
+    b.room("room", {-2, 0, -2}, {2, 2, 2}, {red, white, white, white, white, white});
+    for (int i = 0; i < 24; ++i)
+        b.box("slat", {-1.2f + 0.1f * float(i), 1, -1 + 0.1f * float(i % 5)}, {0.03f, 1.6f, 0.03f}, white);
+    b.spot("lamp", {0, 1.9f, 1}, {-1, -0.6f, 0}, glm::vec3(10), 30, 50);
+    b.camera("camera", {0, 1, 1.9f}, {0, 1, -1}, 50);
+    const SceneAsset scene = b.finish();
+    Parity p{SceneAsset(scene)}, q{SceneAsset(scene)};
+    GiSettings alone;
+    alone.valShading.interleave = 1;
+    const ImageDifference d = differ(p.render(Layer::kBounce1, alone, 34), q.render(Layer::kBounce1, {}, 34));
+    std::printf("slats: mean ratio %.4f, relative RMSE %.3f\n", d.meanRatio, d.relativeRmse);
+    EXPECT_NEAR(d.meanRatio, 1, 0.01);
+    EXPECT_LT(d.relativeRmse, 0.1);
+}
+
 // Clusters split and dropped by the error they make in the view are nearer to the truth there.
 TEST(Parity, ErrorsInTheViewPutClustersWhereTheyAreSeen) {
     Parity p("corridor");

@@ -154,7 +154,7 @@ PolygonErrors polygonErrors(float distance, float slope) {
                 truth += std::max(glm::dot(dvec3(n), d), 0.0) * double(p.z) / (std::numbers::pi * d2 * d2) *
                          (1 + double(slope) * y.x) * 0.16 / (kSteps * kSteps);
             }
-        const double f = double(io::polygonVectorFactor(p, n, corners, gradient));
+        const double f = double(io::polygonVectorFactor(p, n, corners, gradient, 0));
         got += f, wanted += truth, squares += (f - truth) * (f - truth);
     }
     return {got / wanted, std::sqrt(squares / kReceivers) / (wanted / kReceivers)};
@@ -185,14 +185,32 @@ TEST(FormFactors, PolygonIsBoundedEverywhereAndDarkOnItsPlane) {
         if (i % 3 == 0) p.z *= 1e-5f;
         if (i % 7 == 0) p = vec3(0);
         if (i % 11 == 0) p = vec3(0.2f, 0, 0);
-        const float f = io::polygonVectorFactor(p, randomUnit(random), corners, {1, -2, 1, 0.013f});
+        const float f = io::polygonVectorFactor(p, randomUnit(random), corners, {1, -2, 1, 0.013f}, 0);
         ASSERT_TRUE(std::isfinite(f)) << p.x << ' ' << p.y << ' ' << p.z;
         ASSERT_GE(f, 0);
         ASSERT_LE(f, 4.01f);
-        EXPECT_EQ(io::polygonVectorFactor(vec3(p.x, p.y, -std::abs(p.z)), {0, 0, 1}, corners, {0, 0, 1, 0}),
-                  0);
-        EXPECT_LT(io::polygonVectorFactor(vec3(p.x, p.y, 0), {0, 0, 1}, corners, {0, 0, 1, 0}), 1e-6f);
+        EXPECT_EQ(
+            io::polygonVectorFactor(vec3(p.x, p.y, -std::abs(p.z)), {0, 0, 1}, corners, {0, 0, 1, 0}, 0), 0);
+        EXPECT_LT(io::polygonVectorFactor(vec3(p.x, p.y, 0), {0, 0, 1}, corners, {0, 0, 1, 0}, 0), 1e-6f);
     }
+}
+
+// On a wall that ends where the polygon does: pixels nearer to the crease than their width are as light as
+// it.
+TEST(FormFactors, CreasesAreAsLightAsWhatIsAPixelAway) {
+    glm::vec2 corners[8];
+    std::ranges::copy(kSquare, corners);
+    const float edge = kSquare[0].x > 0 ? kSquare[0].x : -kSquare[0].x, width = 0.005f;
+    const auto factor = [&](float height, const vec3& n) {
+        return io::polygonVectorFactor({-edge - 1e-4f, 0, height}, n, corners, {0, 0, 1, 0}, width);
+    };
+    const float away = factor(width, {1, 0, 0});
+    EXPECT_GT(away, 0.3f);
+    for (const float height : {3e-4f, 1e-6f, 0.0f, -1e-6f, -3e-4f})
+        EXPECT_FLOAT_EQ(factor(height, {1, 0, 0}), away) << height;
+    EXPECT_EQ(factor(-2 * width, {1, 0, 0}), 0) << "behind the plane";
+    EXPECT_EQ(factor(-1e-4f, {-1, 0, 0}), 0) << "beyond a convex edge";
+    EXPECT_EQ(factor(0, {0, 0, 1}), 0) << "in the plane";
 }
 
 TEST(Sampling, HaltonFillsTheSquareEvenly) {
