@@ -16,9 +16,10 @@ layout(set = 0, binding = 10, scalar) buffer LackingCounts { uint items[]; } lac
 layout(set = 0, binding = 11, scalar) writeonly buffer Lacking { uint items[]; } lacking;
 vec3 coatOfFarLights(ivec2 pixel) { return vec3(0.0); }
 
-// For gather_lacking.comp. In any order: each pixel is on its own there.
+// For gather_lacking.comp. In any order: each pixel is on its own there, so none may be noted twice.
 void noteLacking(TileBlock block, int p, uint parts) {
-    if (parts == 0u) return;
+    bool onScreen = all(lessThan(pixelOf(block, p), ivec2(camera.camera.size)));
+    if (parts == 0u || block.spare || !onScreen) return;
     uvec2 inTile = block.inPart + uvec2(p & 1, p >> 1);
     uint first = block.tile * push.p.tileSize * push.p.tileSize;
     lacking.items[first + atomicAdd(lackingCounts.items[block.tile], 1u)] =

@@ -13,6 +13,7 @@ struct TileBlock {
     uvec2 origin;   // of the tile
     uvec2 inPart;   // of the first pixel among its part's
     uint interleave;
+    bool spare;  // beyond the last tile's, which fill up a workgroup: does what another does
 };
 
 uint blocksOfTile(uint tileSize) { return tileSize * tileSize / 4; }
@@ -20,6 +21,7 @@ uint blocksOfTile(uint tileSize) { return tileSize * tileSize / 4; }
 TileBlock tileBlock(uint invocation, uint tileSize, uvec2 tiles, uint interleave) {
     uint perTile = blocksOfTile(tileSize), side = tileSize / interleave / 2, perPart = side * side;
     TileBlock b;
+    b.spare = invocation >= perTile * tiles.x * tiles.y;
     b.tile = min(invocation / perTile, tiles.x * tiles.y - 1);
     b.part = invocation % perTile / perPart;
     uint block = invocation % perPart;
@@ -34,8 +36,6 @@ ivec2 pixelOf(TileBlock b, int p) {
     return ivec2(b.origin + inPart * b.interleave + uvec2(b.part % b.interleave, b.part / b.interleave));
 }
 
-// A pixel of a tile and which of the parts of its far lights it still lacks.
-const uint kLackingPixelBits = 10u;
 uint packLacking(uint inTile, uint parts) { return parts << kLackingPixelBits | inTile; }
 
 uint listStart(uint tile, uint list, uint valCount) { return (tile * kLightLists + list) * valCount; }
