@@ -61,8 +61,8 @@ RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& sett
     rsm.depth = graph.image("rsm.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = layout.atlasSize});
     addRaster(graph, scene, rsm);
 
-    rsm.faces = uploadItems<io::RsmFace>(graph, "rsm.faces", faces);
-    rsm.maps = uploadItems<io::RsmMap>(graph, "rsm.maps", maps);
+    rsm.faces = uploadItems<io::RsmFace>(graph, "rsm.faces", rsm.faceInfo);
+    rsm.maps = uploadItems<io::RsmMap>(graph, "rsm.maps", rsm.mapInfo);
     const uint64_t texelCount = uint64_t(layout.atlasSize.x) * layout.atlasSize.y;
     const BufferInfo texels{.sizeBytes = texelCount * sizeof(io::RsmTexel),
                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};

@@ -114,8 +114,8 @@ ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const Shadow
     const uint32_t firstSlot = scene.viewsClaimed;
     maps.atlas = addAtlas(graph, scene, all, settings.resolution);
     addMasked(graph, scene, maps.atlas, all, firstSlot);
-    maps.views = graph.buffer("shadow_maps.views", {.sizeBytes = all.size_bytes()});
-    graph.upload("shadow_maps.views", maps.views, std::as_bytes(all));
+    maps.views = graph.buffer("shadow_maps.views", {.sizeBytes = sizeof views.items});
+    graph.upload("shadow_maps.views", maps.views, std::as_bytes(std::span(views.items)));
     return maps;
 }
 

@@ -12,7 +12,7 @@ layout(set = 0, binding = 2) uniform usamplerBuffer slotOfTexel;
 layout(set = 0, binding = 3) uniform usamplerBuffer candidates;
 layout(set = 0, binding = 4) uniform sampler2D depthMap;
 layout(set = 0, binding = 5) uniform sampler2D normalMap;
-layout(set = 0, binding = 6, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 6, scalar) uniform Camera { CameraConstants camera; } camera;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;

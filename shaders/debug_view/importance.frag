@@ -7,7 +7,7 @@
 #include "rsm/rsm_io.h"
 
 layout(push_constant, scalar) uniform Push { ImportanceSettings settings; } push;
-layout(set = 0, binding = 0, scalar) readonly buffer Faces { RsmFace items[]; } faces;
+layout(set = 0, binding = 0, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 1, scalar) readonly buffer Pyramid { float items[]; } pyramid;
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;

@@ -5,7 +5,7 @@
 #include "rsm/rsm.glsl"
 
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
-layout(set = 0, binding = 1, scalar) readonly buffer Faces { RsmFace items[]; } faces;
+layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 
 // Index of the emitter at `position`, ~0 if no face sees that point.
 uint findTexel(vec3 position, uint faceCount, uvec2 atlasSize) {

@@ -12,7 +12,7 @@ layout(set = 0, binding = 0) uniform samplerBuffer vals;
 layout(set = 0, binding = 1) uniform samplerBuffer shapes;
 layout(set = 0, binding = 2) uniform sampler2D depthMap;
 layout(set = 0, binding = 3) uniform sampler2D normalMap;
-layout(set = 0, binding = 4, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 4, scalar) uniform Camera { CameraConstants camera; } camera;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;

@@ -12,7 +12,7 @@ layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2) uniform sampler2D previousLight;
 layout(set = 0, binding = 3) uniform sampler2D previousSurface;
-layout(set = 0, binding = 4, scalar) readonly buffer Cameras { DenoiserCameras c; } cameras;
+layout(set = 0, binding = 4, scalar) uniform Cameras { DenoiserCameras c; } cameras;
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D surface;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D history;  // a: frames it stands for, 0: none
 layout(set = 0, binding = 7) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion

@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push { LampPush p; } push;
 
 layout(constant_id = 0) const bool kByRange = true;  // false: all lamps everywhere
 layout(set = 0, binding = 0) uniform sampler2D depthMap;
-layout(set = 0, binding = 1, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 1, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 2) uniform samplerBuffer lamps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 4, scalar) writeonly buffer Counts { uint items[]; } counts;

@@ -10,7 +10,7 @@ layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 3) uniform samplerBuffer lamps;
 layout(set = 0, binding = 7) uniform usamplerBuffer lists;
 #include "direct_lighting/lamp.glsl"
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
 #include "direct_lighting/receiver.glsl"
 #ifdef AG_QUADS

@@ -8,10 +8,10 @@ layout(constant_id = 1) const bool kFirst = true;  // starts from zero instead o
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 4, rgba16f) uniform image2D irradiance;
 #ifdef AG_SHADOW
-layout(set = 0, binding = 5, scalar) readonly buffer ShadowViews { ShadowView items[]; } shadowViews;
+layout(set = 0, binding = 5, scalar) uniform ShadowViews { ShadowView items[kMaxShadowViews]; } shadowViews;
 layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
 #include "direct_lighting/shadow_lookup.glsl"
 

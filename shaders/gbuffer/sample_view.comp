@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 3, scalar) writeonly buffer ViewPoints { ViewPoint items[]; } viewPoints;
 
 void main() {

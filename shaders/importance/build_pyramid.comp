@@ -8,7 +8,7 @@
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { ImportanceSettings settings; } push;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Faces { RsmFace items[]; } faces;
+layout(set = 0, binding = 0, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 1, scalar) coherent buffer Pyramid { float items[]; } pyramid;
 
 void main() {

@@ -19,8 +19,8 @@ layout(set = 0, binding = 3) uniform sampler2D depthMap;
 
 layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { ProbePush p; } push;
-layout(set = 0, binding = 4, scalar) readonly buffer Faces { RsmFace items[]; } faces;
-layout(set = 0, binding = 5, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 4, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
+layout(set = 0, binding = 5, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 6, scalar) readonly buffer Probes { Probe items[]; } probes;
 layout(set = 0, binding = 7, scalar) writeonly buffer Rows { ProbeRow items[]; } rows;
 

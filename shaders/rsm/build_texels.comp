@@ -12,8 +12,8 @@ layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D albedoMap;
 layout(set = 0, binding = 2) uniform sampler2D depthMap;
-layout(set = 0, binding = 3, scalar) readonly buffer Faces { RsmFace items[]; } faces;
-layout(set = 0, binding = 4, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 3, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
+layout(set = 0, binding = 4, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 5, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 6, scalar) writeonly buffer TileMaps { uint items[]; } tileMaps;
 

@@ -11,8 +11,8 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { uint vplCount, atlasWidth, mapCount; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
-layout(set = 0, binding = 1, scalar) readonly buffer Faces { RsmFace items[]; } faces;
-layout(set = 0, binding = 2, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
+layout(set = 0, binding = 2, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Vpls { Val items[]; } vpls;
 
 void main() {

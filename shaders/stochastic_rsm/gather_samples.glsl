@@ -17,10 +17,10 @@ layout(constant_id = 2) const bool kFirst = true;    // starts from zero instead
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 3) uniform samplerBuffer texels;
-layout(set = 0, binding = 4, scalar) readonly buffer Faces { RsmFace items[]; } faces;
-layout(set = 0, binding = 5, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 4, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
+layout(set = 0, binding = 5, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(constant_id = 4) const bool kRandom = false;  // the pattern is shifted in each pixel and frame
 layout(constant_id = 5) const bool kWhole = false;   // every other sample from anywhere in the map; not of point lights
 layout(set = 0, binding = 6) uniform samplerBuffer pattern;  // unit direction; radius in the disk; share of the full angle

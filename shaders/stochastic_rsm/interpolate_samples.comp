@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push { RsmInterpolationPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 3) uniform sampler2D coarse;
 layout(set = 0, binding = 4, scalar) buffer List { uint count; uint pixels[]; } list;
 layout(set = 0, binding = 5, scalar) buffer Groups { uvec3 count; } groups;

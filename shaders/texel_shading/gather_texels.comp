@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push { uint first, last; } push;  // texel
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 3) uniform samplerBuffer texels;
 layout(set = 0, binding = 4, rgba16f) uniform image2D irradiance;
 

@@ -14,7 +14,7 @@ layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer seeds;
-layout(set = 0, binding = 1, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 1, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 2, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Candidates { uint items[]; } candidates;
 layout(set = 0, binding = 4, scalar) writeonly buffer CandidateCounts { uint items[]; } candidateCounts;

@@ -12,7 +12,7 @@ layout(local_size_x_id = 100) in;  // one subgroup a cluster
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Seeds { ClusterSeed items[]; } seeds;
-layout(set = 0, binding = 1, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 1, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 2) uniform usamplerBuffer slotOfCluster;
 layout(set = 0, binding = 3) uniform samplerBuffer partials;
 layout(set = 0, binding = 4, scalar) writeonly buffer Clusters { Cluster items[]; } clusters;

@@ -20,8 +20,8 @@ layout(push_constant, scalar) uniform Push {
 layout(set = 0, binding = 0, scalar) readonly buffer Clusters { Cluster items[]; } clusters;
 layout(set = 0, binding = 3, scalar) readonly buffer Extents { ClusterExtent items[]; } extents;
 layout(set = 0, binding = 4) uniform samplerBuffer texels;
-layout(set = 0, binding = 5, scalar) readonly buffer Faces { RsmFace items[]; } faces;
-layout(set = 0, binding = 6, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 5, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
+layout(set = 0, binding = 6, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 7, scalar) readonly buffer Edges { SurfaceEdge items[]; } edges;
 layout(set = 0, binding = 1, scalar) writeonly buffer Vals { Val items[]; } vals;
 layout(set = 0, binding = 2, scalar) writeonly buffer Shapes { ValShapeVectors items[]; } shapes;

@@ -14,7 +14,7 @@ layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D depthMap;
-layout(set = 0, binding = 1, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 1, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 2) uniform samplerBuffer vals;
 layout(set = 0, binding = 3) uniform samplerBuffer shapes;
 layout(set = 0, binding = 4, scalar) writeonly buffer Lists { uint items[]; } lists;
@@ -28,12 +28,14 @@ struct Box {
 Box boxOfTile(uint tile) {
     Box box = Box(vec3(3.0e38), vec3(-3.0e38));
     uvec2 origin = uvec2(tile % push.p.tiles.x, tile / push.p.tiles.x) * push.p.tileSize;
-    uint pixels = push.p.tileSize * push.p.tileSize;
+    uvec2 size = camera.camera.size;
+    mat4 worldFromClip = camera.camera.worldFromClip;
+    uint side = push.p.tileSize, pixels = side * side;
     for (uint i = gl_SubgroupInvocationID; i < pixels; i += kSubgroupSize) {
-        ivec2 pixel = ivec2(origin + uvec2(i % push.p.tileSize, i / push.p.tileSize));
-        pixel = min(pixel, ivec2(camera.camera.size) - 1);
+        ivec2 pixel = ivec2(origin + uvec2(i % side, i / side));
+        pixel = min(pixel, ivec2(size) - 1);
         float depth = texelFetch(depthMap, pixel, 0).x;
-        vec3 x = worldFromPixel(camera.camera.worldFromClip, camera.camera.size, pixel, depth);
+        vec3 x = worldFromPixel(worldFromClip, size, pixel, depth);
         if (depth > 0.0) {
             box.least = min(box.least, x);
             box.most = max(box.most, x);

@@ -14,6 +14,6 @@ layout(set = 0, binding = 6) uniform usamplerBuffer lists;
 #include "val_shading/screen_tiles.glsl"
 
 layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
-layout(set = 0, binding = 2, scalar) readonly buffer Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
 #endif

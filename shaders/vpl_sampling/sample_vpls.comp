@@ -16,8 +16,8 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
-layout(set = 0, binding = 1, scalar) readonly buffer Faces { RsmFace items[]; } faces;
-layout(set = 0, binding = 2, scalar) readonly buffer Maps { RsmMap items[]; } maps;
+layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
+layout(set = 0, binding = 2, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 3, scalar) readonly buffer Pyramid { float items[]; } pyramid;
 layout(set = 0, binding = 4, scalar) writeonly buffer Vals { Val items[]; } vals;
 layout(set = 0, binding = 5, scalar) writeonly buffer Shapes { ValShapeVectors items[]; } shapes;
