@@ -17,7 +17,7 @@ struct Vals;
 struct LaterBouncesSettings {
     bool enabled = false;
     bool feedback = true;        // off: two bounces, and no more
-    float share = 0.3f;          // of all clusters
+    float share = 0.4f;          // of all clusters
     uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
 };
 
