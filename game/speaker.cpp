@@ -1,0 +1,38 @@
+#include "game/speaker.h"
+
+#include "engine/core/log.h"
+
+namespace ag::game {
+namespace {
+
+std::unique_ptr<Mixer> openMixer() {
+    auto mixer = Mixer::open();
+    if (!mixer) {
+        spdlog::info("no sound: {}", mixer.error().message);
+        return nullptr;
+    }
+    (*mixer)->load(gameTones());
+    return std::move(*mixer);
+}
+
+}  // namespace
+
+void Speaker::setVolume(float volume) {
+    if (volume == volume_) return;
+    if (volume > 0 && volume_ == 0) mixer_ = openMixer();
+    if (volume == 0) mixer_.reset();
+    if (mixer_) mixer_->setVolume(volume * volume);  // even steps to the ear
+    volume_ = volume;
+}
+
+void Speaker::play(std::span<const Sound> sounds) {
+    if (!mixer_) return;
+    for (const Sound& sound : sounds)
+        mixer_->play(sound);
+}
+
+void Speaker::listenFrom(const CameraPose& eyes) {
+    if (mixer_) mixer_->listenAt(eyes.position, eyes.forward);
+}
+
+}  // namespace ag::game
