@@ -9,7 +9,8 @@ namespace ag {
 namespace {
 
 constexpr double kTau = 6.283185307179586;
-constexpr float kFade = 0.02f;  // s before the end
+constexpr float kFade = 0.02f;       // s before the end
+constexpr float kInaudible = 1e-4f;  // of a partial's strength: it is over
 constexpr double kStep = 1.0 / kToneRate;
 
 // Half a cosine from 0 to 1.
@@ -39,7 +40,7 @@ void addPartial(std::vector<float>& samples, const Partial& p) {
     double frequency = double(p.frequency), phase = 0;
     float strength = p.gain;
     SoftNoise noise;
-    for (size_t i = begin; i < samples.size(); ++i) {
+    for (size_t i = begin; i < samples.size() && strength > p.gain * kInaudible; ++i) {
         const float rise = float(double(i - begin) * kStep) / p.attack;
         const float wave = p.kind == PartialKind::kNoise ? noise.next(frequency) : float(std::sin(phase));
         samples[i] += wave * strength * (rise < 1 ? eased(rise) : 1);
