@@ -1,25 +1,24 @@
 #include "game/speaker.h"
 
+#include <utility>
+
 #include "engine/core/log.h"
 
 namespace ag::game {
-namespace {
 
-std::unique_ptr<Mixer> openMixer() {
+void Speaker::open() {
     auto mixer = Mixer::open();
-    if (!mixer) {
+    if (mixer) {
+        mixer_ = std::move(*mixer);
+        mixer_->load(gameTones());
+    } else if (!std::exchange(toldOf_, true)) {
         spdlog::info("no sound: {}", mixer.error().message);
-        return nullptr;
     }
-    (*mixer)->load(gameTones());
-    return std::move(*mixer);
 }
-
-}  // namespace
 
 void Speaker::setVolume(float volume) {
     if (volume == volume_) return;
-    if (volume > 0 && volume_ == 0) mixer_ = openMixer();
+    if (volume > 0 && volume_ == 0) open();
     if (volume == 0) mixer_.reset();
     if (mixer_) mixer_->setVolume(volume * volume);  // even steps to the ear
     volume_ = volume;

@@ -14,8 +14,11 @@ class Speaker {
     void listenFrom(const CameraPose& eyes);
 
   private:
+    void open();
+
     std::unique_ptr<Mixer> mixer_;  // null: silence
     float volume_ = 0;
+    bool toldOf_ = false;  // that there is no device
 };
 
 }  // namespace ag::game
