@@ -39,6 +39,7 @@ void useQuality(Demo& demo, Quality preset, const gi::QualityStep& step) {
     applyQuality(!automatic ? preset : small ? Quality::kLow : Quality::kMedium, demo.gi);
     if (automatic) gi::applyQualityStep(step, demo.gi);
     demo.gi.composite.exposure = demo.user.exposure;
+    demo.sound.volume = demo.user.volume;
     for (const std::string& assignment : demo.options.assignments)
         if (const Status set = demo.settings.set(assignment); !set) spdlog::warn("{}", set.error().message);
 }

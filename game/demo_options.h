@@ -8,6 +8,7 @@
 #include "engine/frame/frame_graph.h"
 #include "engine/scene/extract_system.h"
 #include "game/game.h"
+#include "game/sounds.h"
 #include "game/user_files.h"
 #include "gi/frame_budget.h"
 #include "gi/gi_renderer.h"
@@ -38,6 +39,7 @@ struct Demo {
     DemoOptions options;
     std::unique_ptr<Game> game;
     gi::GiSettings gi;
+    SoundSettings sound;
     FrameGraphOptions graph;
     Settings settings;
     UserFiles files;

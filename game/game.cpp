@@ -8,6 +8,7 @@
 #include "engine/scene/spawn_scene.h"
 #include "engine/scene/static_scene.h"
 #include "game/furnish_world.h"
+#include "game/systems/make_sounds.h"
 
 namespace ag::game {
 namespace {
@@ -57,6 +58,7 @@ Game::Game(SceneAsset level, uint32_t threads)
     world_.setResource<GameTime>();
     world_.setResource<Input>();
     world_.setResource<gi::ProbeReadings>();
+    world_.setResource<Sounds>().now.reserve(32);
     world_.setResource<ActiveCamera>(start);
     world_.setResource<ExtractState>();
     world_.setResource<RenderScene>().geometry = &level_.geometry;
@@ -74,6 +76,10 @@ void Game::frame(glm::uvec2 viewSize, float share) {
     world_.resource<ActiveCamera>().size = viewSize;
     world_.resource<Physics>().share = share;
     frame_.run(world_, runner_);
+}
+
+std::span<const Sound> Game::sounds() const {
+    return world_.resource<Sounds>().now;
 }
 
 void Game::takeReadings(const gi::ProbeReadings& readings) {

@@ -10,6 +10,7 @@
 #include "engine/scene/scene_asset.h"
 #include "game/components.h"
 #include "game/schedule.h"
+#include "game/sounds.h"
 #include "gi/probes.h"
 
 namespace ag::game {
@@ -28,6 +29,7 @@ class Game {
     const RenderScene& scene() const { return world_.resource<RenderScene>(); }
     const Player& player() const { return world_.resource<Player>(); }
     const Progress& progress() const { return world_.resource<Progress>(); }
+    std::span<const Sound> sounds() const;  // of the last tick
     const std::vector<Hint>& hints() const { return hints_; }
     const SceneAsset& level() const { return level_; }
     World& world() { return world_; }

@@ -99,6 +99,8 @@ Status prepare(Demo& demo) {
     const DemoOptions& o = demo.options;
     demo.settings.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
                       &demo.graph.skip);
+    demo.settings.add({"sound", "volume", 0, 1, "", "of the sound; 0 opens no sound device"},
+                      &demo.sound.volume);
     gi::registerSettings(demo.settings, demo.gi);
     for (const std::string& assignment : o.assignments)
         if (Status set = demo.settings.set(assignment); !set) return set;

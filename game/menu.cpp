@@ -6,12 +6,13 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace ag::game {
 namespace {
 
 enum MainLine { kLinePlay, kLineContinue, kLineNew, kLineSettings, kLineKeys, kLineQuit };
-enum SettingLine { kQuality, kSensitivity, kFieldOfView, kExposure, kHints, kInvert, kSettingsBack };
+enum SettingLine { kQuality, kSensitivity, kFieldOfView, kExposure, kVolume, kHints, kInvert, kSettingsBack };
 
 void openPage(Menu& menu, MenuPage page) {
     menu.page = page;
@@ -54,6 +55,10 @@ MenuEvent changeSetting(Menu& menu, UserSettings& s, int step) {
             break;
         case kExposure:
             move(s.exposure, 0.5f, -4, 6);
+            break;
+        case kVolume:
+            move(s.volume, 0.1f, 0, 1);
+            s.volume = std::round(s.volume * 10) / 10;  // ends at nothing, not nearly
             break;
         case kHints:
             s.hints = !s.hints;
@@ -109,6 +114,7 @@ std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, cons
                 fmt::format("Mouse: {:.1f}", s.sensitivity),
                 fmt::format("Field of view: {:.0f} degrees", s.fieldOfView),
                 fmt::format("Brightness: {:+.1f} stops", s.exposure),
+                s.volume > 0 ? fmt::format("Sound: {:.0f} %", s.volume * 100) : "Sound: off",
                 fmt::format("Hints: {}", s.hints ? "on" : "off"),
                 fmt::format("Mouse up looks {}", s.invertLook ? "down" : "up"),
                 "Back"};

@@ -7,6 +7,7 @@
 #include "game/systems/flicker_lamps.h"
 #include "game/systems/grow_flowers.h"
 #include "game/systems/judge_rooms.h"
+#include "game/systems/make_sounds.h"
 #include "game/systems/move_boxes.h"
 #include "game/systems/walk_player.h"
 #include "gi/gi_systems.h"
@@ -33,6 +34,9 @@ Schedule makeTickSchedule() {
     s.add("carryCrates", carryCrates);
     s.add("stepPhysics", stepPhysics);
     s.add("aimLamp", aimLamp);
+
+    // What is heard of it
+    s.add("makeSounds", makeSounds);
     s.flush();
     return s;
 }

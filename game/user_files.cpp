@@ -18,7 +18,8 @@ struct Number {
 };
 constexpr Number kNumbers[] = {{"sensitivity", &UserSettings::sensitivity, 0.1f, 5},
                                {"field_of_view", &UserSettings::fieldOfView, 40, 100},
-                               {"exposure", &UserSettings::exposure, -4, 6}};
+                               {"exposure", &UserSettings::exposure, -4, 6},
+                               {"volume", &UserSettings::volume, 0, 1}};
 struct Flag {
     const char* name;
     bool UserSettings::*value;

@@ -14,6 +14,7 @@ struct UserSettings {
     float sensitivity = 1;   // of the mouse
     float fieldOfView = 65;  // degrees, upright
     float exposure = 1;      // stops
+    float volume = 0.7f;     // of the sound, 0: none
     bool hints = true;
     bool invertLook = false;
 };

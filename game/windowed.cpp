@@ -21,6 +21,7 @@
 #include "game/menu.h"
 #include "game/present.h"
 #include "game/save_game.h"
+#include "game/speaker.h"
 
 namespace ag::game {
 namespace {
@@ -75,6 +76,7 @@ class WindowedRun {
             const double elapsed = std::chrono::duration<double>(now - last).count();
             last = now;
             frameMs_ += (elapsed * 1e3 - frameMs_) * 0.05;
+            speaker_.setVolume(demo_.sound.volume);
             advance(elapsed);
             if (show())
                 adapt();
@@ -107,13 +109,23 @@ class WindowedRun {
         for (const int key : window_.takePressedKeys()) {
             if (menu_.open) {
                 // The mouse chooses by clicking; as a key it only counts where one is asked for.
-                if (key < kMouseCode || menu_.waitsForKey)
-                    obey(pressInMenu(menu_, key, demo_.user, demo_.keys));
+                if (key < kMouseCode || menu_.waitsForKey) {
+                    const Menu before = menu_;
+                    const MenuEvent event = pressInMenu(menu_, key, demo_.user, demo_.keys);
+                    clickIfAnswered(before, event);
+                    obey(event);
+                }
             } else if (key == GLFW_KEY_ESCAPE) {
                 openMenu();
             }
             debugKey(key);
         }
+    }
+    void clickIfAnswered(const Menu& before, MenuEvent event) {
+        const Sound click = soundOf(SoundId::kClick);
+        const bool moved = menu_.page != before.page || menu_.selected != before.selected ||
+                           menu_.waitsForKey != before.waitsForKey;
+        if (moved || event != MenuEvent::kNone) speaker_.play({&click, 1});
     }
     void debugKey(int key) {
         if (key == GLFW_KEY_F1) panels_.showSettings = !panels_.showSettings;
@@ -220,6 +232,7 @@ class WindowedRun {
                 std::exchange(turned_, glm::vec2(0));  // mouse movement counts once, and is never lost
             demo_.game->tick(nextInput(demo_, ticks_++, input));
             capture_.noteSystems(demo_.game->tickSchedule());
+            speaker_.play(demo_.game->sounds());
         }
         sinceSave_ += elapsed;
         const uint32_t solved = demo_.game->progress().roomsSolved;
@@ -254,6 +267,7 @@ class WindowedRun {
         const glm::uvec2 size = renderSize();
         demo_.game->frame(size, menu_.open ? 1.0f : float(behind_ / kTick));
         capture_.noteSystems(demo_.game->frameSchedule());
+        speaker_.listenFrom(demo_.game->world().resource<ActiveCamera>().pose);
         drawUi();
         renderer_.render(
             demo_.game->scene(), size, demo_.gi, capture_.options(demo_.graph),
@@ -280,6 +294,7 @@ class WindowedRun {
         MenuEvent event = MenuEvent::kNone;
         const RenderScene& scene = demo_.game->scene();
         const std::string captured = capture_.message();
+        const Menu before = menu_;
         ui_.build(panels_, demo_.settings, renderer_.graph(), demo_.game->world(), statusLine(), [&] {
             drawMessage(captured);
             if (!menu_.open)
@@ -287,6 +302,7 @@ class WindowedRun {
                         glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
             if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, keysLine());
         });
+        clickIfAnswered(before, event);
         chosen_ = event;  // obeyed before the next frame: this one is under way
     }
     std::string keysLine() const {
@@ -321,6 +337,7 @@ class WindowedRun {
     gi::BudgetController budget_;
     gi::FrameCost cost_;
     FrameCapture capture_;
+    Speaker speaker_;
     DebugUiState panels_;
     Menu menu_;
     MenuEvent chosen_ = MenuEvent::kNone;

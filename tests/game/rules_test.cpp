@@ -168,6 +168,22 @@ TEST(Menu, IsWalkedWithKeys) {
     EXPECT_EQ(keys.codes[size_t(Action::kForward)], GLFW_KEY_E) << "no key does two things";
 }
 
+TEST(Menu, TurnsTheSoundOffExactly) {
+    Menu menu{.page = MenuPage::kSettings};
+    UserSettings settings;
+    Bindings keys;
+    while (menuLines(menu, settings, keys)[size_t(menu.selected)].find("Sound") == std::string::npos)
+        pressInMenu(menu, GLFW_KEY_DOWN, settings, keys);
+    for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(pressInMenu(menu, GLFW_KEY_LEFT, settings, keys), MenuEvent::kSettingsChanged);
+    EXPECT_EQ(settings.volume, 0);
+    EXPECT_EQ(menuLines(menu, settings, keys)[size_t(menu.selected)], "Sound: off");
+    for (int i = 0; i < 11; ++i)
+        pressInMenu(menu, GLFW_KEY_RIGHT, settings, keys);
+    EXPECT_EQ(settings.volume, 1);
+    EXPECT_EQ(menuLines(menu, settings, keys)[size_t(menu.selected)], "Sound: 100 %");
+}
+
 TEST(Quality, PresetsLeaveTheEyeAlone) {
     gi::GiSettings gi;
     gi.composite.exposure = 2;
@@ -180,12 +196,13 @@ TEST(Quality, PresetsLeaveTheEyeAlone) {
 
 TEST(UserFiles, AreReadAndRefused) {
     const std::string path = testing::TempDir() + "/settings.txt";
-    UserSettings settings{.quality = Quality::kHigh, .sensitivity = 1.5f, .hints = false};
+    UserSettings settings{.quality = Quality::kHigh, .sensitivity = 1.5f, .volume = 0.3f, .hints = false};
     ASSERT_TRUE(saveUserSettings(settings, path));
     const auto back = loadUserSettings(path);
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(back->quality, Quality::kHigh);
     EXPECT_EQ(back->sensitivity, 1.5f);
+    EXPECT_EQ(back->volume, 0.3f);
     EXPECT_FALSE(back->hints);
     for (const char* text :
          {"quality best\n", "sensitivity 99\n", "hints maybe\n", "colour red\n", "hints\n"}) {

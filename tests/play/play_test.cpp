@@ -1,7 +1,9 @@
 // The level played whole, with its light.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 #include "tests/play/stage/bot.h"
 #include "tests/play/stage/reference_light.h"
@@ -25,19 +27,108 @@ std::unique_ptr<Stage> playWrong(const std::string& name) {
     return playRecording(AFTERGLOW_SOURCE_DIR "/tests/play/recordings/" + name + ".replay");
 }
 
-TEST(Walkthrough, OpensEveryFlowerAndEndsTheSameWayTwice) {
-    const std::string path = AFTERGLOW_SOURCE_DIR "/game/level/walkthrough.replay";
-    uint64_t hashes[2];
-    for (uint64_t& hash : hashes) {
-        const auto stage = playRecording(path);
+// The shipped walkthrough, played once for all that is asked of it.
+class Walkthrough : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        stage_ = std::make_unique<Stage>(test::device(), shippedLevel(), kTicksPerFrame);
+        const auto inputs = loadReplay(kRecording);
+        ASSERT_TRUE(inputs) << inputs.error().message;
+        lit_ = litFlowers(*stage_, *inputs);
+    }
+    static void TearDownTestSuite() {
+        lit_.clear();
+        stage_.reset();
+    }
+    static void row(const char* name, const gi::GiSettings& settings, std::span<const size_t> flowers,
+                    uint32_t frames = 24);
+
+    static constexpr const char* kRecording = AFTERGLOW_SOURCE_DIR "/game/level/walkthrough.replay";
+    static inline std::unique_ptr<Stage> stage_;
+    static inline std::vector<LitFlower> lit_;
+};
+
+TEST_F(Walkthrough, OpensEveryFlowerAndEndsTheSameWayTwice) {
+    const auto again = playRecording(kRecording);
+    for (Stage* stage : {stage_.get(), again.get()}) {
         const Progress& p = stage->game.progress();
         EXPECT_EQ(p.flowers, 11u);
         EXPECT_EQ(p.flowersOpen, 11u);
         EXPECT_EQ(p.roomsSolved, 4u);
         EXPECT_TRUE(p.won);
-        hash = stage->game.stateHash();
     }
-    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(stage_->game.stateHash(), again->game.stateHash());
+}
+
+float mean(glm::vec3 e) {
+    return (e.x + e.y + e.z) / 3;
+}
+
+// Where the walkthrough lights a flower, its probe has what the path tracer has there.
+TEST_F(Walkthrough, FlowersMeasureWhatThePathTracerMeasures) {
+    ASSERT_EQ(lit_.size(), 11u);
+    gi::GiRenderer renderer(test::device());
+    renderer.load(stage_->game.level().geometry);
+    for (size_t i = 0; i < lit_.size(); ++i) {
+        const gi::ProbeReading measured = measureLight(renderer, lit_[i], {}, 12),
+                               truth = referenceLight(lit_[i]);
+        const glm::vec3 a = measured.bounced, b = truth.bounced;
+        std::printf(
+            "flower %zu: %.4f %.4f %.4f, the path tracer %.4f %.4f %.4f: %+.1f %%; direct %.4f, %.4f\n", i,
+            a.x, a.y, a.z, b.x, b.y, b.z, 100 * (mean(a) / mean(b) - 1), mean(measured.direct),
+            mean(truth.direct));
+        // At two the area lights' shadow maps shade too much or too little (docs/game.md).
+        const float most = i == 1 || i == 8 ? 0.15f : 0.05f;
+        EXPECT_NEAR(mean(a), mean(b), most * mean(b)) << "flower " << i;
+        EXPECT_GT(glm::dot(glm::normalize(a), glm::normalize(b)), 0.995f) << "flower " << i;
+        EXPECT_NEAR(mean(measured.direct), mean(truth.direct), 0.02f) << "flower " << i;
+    }
+}
+
+// A line of errors in percent, each of a renderer that starts anew.
+void Walkthrough::row(const char* name, const gi::GiSettings& settings, std::span<const size_t> flowers,
+                      uint32_t frames) {
+    std::printf("%-28s", name);
+    for (const size_t i : flowers) {
+        gi::GiRenderer renderer(test::device());
+        renderer.load(stage_->game.level().geometry);
+        const float truth = mean(referenceLight(lit_[i], !settings.ismAtlas.enabled).bounced);
+        const float light = mean(measureLight(renderer, lit_[i], settings, frames).bounced);
+        std::printf(" %+6.1f", 100 * (light / truth - 1));
+        std::fflush(stdout);
+    }
+    std::printf(" %%\n");
+}
+
+// By hand: which term a flower's error is in. AFTERGLOW_FLOWERS="1 8" prints a table of these.
+TEST_F(Walkthrough, TellsWhichTermOfAFlowersLightIsOff) {
+    const char* asked = std::getenv("AFTERGLOW_FLOWERS");
+    if (!asked) return;
+    std::istringstream numbers(asked);
+    std::vector<size_t> flowers;
+    for (size_t i = 0; numbers >> i && i < lit_.size();)
+        flowers.push_back(i);
+    std::printf("%-28s", "share that shadows leave");
+    for (const size_t i : flowers)
+        std::printf(" %6.1f", 100 * mean(referenceLight(lit_[i]).bounced) /
+                                  mean(referenceLight(lit_[i], true).bounced));
+    std::printf(" %%\n");
+    gi::GiSettings open, taps, views, clusters, maps, low;
+    open.ismAtlas.enabled = false;
+    taps.probes.taps = 16;
+    views.ismAtlas.tileSize = 128;
+    views.ismAtlas.pointsPerMap = 16384;
+    clusters.valClustering.count = 512;
+    maps.rsm.resolution = 512;
+    applyQuality(Quality::kLow, low);
+    row("default", {}, flowers);
+    row("without shadows, both", open, flowers);
+    row("low", low, flowers);
+    row("twice as long", {}, flowers, 48);
+    row("16 taps", taps, flowers);
+    row("512 clusters", clusters, flowers);
+    row("light maps of 512", maps, flowers);
+    row("views of 128, 16384 points", views, flowers);
 }
 
 TEST(WrongRuns, TheDirectBeamOpensNothing) {
@@ -63,23 +154,6 @@ TEST(WrongRuns, AWallBetweenOpensNothing) {
     EXPECT_LT(stage->lightAt(1).bounced.x, 0.02f) << "the light is on the other side of the screen";
     EXPECT_EQ(stage->lightAt(1).direct, glm::vec3(0));
     EXPECT_EQ(stage->game.progress().flowersOpen, 0u);
-}
-
-// Where the walkthrough lights a flower, its probe has what the path tracer has there.
-TEST(Flowers, MeasureWhatThePathTracerMeasures) {
-    Stage stage(test::device(), shippedLevel(), 4);
-    stage.settings = {};  // as good as the renderer's default
-    const glm::vec3 lampPlaces[] = {{-1.0f, 1.4f, -4.7f}, {2.9f, 1.4f, -5.0f}, {-2.6f, 1.4f, -14.2f}};
-    const glm::vec3 lit[] = {{-4, 1.5f, -5.0f}, {4, 1.3f, -6.0f}, {-5, 1.5f, -14.4f}};
-    for (size_t i = 0; i < 3; ++i) {
-        const gi::ProbeLight measured = lightFlower(stage, i, lampPlaces[i], lit[i]);
-        const glm::vec3 truth =
-            referenceLight(stage.game.scene(), glm::vec3(stage.flowerAt(i) - stage.game.scene().originWorld));
-        std::printf("flower %zu: %.4f %.4f %.4f, the path tracer %.4f %.4f %.4f\n", i, measured.bounced.x,
-                    measured.bounced.y, measured.bounced.z, truth.x, truth.y, truth.z);
-        EXPECT_NEAR(measured.bounced.x, truth.x, 0.1f * truth.x) << "flower " << i;
-        EXPECT_LT(measured.direct.x, 0.02f);
-    }
 }
 
 size_t residentKilobytes() {

@@ -1,59 +1,93 @@
 #include "tests/play/stage/reference_light.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "engine/scene/components.h"
 #include "tools/reference/path_tracer.h"
-#include "tools/scenegen/builder.h"
 
 namespace ag::game {
+namespace {
 
-gi::ProbeLight lightFlower(Stage& stage, size_t flower, glm::vec3 lamp, glm::vec3 target) {
-    // The player would move the lamp back each tick: only frames pass here.
-    stage.game.tick({});
-    View<LocalTransform, const HandLamp>(stage.game.world(), {stage.game.world().version(), 0})
-        .each([&](LocalTransform& local, const HandLamp&) {
-            local.translation = glm::dvec3(lamp);
-            local.rotation = scenegen::lookRotation(target - lamp);
-        });
-    gi::ProbeLight light;
-    for (int i = 0; i < 24; ++i) {
-        stage.game.frame(stage.size);
-        stage.renderer.render(stage.game.scene(), stage.size, stage.settings, stage.options,
-                              [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
-                                  graph.output(frame.outputs.display);
-                              });
-        if (const auto known = stage.renderer.probeReadings().of(stage.flowers.at(flower).bits()))
-            light = {known->direct, known->bounced, 1};
-    }
-    return light;
-}
+constexpr uint32_t kDirections = 128, kSamples = 512;
 
-glm::vec3 referenceLight(const RenderScene& scene, glm::vec3 point) {
-    constexpr int kDirections = 128;
-    constexpr uint32_t kSamples = 512;
-    RenderScene bouncing = scene;  // the other lights are not asked for
-    std::erase_if(bouncing.lights, [](const RenderLight& light) { return !light.bounces; });
-    const reference::RayScene rays(bouncing);
-    JobRunner runner(2);
+// A small plane in each of many directions, evenly over the sphere.
+reference::FirstHits planesAround(glm::vec3 point) {
     reference::FirstHits hits({kDirections, 1});
-    for (int i = 0; i < kDirections; ++i) {
+    for (uint32_t i = 0; i < kDirections; ++i) {
         const float z = 1 - (2 * float(i) + 1) / kDirections, r = std::sqrt(1 - z * z),
                     phi = 2.3999632f * float(i);
-        reference::Surface& s = hits.surfaces[size_t(i)];
+        reference::Surface& s = hits.surfaces[i];
         s.position = point;
         s.normal = s.geometricNormal = {r * std::cos(phi), z, r * std::sin(phi)};
         s.distance = 1;
         s.resolved = true;
         s.albedo = glm::vec3(1);
-        hits.directions[size_t(i)] = -s.normal;
+        hits.directions[i] = -s.normal;
     }
+    return hits;
+}
+
+// A quarter of what falls on a plane that faces the light.
+glm::vec3 directFrom(const reference::RayScene& rays, const reference::PreparedLight& p, glm::vec3 point) {
+    const glm::vec3 d = p.light.position - point;
+    const float distance = glm::length(d), cone = -glm::dot(d, p.light.direction) / distance;
+    if (!rays.visible(point, d / distance, distance)) return glm::vec3(0);
+    const float t = p.light.kind == LightKind::kSpot
+                        ? glm::clamp((cone - p.cosOuter) / (p.cosInner - p.cosOuter), 0.0f, 1.0f)
+                        : 1.0f;
+    return p.light.intensity * (t * t / (4 * distance * distance));
+}
+
+}  // namespace
+
+std::vector<LitFlower> litFlowers(Stage& stage, std::span<const Input> inputs) {
+    std::vector<LitFlower> lit(stage.flowers.size());
+    for (const Input& input : inputs) {
+        stage.tick(input);
+        if (stage.ticks % stage.perFrame) continue;  // no picture of it
+        for (size_t i = 0; i < lit.size(); ++i) {
+            if (!lit[i].scene.instances.empty() || !stage.flower(i).bloomed) continue;
+            lit[i].scene = stage.game.scene();
+            lit[i].probe = *std::ranges::find(lit[i].scene.probes, stage.flowers[i].bits(), &RenderProbe::id);
+            lit[i].amount = stage.flower(i).amount;
+        }
+    }
+    std::erase_if(lit, [](const LitFlower& l) { return l.scene.instances.empty(); });
+    return lit;
+}
+
+gi::ProbeReading measureLight(gi::GiRenderer& renderer, const LitFlower& lit, const gi::GiSettings& settings,
+                              uint32_t frames) {
+    RenderScene scene = lit.scene;
+    scene.allInstancesChanged = true;
+    gi::ProbeReading light;
+    for (uint32_t i = 0; i < frames; ++i) {
+        renderer.render(scene, {64, 36}, settings, {.timing = TimingMode::kOff},
+                        [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
+                            graph.output(frame.outputs.display);
+                        });
+        scene.allInstancesChanged = false;
+        scene.changedInstances.clear();
+        if (const auto known = renderer.probeReadings().of(lit.probe.id)) light = *known;
+    }
+    return light;
+}
+
+gi::ProbeReading referenceLight(const LitFlower& lit, bool unshadowed) {
+    RenderScene bouncing = lit.scene;  // the other lights are not asked for
+    std::erase_if(bouncing.lights, [](const RenderLight& light) { return !light.bounces; });
+    const reference::RayScene rays(bouncing);
+    JobRunner runner(2);
+    const reference::FirstHits hits = planesAround(lit.probe.position);
     reference::LightSums sums(hits.size, 1);
     uint64_t count = 0;
-    reference::addPaths(rays, hits, {.bounces = 1}, {}, 3, 0, kSamples, runner, sums, count);
-    glm::vec3 mean(0);
+    reference::addPaths(rays, hits, {.bounces = 1, .unshadowed = unshadowed}, {}, 3, 0, kSamples, runner,
+                        sums, count);
+    gi::ProbeReading mean;
     for (const glm::vec3& e : sums.bounces[1].pixels)
-        mean += e / float(kSamples * kDirections);
+        mean.bounced += e / float(kSamples * kDirections);
+    for (const reference::PreparedLight& light : rays.lights())
+        mean.direct += directFrom(rays, light, lit.probe.position);
     return mean;
 }
 

@@ -1,13 +1,26 @@
-// What a flower's probe should say, by path tracing.
+// What a flower's probe says where the walkthrough lights it, and what it should say, by path tracing.
 #pragma once
 
 #include "tests/play/stage/stage.h"
 
 namespace ag::game {
 
-// The hand lamp put at `lamp`, shining at `target`; the flower's light once the renderer has settled.
-gi::ProbeLight lightFlower(Stage& stage, size_t flower, glm::vec3 lamp, glm::vec3 target);
-// Irradiance of one bounce at a point, the mean over all directions, W/m².
-glm::vec3 referenceLight(const RenderScene& scene, glm::vec3 point);
+// The scene as it was drawn when a flower had just opened.
+struct LitFlower {
+    RenderScene scene;  // of the stage's geometry
+    RenderProbe probe;
+    float amount = 0;  // W/m² that it wants
+};
+
+// Plays a recording; one for each flower that opened, in the order of the level.
+std::vector<LitFlower> litFlowers(Stage& stage, std::span<const Input> inputs);
+
+// By the renderer, after some frames. It must hold the stage's geometry.
+gi::ProbeReading measureLight(gi::GiRenderer& renderer, const LitFlower& lit, const gi::GiSettings& settings,
+                              uint32_t frames);
+
+// Mean over all directions, W/m²: straight from the lights that bounce, and of one bounce. `unshadowed`:
+// bounced light passes through surfaces.
+gi::ProbeReading referenceLight(const LitFlower& lit, bool unshadowed = false);
 
 }  // namespace ag::game
