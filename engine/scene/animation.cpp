@@ -41,7 +41,8 @@ glm::quat slerpQuat(glm::quat a, glm::quat b, float t) {
     const float side = cosine < 0 ? -1.0f : 1.0f;
     cosine = std::min(cosine * side, 1.0f);
     const float shareA = sineShare(1 - t, cosine - 1), shareB = side * sineShare(t, cosine - 1);
-    return quatOf(vectorOf(a) * shareA + vectorOf(b) * shareB);
+    const glm::vec4 v = vectorOf(a) * shareA + vectorOf(b) * shareB;
+    return quatOf(v / std::sqrt(glm::dot(v, v)));
 }
 
 glm::vec4 sampleChannel(const SceneChannel& c, float seconds) {

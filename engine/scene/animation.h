@@ -10,7 +10,7 @@ namespace ag {
 glm::vec4 sampleChannel(const SceneChannel& channel, float seconds);
 void applyChannel(const SceneChannel& channel, float seconds, NodeTransform& transform);
 
-// Along the shorter arc at even speed, within 3e-6; both unit.
+// Along the shorter arc at even speed, within 1e-5 radians; both unit.
 glm::quat slerpQuat(glm::quat a, glm::quat b, float t);
 
 // The asset as it stands at a time of one of its animations: nodes are moved, figures will be posed so.

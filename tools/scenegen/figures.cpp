@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "common/sampling.h"
 #include "engine/scene/mover.h"
@@ -27,11 +28,12 @@ void weighVertices(SceneAsset& asset, uint32_t mesh, const PillarShape& shape) {
     GeometryArrays& g = asset.geometry;
     g.skin.resize(g.positions.size());
     const SceneMesh& m = asset.meshes[mesh];
-    for (uint32_t p = m.firstPrimitive; p < m.firstPrimitive + m.primitiveCount; ++p)
-        for (uint32_t i = 0; i < g.primitives[p].indexCount; ++i) {
-            const size_t v = size_t(g.primitives[p].vertexOffset) + g.indices[g.primitives[p].firstIndex + i];
-            g.skin[v] = skinAt(g.positions[v].y, shape);
-        }
+    for (uint32_t i = m.firstPrimitive; i < m.firstPrimitive + m.primitiveCount; ++i) {
+        const Primitive& p = g.primitives[i];
+        const auto indices = std::span(g.indices).subspan(p.firstIndex, p.indexCount);
+        for (uint32_t v = 0; v <= std::ranges::max(indices); ++v)
+            g.skin[size_t(p.vertexOffset) + v] = skinAt(g.positions[size_t(p.vertexOffset) + v].y, shape);
+    }
 }
 
 // To and fro about an axis that turns slowly up the chain: no two joints bend alike.
@@ -121,9 +123,9 @@ SceneAsset figures(uint32_t param) {
         b.node(node).extras.clipStart = kSeconds * io::hashToUnit(7 * i + 1);
     }
     const float height = half + 3;
-    b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(6 * height * height), 30,
-           50);
-    b.camera("camera", {0.3f * half, 0.4f * half + 1.4f, 1.15f * half + 2}, {0, 0.7f, 0}, 50);
+    b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(3 * height * height), 34,
+           52);
+    b.camera("camera", {0.3f * half, 0.3f * half + 1.2f, 1.1f * half + 1}, {0, 0.7f, 0}, 50);
     const auto mesh = uint32_t(b.node(first).mesh);
     SceneAsset asset = b.finish();
     addChains(asset, mesh, shape, kSeconds);
