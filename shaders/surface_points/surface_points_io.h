@@ -27,7 +27,7 @@ struct FigureSample {
     uint instance;
     uvec4 corners;  // x, y, z: of all figures' deformed vertices; w: bit i: the edge from corner i is sharp
 };
-const uint kSharpCutOut = 8u;
+const uint kSharpCutOut = 8u;  // among corners.w: an alpha-masked surface is cut out at the point
 
 struct SurfacePoint {  // 4 vec4
     vec3 position;     // m

@@ -28,6 +28,7 @@ SceneAsset variedHall() {
     SceneAsset asset = b.finish();
     scenegen::addChains(asset, mesh, shape, 1);
     asset.nodes[figure].extras.clipSpeed = 0;
+    asset.nodes[figure].extras.clipLoops = false;  // comes to rest by itself
     std::vector<Material>& materials = asset.geometry.materials;
     materials[0].alphaMode = AlphaMode::kMask;
     materials[1].doubleSided = true;
@@ -145,7 +146,7 @@ std::string EditedWorld::poseFigure() {
     if (figures.empty() || (figures.size() < 3 && below(5) == 0)) {
         things_.push_back(world_.create(LocalTransform{.translation = glm::dvec3(inside()), .node = 0},
                                         WorldTransform{}, figureMesh_, Figure{},
-                                        AnimationPlayer{.seconds = between(0, 1), .speed = 0}));
+                                        AnimationPlayer{.seconds = between(0, 1), .speed = 0, .loops = 0}));
         return "added a figure";
     }
     const uint32_t pick = below(figures.size()), what = below(4);
