@@ -1,7 +1,7 @@
 #include "capture/world_source.h"
 
 #include "capture/schedule_spans.h"
-#include "engine/scene/extract_system.h"
+#include "engine/scene/animation_system.h"
 #include "engine/scene/spawn_scene.h"
 #include "engine/scene/transform_system.h"
 
@@ -33,6 +33,7 @@ WorldSource::WorldSource(const SceneAsset& asset, const RenderScene& asked, glm:
     schedule_.add("walkCamera", walkCamera);
     schedule_.add("updateRootTransforms", updateRootTransforms);
     schedule_.add("updateChildTransforms", updateChildTransforms);
+    schedule_.add("poseFigures", poseFigures);
     schedule_.add("extractScene", extractScene);
 }
 

@@ -2,6 +2,7 @@
 // overlap.
 #include "game/schedule.h"
 
+#include "engine/scene/animation_system.h"
 #include "engine/scene/transform_system.h"
 #include "game/systems/carry_crates.h"
 #include "game/systems/flicker_lamps.h"
@@ -9,6 +10,7 @@
 #include "game/systems/judge_rooms.h"
 #include "game/systems/make_sounds.h"
 #include "game/systems/move_boxes.h"
+#include "game/systems/play_animations.h"
 #include "game/systems/walk_player.h"
 #include "gi/gi_systems.h"
 
@@ -27,6 +29,8 @@ Schedule makeTickSchedule() {
     // The world moves
     s.add("flickerLamps", flickerLamps);
     s.add("moveBoxes", moveBoxes);
+    s.add("playAnimations", playAnimations);
+    s.add("animateNodes", animateNodes);
     s.add("openDoors", openDoors);
     s.add("makeBodies", makeBodies);
     s.add("keepPendulums", keepPendulums);
@@ -50,6 +54,7 @@ Schedule makeFrameSchedule() {
     // The renderer's view of it
     s.add("updateRootTransforms", updateRootTransforms);
     s.add("updateChildTransforms", updateChildTransforms);
+    s.add("poseFigures", poseFigures);
     s.add("extractScene", extractScene);
     s.add("extractProbes", gi::extractProbes);
     return s;

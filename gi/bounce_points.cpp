@@ -1,5 +1,6 @@
 #include "gi/bounce_points.h"
 
+#include <bit>
 #include <glm/gtc/color_space.hpp>
 
 #include "common/brdf.h"
@@ -39,6 +40,10 @@ glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 vert
     return sum;
 }
 
+uint32_t sharpBitsOf(const io::SurfaceSample& s) {
+    return std::bit_cast<uint32_t>(s.bendLocal);  // in its place: see FigureSample
+}
+
 }  // namespace
 
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const SurfaceSamples& samples,
@@ -52,7 +57,8 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
         const Primitive& p = scene.geometry->primitives[scene.instances[s.instance].primitive];
         const double area = at < still ? double(samples.stillArea) / double(still)
                                        : double(samples.movableArea) / double(all - still);
-        const bool cutOut = s.edgesLocal[0].distance < 0;
+        const bool figure = scene.instances[s.instance].figure != kNoFigure;
+        const bool cutOut = figure ? (sharpBitsOf(s) & io::kSharpCutOut) != 0 : s.edgesLocal[0].distance < 0;
         points.push_back(
             {.positionLocal = s.positionLocal,
              .instance = s.instance,
@@ -60,6 +66,7 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
              .area = cutOut ? 0 : float(area * share),
              .albedo = albedoAbout(*scene.geometry, scene.geometry->materials[p.material], samples.uvs[at]),
              .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}});
+        if (figure) points.back().edgesLocal[0].inward.x = s.bendLocal;
     }
     return points;
 }

@@ -12,11 +12,20 @@ namespace {
 constexpr uint32_t kNoBucket = ~0u;
 constexpr uint64_t kWorthJobs = 1u << 13;  // instances over all views
 
-DrawBucket bucketOf(const Material& material) {
+DrawBucket bucketOf(const Material& material, bool deformed) {
     return {.textureClass = material.textureClass,
             .alphaMask = material.alphaMode == AlphaMode::kMask,
             .doubleSided = material.doubleSided,
-            .normalMap = material.normalLayer >= 0};
+            .normalMap = material.normalLayer >= 0,
+            .deformed = deformed};
+}
+
+// Of what an instance draws and where that stands.
+uint64_t shapeHash(const RenderScene& scene, const RenderInstance& instance) {
+    const uint64_t hash = hashValue(instance.worldFromLocal, instance.primitive);
+    if (instance.figure == kNoFigure) return hash;
+    const RenderFigure& figure = scene.figures[instance.figure];
+    return combineHash(combineHash(hash, figure.poseVersion), figure.firstDeformed);
 }
 
 // Of a reversed-depth clip matrix; with an infinite far plane nothing is beyond it.
@@ -35,12 +44,14 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
     bucketCapacity_.clear();
     instanceBucket_.assign(scene.instances.size(), kNoBucket);
     instancePrimitive_.resize(scene.instances.size());
+    instanceFigure_.resize(scene.instances.size());
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         instancePrimitive_[i] = scene.instances[i].primitive;
+        instanceFigure_[i] = scene.instances[i].figure;
         const Material& material =
             geometry.materials[geometry.primitives[scene.instances[i].primitive].material];
         if (material.alphaMode == AlphaMode::kBlend) continue;
-        const DrawBucket bucket = bucketOf(material);
+        const DrawBucket bucket = bucketOf(material, scene.instances[i].figure != kNoFigure);
         const auto found = std::find(buckets_.begin(), buckets_.end(), bucket);
         instanceBucket_[i] = uint32_t(found - buckets_.begin());
         if (found == buckets_.end()) {
@@ -64,8 +75,8 @@ void DrawLists::refreshBounds(const RenderScene& scene, bool all) {
     const auto refresh = [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
             const RenderInstance& instance = scene.instances[i];
-            bounds_.set(i, instance, scene.geometry->primitives[instance.primitive].boundsLocal);
-            transformHash_[i] = hashValue(instance.worldFromLocal, instance.primitive);
+            bounds_.set(i, instance, boundsLocal(scene, instance));
+            transformHash_[i] = shapeHash(scene, instance);
             changed_[i / 64] |= uint64_t(1) << (i % 64);
         }
     };
@@ -83,7 +94,8 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
         geometryVersion_ != scene.geometry->version || instanceBucket_.size() != scene.instances.size();
     if (instancesVersion_ != scene.instancesVersion && !regroup)
         for (size_t i = 0; i < scene.instances.size() && !regroup; ++i)
-            regroup = instancePrimitive_[i] != scene.instances[i].primitive;
+            regroup = instancePrimitive_[i] != scene.instances[i].primitive ||
+                      instanceFigure_[i] != scene.instances[i].figure;
     if (regroup) rebuildBuckets(scene);
     if (regroup || instancesVersion_ != scene.instancesVersion)
         refreshBounds(scene, regroup || scene.instancesVersion != instancesVersion_ + 1);
@@ -134,8 +146,8 @@ void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
             if (instanceBucket_[i] == kNoBucket || beyondFar(bounds_.of(i), request.clipFromWorld)) continue;
             const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
             BucketRange& range = view.draws.buckets[instanceBucket_[i]];
-            commands_[range.firstCommand + range.commandCount++] = {p.indexCount, 1, p.firstIndex,
-                                                                    p.vertexOffset, i};
+            commands_[range.firstCommand + range.commandCount++] = {
+                p.indexCount, 1, p.firstIndex, firstVertexOf(scene, scene.instances[i]), i};
             version = combineHash(combineHash(version, i), transformHash_[i]);
             ++view.draws.instanceCount;
         }

@@ -48,10 +48,16 @@ ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& 
     if (moved.instanceCount == 0) return {};
     scene.readsPrevious = true;
     const ImageHandle motion = graph.image("gbuffer.motion", graph.info(gbuffer.normal));
-    PassBuilder pass = graph.raster("gbuffer.motion", "gbuffer/motion.vert", "gbuffer/motion.frag",
-                                    gpu::VertexLayout::kPositions);
+    const char* const vertexShader = scene.skin ? "gbuffer/motion_figures.vert" : "gbuffer/motion.vert";
+    PassBuilder pass =
+        graph.raster("gbuffer.motion", vertexShader, "gbuffer/motion.frag", gpu::VertexLayout::kPositions);
     pass.colorClear(motion, glm::vec4(0)).depthEqual(gbuffer.depth).geometry(scene.geometry);
     pass.read("instances", scene.instances).read("previousInstances", scene.previousInstances);
+    if (scene.skin)
+        pass.read("previousJoints", scene.skin.previousJoints)
+            .read("figures", scene.skin.figures)
+            .read("skin", scene.skin.skin)
+            .read("modelled", scene.skin.positions);
     drawView(pass, scene, moved, scene.scene->camera.clipFromWorld, {}, DrawFilter::kShapes, Viewer::kLight);
     return motion;
 }

@@ -10,6 +10,9 @@ namespace ag::gi {
 
 GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& s, GiHistory& h) {
     GiFrame f;
+    // Figures as they are bent now
+    addSkinning(graph, scene);
+
     // What the camera sees
     f.gbuffer = addGBuffer(graph, scene);
     f.viewPoints = addViewPoints(graph, scene, f.gbuffer);

@@ -26,8 +26,9 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
                                 {.sizeBytes = light.count * sizeof(io::RsmTexel), .texelFormat = vec4});
     light.edges =
         graph.buffer("later_bounces.edges", {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge)});
-    graph.compute("later_bounces.emit", "later_bounces/emit.comp")
-        .read("instances", scene.instances)
+    PassBuilder emit = graph.compute(
+        "later_bounces.emit", scene.skin ? "later_bounces/emit_figures.comp" : "later_bounces/emit.comp");
+    emit.read("instances", scene.instances)
         .read("points", scene.bouncePoints)
         .readPrevious("irradiance", light.irradiance)
         .write("texels", light.texels)
@@ -36,6 +37,7 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
         .key(r.instancesVersion)
         .step(step)
         .dispatchThreads(light.count);
+    readFigures(emit, scene.skin);
     return light;
 }
 

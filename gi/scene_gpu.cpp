@@ -19,10 +19,11 @@ constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounc
 
 io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
     const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
-    return {.worldFromLocal0 = rows[0],
-            .worldFromLocal1 = rows[1],
-            .worldFromLocal2 = rows[2],
-            .ids = {geometry.primitives[instance.primitive].material, instance.primitive, 0, 0}};
+    return {
+        .worldFromLocal0 = rows[0],
+        .worldFromLocal1 = rows[1],
+        .worldFromLocal2 = rows[2],
+        .ids = {geometry.primitives[instance.primitive].material, instance.primitive, instance.figure, 0}};
 }
 
 io::Material materialRow(const Material& m, RenderUnits units) {
@@ -86,7 +87,9 @@ std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, Vk
 uint64_t instanceSet(const RenderScene& scene) {
     uint64_t hash = scene.geometry->version;
     for (const RenderInstance& instance : scene.instances)
-        hash = combineHash(hash, instance.primitive * 2 + instance.movable);
+        hash = combineHash(combineHash(hash, instance.primitive * 2 + instance.movable), instance.figure);
+    for (const RenderFigure& figure : scene.figures)
+        hash = combineHash(combineHash(hash, figure.firstDeformed), figure.firstVertex);
     return hash;
 }
 
@@ -106,7 +109,7 @@ void transferBarrier(VkCommandBuffer commands, Transfer when) {
 
 }  // namespace
 
-SceneGpu::SceneGpu(gpu::Device& device) : device_(device) {}
+SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device) {}
 SceneGpu::~SceneGpu() {
     device_.waitIdle();
 }
@@ -116,6 +119,8 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     positions_ = loadBuffer(device_, "scene.positions", geometry.positions, true);
     attributes_ = loadBuffer(device_, "scene.attributes", geometry.attributes, true);
     indices_ = loadBuffer(device_, "scene.indices", geometry.indices, true);
+    skin_.load(geometry);
+    ++loads_;
     loadTextures(geometry);
     useUnits(geometry, {});
     geometryVersion_ = geometry.version;
@@ -225,7 +230,10 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
                    .size = size,
                    .hasEmissive = strongestEmission_ > 0,
                    .hasGlossy = hasGlossy_};
-    view.geometry = {positions_.get(), attributes_.get(), indices_.get(), geometryVersion_};
+    view.skin = skin_.import(graph, scene, *positions_, *attributes_);
+    view.loadedVersion = combineHash(geometryVersion_, loads_);
+    view.geometry = {positions_.get(), attributes_.get(),           indices_.get(),
+                     geometryVersion_, view.skin.deformedPositions, view.skin.deformedAttributes};
     // Constant versions: what a view draws of them is in its draws' versions.
     view.instances = graph.importBuffer("scene.instances", *instances_, 1);
     view.previousInstances = graph.importBuffer("scene.previous_instances", *previousInstances_, 1);
@@ -286,9 +294,9 @@ void SceneGpu::stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<con
 }
 
 // On the device, before new rows take their place.
-void SceneGpu::keepPrevious(VkCommandBuffer commands, std::span<const RenderScene::Range> rows) {
+void SceneGpu::keepPrevious(VkCommandBuffer commands, const SceneView& view) {
     std::vector<VkBufferCopy> regions;
-    for (const RenderScene::Range& range : rows) {
+    for (const RenderScene::Range& range : view.moved) {
         const uint64_t offset = range.begin * sizeof(io::Instance);
         regions.push_back({offset, offset, (range.end - range.begin) * sizeof(io::Instance)});
         uploadedBytes_ += regions.back().size;
@@ -297,6 +305,12 @@ void SceneGpu::keepPrevious(VkCommandBuffer commands, std::span<const RenderScen
     transferBarrier(commands, Transfer::kBefore);
     vkCmdCopyBuffer(commands, instances_->handle(), previousInstances_->handle(), uint32_t(regions.size()),
                     regions.data());
+    if (view.skin) {
+        const std::vector<VkBufferCopy> joints = skin_.copiesToPrevious(*view.scene, view.moved);
+        if (!joints.empty())
+            vkCmdCopyBuffer(commands, skin_.joints().handle(), skin_.previousJoints().handle(),
+                            uint32_t(joints.size()), joints.data());
+    }
     transferBarrier(commands, Transfer::kBetweenCopies);
 }
 
@@ -322,8 +336,12 @@ void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, uint32_t 
     const RenderScene& scene = *view.scene;
     uploadedBytes_ = 0;
     staging_[frameSlot].used = 0;
-    if (view.readsPrevious) keepPrevious(commands, view.moved);
+    if (view.readsPrevious) keepPrevious(commands, view);
     uploadInstances(commands, scene, frameSlot);
+    if (view.skin)
+        skin_.upload(scene, [&](std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {
+            stage(commands, frameSlot, bytes, to, offset);
+        });
     const uint64_t stride = draws_.commandsPerView() * sizeof(VkDrawIndexedIndirectCommand);
     AG_CHECK_MSG(draws_.viewCount() * stride <= commands_->sizeBytes(), "a view was added after import()");
     for (uint32_t slot = 0; slot < draws_.viewCount(); ++slot)
@@ -341,7 +359,7 @@ uint64_t SceneGpu::deviceBytes() const {
          {positions_.get(), attributes_.get(), indices_.get(), materials_.get(), instances_.get(),
           previousInstances_.get(), commands_.get(), samples_.get(), bouncePoints_.get()})
         if (buffer) bytes += buffer->sizeBytes();
-    return bytes;
+    return bytes + skin_.deviceBytes();
 }
 
 }  // namespace ag::gi

@@ -12,6 +12,7 @@
 #include "engine/scene/render_scene.h"
 #include "gi/draw_lists.h"
 #include "gi/render_units.h"
+#include "gi/skinning.h"
 #include "shaders/scene/scene_io.h"
 
 namespace ag::gi {
@@ -21,6 +22,8 @@ struct SceneView {
     const RenderScene* scene = nullptr;
     DrawLists* draws = nullptr;
     Geometry geometry;
+    uint64_t loadedVersion = 0;  // of the geometry loaded, unlike any before
+    SkinView skin;
     BufferHandle instances;          // io::Instance rows; versions are the draws' (see DrawLists)
     BufferHandle previousInstances;  // the rows of `moved` as they were in the frame before
     std::span<const RenderScene::Range>
@@ -78,7 +81,7 @@ class SceneGpu {
     void loadTextures(const GeometryArrays& geometry);
     void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
                const gpu::Buffer& to, uint64_t offset);
-    void keepPrevious(VkCommandBuffer commands, std::span<const RenderScene::Range> rows);
+    void keepPrevious(VkCommandBuffer commands, const SceneView& view);
     void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
     void sampleSurfacesAnew(const RenderScene& scene);
@@ -88,7 +91,8 @@ class SceneGpu {
 
     gpu::Device& device_;
     DrawLists draws_;
-    uint64_t geometryVersion_ = 0;
+    SkinGpu skin_;
+    uint64_t geometryVersion_ = 0, loads_ = 0;
     float strongestEmission_ = 0;
     uint64_t materialsVersion_ = 0;
     bool hasGlossy_ = false;

@@ -29,13 +29,16 @@ SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     p.extent = std::exp2(std::ceil(std::log2(std::max(diagonal, 1e-6f))));
     p.points = graph.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
                                                       .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.compute("surface_points.place", "surface_points/place_points.comp")
-        .read("instances", scene.instances)
+    PassBuilder place =
+        graph.compute("surface_points.place", scene.skin ? "surface_points/place_figure_points.comp"
+                                                         : "surface_points/place_points.comp");
+    place.read("instances", scene.instances)
         .read("samples", scene.surfaceSamples)
         .write("points", p.points)
         .push(p.count)
         .key(scene.scene->instancesVersion)
         .dispatchThreads(p.count);
+    readFigures(place, scene.skin);
     const uint32_t segments = p.still.segmentCount + p.moving.segmentCount;
     p.segments = graph.buffer("surface_points.segments", {.sizeBytes = segments * sizeof(io::SurfaceSegment),
                                                           .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});

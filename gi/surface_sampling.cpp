@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <tuple>
 #include <unordered_map>
 
 #include "common/sampling.h"
 #include "engine/core/hash.h"
+#include "engine/scene/deform.h"
 
 namespace ag::gi {
 namespace {
@@ -20,12 +22,17 @@ struct Corners {
 
 constexpr float kFlatCosine = 0.94f;  // 20 degrees: a bend that disks may span
 
-std::array<glm::vec3, 3> localCorners(const GeometryArrays& g, const Primitive& p, uint32_t triangle) {
+std::array<glm::vec3, 3> cornersAmong(const glm::vec3* positions, const GeometryArrays& g, const Primitive& p,
+                                      uint32_t triangle) {
     std::array<glm::vec3, 3> corners;
     for (uint32_t i = 0; i < 3; ++i)
-        corners[i] =
-            g.positions[size_t(int64_t(p.vertexOffset) + g.indices[p.firstIndex + 3 * triangle + i])];
+        corners[i] = positions[g.indices[p.firstIndex + 3 * triangle + i]];
     return corners;
+}
+
+// As they were modelled.
+std::array<glm::vec3, 3> localCorners(const GeometryArrays& g, const Primitive& p, uint32_t triangle) {
+    return cornersAmong(g.positions.data() + p.vertexOffset, g, p, triangle);
 }
 
 glm::vec3 faceNormal(const std::array<glm::vec3, 3>& c) {
@@ -100,15 +107,16 @@ uint32_t mortonCode(glm::vec3 p, const Bounds& bounds) {
 }
 
 // All that block light, movable or not, neighbours in space near each other.
-std::vector<CurveTriangle> curveOf(const RenderScene& scene, bool movable) {
+std::vector<CurveTriangle> curveOf(const RenderScene& scene, const DeformedVertices& deformed, bool movable) {
     const GeometryArrays& g = *scene.geometry;
     std::vector<CurveTriangle> curve;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Primitive& p = g.primitives[scene.instances[i].primitive];
         if (g.materials[p.material].alphaMode == AlphaMode::kBlend) continue;
         if (scene.instances[i].movable != movable) continue;
+        const glm::vec3* positions = verticesOf(scene, deformed, scene.instances[i]).positions;
         for (uint32_t t = 0; t < p.indexCount / 3; ++t) {
-            const auto w = worldCorners(scene.instances[i], localCorners(g, p, t));
+            const auto w = worldCorners(scene.instances[i], cornersAmong(positions, g, p, t));
             const double area = 0.5 * double(glm::length(glm::cross(w[1] - w[0], w[2] - w[0])));
             curve.push_back({mortonCode((w[0] + w[1] + w[2]) / 3.0f, scene.bounds), i, t, area});
         }
@@ -207,6 +215,18 @@ double areaOf(const std::vector<CurveTriangle>& curve) {
     return area;
 }
 
+// Where it is on the figure's triangle, however that is bent.
+void followFigure(const RenderScene& scene, const CurveTriangle& t, glm::vec3 weights, uint32_t sharp,
+                  io::SurfaceSample& sample) {
+    const RenderInstance& instance = scene.instances[t.instance];
+    const Primitive& p = scene.geometry->primitives[instance.primitive];
+    const uint32_t* index = &scene.geometry->indices[p.firstIndex + 3 * t.triangle];
+    const auto first = uint32_t(firstVertexOf(scene, instance));
+    const io::FigureSample on{
+        weights, t.instance, {first + index[0], first + index[1], first + index[2], sharp}};
+    std::memcpy(&sample, &on, sizeof on);
+}
+
 // `count` points at equal steps of all triangles' area laid end to end.
 void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& curve, double area,
                  uint32_t count, SurfaceSamples& out) {
@@ -231,9 +251,12 @@ void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& cur
                                      .bendLocal = c.bend};
             noteEdges(c, sample);
             // Its place on the curve is kept, so that the others stay evenly spread.
-            const glm::vec2 uv =
-                uvOn(*scene.geometry, p, t.triangle, barycentrics(c.local, sample.positionLocal));
-            if (cutOut(*scene.geometry, p, uv)) sample.edgesLocal[0] = {glm::vec3(0), -1};
+            const glm::vec3 weights = barycentrics(c.local, sample.positionLocal);
+            const glm::vec2 uv = uvOn(*scene.geometry, p, t.triangle, weights);
+            const bool hole = cutOut(*scene.geometry, p, uv);
+            if (hole) sample.edgesLocal[0] = {glm::vec3(0), -1};
+            if (scene.instances[t.instance].figure != kNoFigure)
+                followFigure(scene, t, weights, c.sharpEdges | (hole ? io::kSharpCutOut : 0), sample);
             out.samples.push_back(sample);
             out.uvs.push_back(uv);
         }
@@ -243,7 +266,9 @@ void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& cur
 }  // namespace
 
 SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
-    const std::vector<CurveTriangle> still = curveOf(scene, false), movable = curveOf(scene, true);
+    const DeformedVertices deformed = deformFigures(scene);
+    const std::vector<CurveTriangle> still = curveOf(scene, deformed, false),
+                                     movable = curveOf(scene, deformed, true);
     const double stillArea = areaOf(still), movableArea = areaOf(movable), total = stillArea + movableArea;
     SurfaceSamples out{.stillArea = float(stillArea), .movableArea = float(movableArea)};
     if (!(total > 0) || count == 0) return out;

@@ -24,6 +24,7 @@ enum class UseKind : uint8_t {
     kDepthPatch,  // rectangles of it are kept or drawn anew
     kDepthTest,   // read only
     kIndirect,
+    kVertices,  // vertex attributes of a raster pass
     kTransferRead,
     kTransferWrite,
     kCount
@@ -63,6 +64,8 @@ constexpr std::array<Access, size_t(UseKind::kCount)> kAccessTable = {{
     {kDepthTests, kDepthRead, kDepthWrite, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL},
     {kDepthTests, kDepthRead, 0, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL},
     {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0,
+     VK_IMAGE_LAYOUT_UNDEFINED},
+    {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, 0,
      VK_IMAGE_LAYOUT_UNDEFINED},
     {kTransferStage, VK_ACCESS_2_TRANSFER_READ_BIT, 0, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL},
     {kTransferStage, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL},

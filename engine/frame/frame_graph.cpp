@@ -44,6 +44,7 @@ void FrameGraph::beginFrame(const FrameGraphOptions& options) {
     impl_->passes.clear();
     impl_->uses.clear();
     impl_->draws.clear();
+    impl_->parts.clear();
     impl_->data.clear();
 }
 
@@ -55,7 +56,7 @@ bool same(const ImageInfo& a, const ImageInfo& b) {
 
 bool same(const BufferInfo& a, const BufferInfo& b) {
     return a.sizeBytes == b.sizeBytes && a.texelFormat == b.texelFormat && a.indirect == b.indirect &&
-           a.hostVisible == b.hostVisible;
+           a.vertices == b.vertices && a.hostVisible == b.hostVisible;
 }
 
 }  // namespace

@@ -68,6 +68,7 @@ struct BufferInfo {
     uint64_t sizeBytes = 0;
     VkFormat texelFormat = VK_FORMAT_UNDEFINED;  // set it to read the buffer as a texel buffer
     bool indirect = false;
+    bool vertices = false;     // may be Geometry's
     bool hostVisible = false;  // lies in memory that the CPU reads; for FrameGraph::readBack
 };
 
@@ -95,6 +96,7 @@ struct RasterDraw {
     uint32_t commandCount = 0;
     uint64_t commandsVersion = 0;  // version of just this range (0: that of the whole buffer)
     bool beginsPatch = false;      // draws nothing: see PassBuilder::patch
+    bool deformed = false;         // of the geometry's deformed vertices
 };
 
 // Where a raster pass takes its triangles from.
@@ -103,6 +105,9 @@ struct Geometry {
     const gpu::Buffer* attributes = nullptr;  // vec3 normal, vec4 tangent, vec2 uv; may be null
     const gpu::Buffer* indices = nullptr;     // uint32
     uint64_t version = 0;
+    // Vertices that passes write, for draws that ask for them; may be none. Their contents reach the key by
+    // the draws' versions.
+    BufferHandle deformedPositions, deformedAttributes;
 };
 
 class FrameGraph;
@@ -155,6 +160,11 @@ class PassBuilder {
     PassBuilder& dispatchThreads(uint32_t x, uint32_t y = 1, uint32_t z = 1);
     PassBuilder& dispatchGroups(uint32_t x, uint32_t y = 1, uint32_t z = 1);
     PassBuilder& dispatchIndirect(BufferHandle arguments, uint64_t offsetBytes = 0);
+    // Instead: groups whose work lasts by itself. Of what parts() names only those groups are written that
+    // have another key than when they were written last; the shader's constants begin with the first group
+    // to run. Parts do not overlap.
+    PassBuilder& parts(std::string_view name, BufferHandle buffer);
+    PassBuilder& part(uint32_t firstGroup, uint32_t groupCount, uint64_t partKey);
     // Raster passes.
     PassBuilder& geometry(const Geometry& geometry);
     PassBuilder& draw(const RasterDraw& draw);
@@ -187,7 +197,7 @@ struct PassReport {
     double gpuMs = 0;          // of the last frame whose timestamps arrived, 0 if it did not run then
     double cpuMs = 0;          // process CPU time, only in TimingMode::kProcessCpu
     uint64_t runCount = 0;     // since the graph was made
-    uint32_t patches = 0, patchesDrawn = 0;  // of a pass that draws patches, when it ran last
+    uint32_t patches = 0, patchesDrawn = 0;  // of a pass of patches or parts, when it ran last
 };
 
 std::string_view reasonText(PassReason reason);

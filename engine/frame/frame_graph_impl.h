@@ -32,6 +32,13 @@ struct Patch {
     uint64_t key = 0;
 };
 
+// Groups of a dispatch and what they were made from.
+struct GroupPart {
+    uint32_t firstGroup = 0, groupCount = 0;
+    uint64_t key = 0;
+    bool operator==(const GroupPart&) const = default;
+};
+
 // One image or buffer with what it holds.
 struct Memory {
     std::unique_ptr<gpu::Image> image;
@@ -40,6 +47,7 @@ struct Memory {
     uint64_t version = 0;    // of the contents; 0: nothing
     bool needsZero = false;  // histories start as zeroes
     std::vector<Patch> patches;
+    std::vector<GroupPart> parts;
 };
 
 // Memory that scratch images share.
@@ -110,6 +118,7 @@ struct Pass {
     PassKind kind = PassKind::kCompute;
     uint32_t firstUse = 0, useCount = 0;
     uint32_t firstDraw = 0, drawCount = 0;
+    uint32_t firstPart = 0, partCount = 0;
     gpu::RasterState raster;
     std::array<gpu::SpecConstant, gpu::kMaxSpecConstants> spec{};
     uint32_t specCount = 0;
@@ -153,6 +162,7 @@ struct FrameGraph::Impl {
     std::vector<Pass> passes;
     std::vector<Use> uses;
     std::vector<RasterDraw> draws;
+    std::vector<GroupPart> parts;
     std::vector<std::byte> data;
     std::vector<PassReport> report;
     std::vector<PassRecord> records;
@@ -218,6 +228,7 @@ struct FrameGraph::Impl {
     void flushBarriers(VkCommandBuffer commands);
     void recordPass(VkCommandBuffer commands, const Pass& pass);
     void recordCompute(VkCommandBuffer commands, const Pass& pass);
+    void recordParts(VkCommandBuffer commands, const Pass& pass);
     void recordRaster(VkCommandBuffer commands, const Pass& pass);
     void recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set, glm::uvec2 size);
     std::vector<Patch>* patchesOf(const Pass& pass);
@@ -232,6 +243,9 @@ struct FrameGraph::Impl {
     std::span<Use> usesOf(const Pass& pass) { return {uses.data() + pass.firstUse, pass.useCount}; }
     std::span<const Use> usesOf(const Pass& pass) const {
         return {uses.data() + pass.firstUse, pass.useCount};
+    }
+    std::span<const GroupPart> partsOf(const Pass& pass) const {
+        return {parts.data() + pass.firstPart, pass.partCount};
     }
     std::span<const RasterDraw> drawsOf(const Pass& pass) const {
         return {draws.data() + pass.firstDraw, pass.drawCount};

@@ -12,7 +12,7 @@ uint64_t hashDraw(uint64_t key, const RasterDraw& draw) {
     key = combineHash(key, uint64_t(draw.cull));
     key = hashValue(draw.viewport, key);
     key = hashBytes({draw.push.data(), draw.pushSizeBytes}, key);
-    key = combineHash(key, draw.commandCount);
+    key = combineHash(key, draw.commandCount * 2 + draw.deformed);
     return combineHash(key, draw.commandsVersion ? draw.commandsVersion : draw.commandsOffsetBytes);
 }
 
@@ -78,6 +78,8 @@ uint64_t FrameGraph::Impl::ownKey(const Pass& pass) const {
     if (pass.dataSize > 0) key = hashBytes({data.data() + pass.dataOffset, pass.dataSize}, key);
     for (const RasterDraw& draw : drawsOf(pass))
         key = hashDraw(key, draw);
+    for (const GroupPart& part : partsOf(pass))
+        key = combineHash(combineHash(key, part.key), part.firstGroup);
     for (const Use& use : usesOf(pass)) {
         if (writes(use.kind)) key = hashValue(use.clear, combineHash(key, use.mip));
     }

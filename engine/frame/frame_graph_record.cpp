@@ -35,6 +35,7 @@ void FrameGraph::Impl::recordCompute(VkCommandBuffer commands, const Pass& pass)
     if (pipeline.pushSizeBytes > 0)
         vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
                            pass.push.data());
+    if (pass.partCount > 0) return recordParts(commands, pass);
     if (pass.dispatchIndirect) {
         const auto all = usesOf(pass);
         const auto arguments = std::ranges::find(all, UseKind::kIndirect, &Use::kind);
@@ -45,6 +46,36 @@ void FrameGraph::Impl::recordCompute(VkCommandBuffer commands, const Pass& pass)
     const glm::uvec3 size = pass.threads ? pipeline.workgroupSize : glm::uvec3(1);
     const glm::uvec3 groups = (pass.dispatch + size - 1u) / size;
     if (groups.x > 0 && groups.y > 0 && groups.z > 0) vkCmdDispatch(commands, groups.x, groups.y, groups.z);
+}
+
+// Parts side by side that both changed are one dispatch.
+void FrameGraph::Impl::recordParts(VkCommandBuffer commands, const Pass& pass) {
+    constexpr uint32_t kMostGroups = 65535;  // of a dispatch, on any device
+    const auto written = std::ranges::find_if(usesOf(pass), [](const Use& use) { return writes(use.kind); });
+    std::vector<GroupPart>& held = memoryOf(resources[written->resource])->parts;
+    const std::span<const GroupPart> all = partsOf(pass);
+    PassStats& counts = stats[pass.stats];
+    counts.patches = pass.partCount;
+    counts.patchesDrawn = 0;
+    const auto dispatch = [&](uint32_t first, uint32_t end) {
+        for (; first < end; first += kMostGroups) {
+            vkCmdPushConstants(commands, pass.pipeline->layout, pass.pipeline->pushStages, 0, sizeof first,
+                               &first);
+            vkCmdDispatch(commands, std::min(end - first, kMostGroups), 1, 1);
+        }
+    };
+    uint32_t first = 0, end = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (options.skip && i < held.size() && held[i] == all[i]) continue;
+        ++counts.patchesDrawn;
+        if (all[i].firstGroup != end) {
+            dispatch(first, end);
+            first = all[i].firstGroup;
+        }
+        end = all[i].firstGroup + all[i].groupCount;
+    }
+    dispatch(first, end);
+    held.assign(all.begin(), all.end());
 }
 
 namespace {
@@ -72,12 +103,15 @@ void setViewport(VkCommandBuffer commands, glm::uvec4 rect) {
     vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
-void bindGeometry(VkCommandBuffer commands, const Geometry& g) {
-    if (!g.positions) return;
-    const VkBuffer buffers[] = {g.positions->handle(),
-                                g.attributes ? g.attributes->handle() : g.positions->handle()};
+void bindVertices(VkCommandBuffer commands, const gpu::Buffer& positions, const gpu::Buffer* attributes) {
+    const VkBuffer buffers[] = {positions.handle(), attributes ? attributes->handle() : positions.handle()};
     const VkDeviceSize offsets[] = {0, 0};
     vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+}
+
+void bindGeometry(VkCommandBuffer commands, const Geometry& g) {
+    if (!g.positions) return;
+    bindVertices(commands, *g.positions, g.attributes);
     vkCmdBindIndexBuffer(commands, g.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
 }
 
@@ -138,6 +172,16 @@ void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, V
         vkCmdDraw(commands, 3, 1, 0, 0);
     }
     bindGeometry(commands, pass.geometry);
+    bool deformed = false;  // the vertices bound
+    const auto bindVerticesOf = [&](const RasterDraw& draw) {
+        const Geometry& g = pass.geometry;
+        if (std::exchange(deformed, draw.deformed) == draw.deformed) return;
+        if (deformed)
+            bindVertices(commands, bufferOf(resources[g.deformedPositions.index]),
+                         &bufferOf(resources[g.deformedAttributes.index]));
+        else
+            bindVertices(commands, *g.positions, g.attributes);
+    };
     std::vector<Patch>* held = patchesOf(pass);
     const std::span<const RasterDraw> all = drawsOf(pass);
     PassStats& counts = stats[pass.stats];
@@ -161,6 +205,7 @@ void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, V
             clearPatch(commands, patch.rect, usesOf(pass));
             continue;
         }
+        bindVerticesOf(draw);
         bind(pipelines->get(requestFor(pass, &draw)), {draw.push.data(), draw.pushSizeBytes}, draw.viewport);
         vkCmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
                                  draw.commandsOffsetBytes, draw.commandCount,

@@ -26,6 +26,7 @@ gpu::BufferDesc descOf(const Slot& slot, const BufferInfo& info) {
             .sizeBytes = std::max<uint64_t>(info.sizeBytes, 16),
             .hostVisible = info.hostVisible,
             .indirect = info.indirect,
+            .vertexOrIndex = info.vertices,
             .texelFormat = info.texelFormat};
 }
 

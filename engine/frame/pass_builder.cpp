@@ -182,8 +182,24 @@ PassBuilder& PassBuilder::dispatchIndirect(BufferHandle arguments, uint64_t offs
     return *this;
 }
 
+PassBuilder& PassBuilder::parts(std::string_view name, BufferHandle buffer) {
+    readWrite(name, buffer);
+    graph_->impl_->uses.back().keyed = false;  // what it held before is kept or written over
+    return *this;
+}
+
+PassBuilder& PassBuilder::part(uint32_t firstGroup, uint32_t groupCount, uint64_t partKey) {
+    if (AG_PASS.partCount++ == 0) AG_PASS.firstPart = uint32_t(graph_->impl_->parts.size());
+    graph_->impl_->parts.push_back({firstGroup, groupCount, partKey});
+    AG_PASS.dispatch = {std::max(AG_PASS.dispatch.x, firstGroup + groupCount), 1, 1};
+    return *this;
+}
+
 PassBuilder& PassBuilder::geometry(const Geometry& geometry) {
     AG_PASS.geometry = geometry;
+    for (const BufferHandle buffer : {geometry.deformedPositions, geometry.deformedAttributes})
+        if (buffer)
+            graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kVertices, .keyed = false});
     return *this;
 }
 

@@ -30,6 +30,19 @@ struct MeshInstance {
     uint32_t movable = 0;  // 1: its transform changes while the level runs; then what stands still is kept
 };
 
+// A mesh bent by joints, beside a MeshInstance that is movable and an AnimationPlayer.
+struct Figure {
+    uint32_t model = 0;  // of the FigureLibrary
+};
+
+// Plays an animation of the asset: on a figure for its joints, elsewhere for the entity's own node.
+struct AnimationPlayer {
+    int32_t clip = 0;   // the animation; -1: none, a figure is at rest
+    float seconds = 0;  // since its start
+    float speed = 1;    // times its own; 0: holds
+    uint32_t loops = 1;
+};
+
 struct PunctualLight {         // shines along -Z
     glm::vec3 intensity{1};    // W/sr; directional: W/m²
     float range = 0;           // m, 0: none

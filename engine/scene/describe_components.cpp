@@ -19,6 +19,10 @@ void describeSceneComponents() {
     describe<MeshInstance>({field("firstPrimitive", &MeshInstance::firstPrimitive),
                             field("primitiveCount", &MeshInstance::primitiveCount),
                             field("movable", &MeshInstance::movable)});
+    describe<Figure>({field("model", &Figure::model)});
+    describe<AnimationPlayer>(
+        {field("clip", &AnimationPlayer::clip), field("seconds", &AnimationPlayer::seconds, "s"),
+         field("speed", &AnimationPlayer::speed), field("loops", &AnimationPlayer::loops)});
     describe<PunctualLight>({field("intensity", &PunctualLight::intensity, "W/sr, W/m²"),
                              field("range", &PunctualLight::range, "m"),
                              field("innerConeAngle", &PunctualLight::innerConeAngle, "rad"),

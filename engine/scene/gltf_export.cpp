@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <span>
 
 namespace ag {
 namespace {
@@ -52,6 +53,62 @@ int addAccessor(tinygltf::Model& model, const std::vector<T>& items, int compone
     return int(model.accessors.size() - 1);
 }
 
+void addSkin(tinygltf::Model& model, std::span<const SkinVertex> skin, tinygltf::Primitive& out) {
+    std::vector<glm::u16vec4> joints;
+    std::vector<glm::vec4> weights;
+    bool bent = false;
+    for (const SkinVertex& v : skin) {
+        const bool moved = v.weights != glm::vec4(0);  // others are in no triangle, or nothing bends the mesh
+        bent = bent || moved;
+        joints.push_back(v.joints);
+        weights.push_back(moved ? v.weights : glm::vec4(1, 0, 0, 0));
+    }
+    if (!bent) return;
+    const int buffer = TINYGLTF_TARGET_ARRAY_BUFFER;
+    out.attributes["JOINTS_0"] =
+        addAccessor(model, joints, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4, buffer);
+    out.attributes["WEIGHTS_0"] =
+        addAccessor(model, weights, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, buffer);
+}
+
+tinygltf::Skin skinOf(tinygltf::Model& model, const SceneSkin& s) {
+    tinygltf::Skin out;
+    out.name = s.name;
+    out.joints.assign(s.joints.begin(), s.joints.end());
+    out.inverseBindMatrices =
+        addAccessor(model, s.inverseBind, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4, 0);
+    return out;
+}
+
+int addValues(tinygltf::Model& model, const SceneChannel& c) {
+    if (c.path == ChannelPath::kRotation)
+        return addAccessor(model, c.values, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4, 0);
+    const std::vector<glm::vec3> values(c.values.begin(), c.values.end());
+    return addAccessor(model, values, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, 0);
+}
+
+tinygltf::Animation animationOf(tinygltf::Model& model, const SceneAnimation& a) {
+    static constexpr const char* kPaths[] = {"translation", "rotation", "scale"};
+    static constexpr const char* kInterpolations[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+    tinygltf::Animation out;
+    out.name = a.name;
+    for (const SceneChannel& c : a.channels) {
+        tinygltf::AnimationSampler sampler;
+        sampler.interpolation = kInterpolations[size_t(c.interpolation)];
+        sampler.input = addAccessor(model, c.times, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, 0);
+        model.accessors.back().minValues = {double(c.times.front())};
+        model.accessors.back().maxValues = {double(c.times.back())};
+        sampler.output = addValues(model, c);
+        tinygltf::AnimationChannel channel;
+        channel.sampler = int(out.samplers.size());
+        channel.target_node = int(c.node);
+        channel.target_path = kPaths[size_t(c.path)];
+        out.samplers.push_back(sampler);
+        out.channels.push_back(channel);
+    }
+    return out;
+}
+
 tinygltf::Primitive primitiveOf(tinygltf::Model& model, const GeometryArrays& g, const Primitive& p) {
     uint32_t vertices = 0;
     std::vector<uint32_t> indices(g.indices.begin() + p.firstIndex,
@@ -75,6 +132,7 @@ tinygltf::Primitive primitiveOf(tinygltf::Model& model, const GeometryArrays& g,
     if (!tangents.empty() && tangents[0] != glm::vec4(0))
         out.attributes["TANGENT"] = addAccessor(model, tangents, f, TINYGLTF_TYPE_VEC4, buffer);
     out.attributes["TEXCOORD_0"] = addAccessor(model, uvs, f, TINYGLTF_TYPE_VEC2, buffer);
+    if (!g.skin.empty()) addSkin(model, {g.skin.data() + p.vertexOffset, vertices}, out);
     out.indices = addAccessor(model, indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     out.material = int(p.material);
@@ -129,6 +187,7 @@ tinygltf::Node nodeOf(const SceneNode& n) {
     out.name = n.name;
     out.mesh = n.mesh;
     out.camera = n.camera;
+    out.skin = n.skin;
     out.translation = doubles(n.local.translation);
     out.rotation = {double(n.local.rotation.x), double(n.local.rotation.y), double(n.local.rotation.z),
                     double(n.local.rotation.w)};
@@ -144,6 +203,10 @@ tinygltf::Node nodeOf(const SceneNode& n) {
     if (e.flickerDepth > 0) extras["flickerDepth"] = number(double(e.flickerDepth));
     if (e.flickerPeriod > 0) extras["flickerPeriod"] = number(double(e.flickerPeriod));
     if (e.flickerOff > 0) extras["flickerOff"] = number(double(e.flickerOff));
+    if (e.clip != 0) extras["clip"] = tinygltf::Value(e.clip);
+    if (e.clipStart > 0) extras["clipStart"] = number(double(e.clipStart));
+    if (e.clipSpeed != 1) extras["clipSpeed"] = number(double(e.clipSpeed));
+    if (!e.clipLoops) extras["clipLoops"] = tinygltf::Value(false);
     addGameExtras(e, extras);
     if (!extras.empty()) out.extras = tinygltf::Value(extras);
     return out;
@@ -177,7 +240,6 @@ tinygltf::Camera cameraOf(const SceneCamera& c) {
 }  // namespace
 
 Status exportGlb(const SceneAsset& asset, const std::string& path) {
-    if (!asset.skins.empty()) return Error{path + ": scenes with skins are not written"};
     for (const Material& m : asset.geometry.materials)
         if (m.textureClass != TextureClass::kNone)
             return Error{path + ": scenes with textures are not written"};
@@ -203,6 +265,10 @@ Status exportGlb(const SceneAsset& asset, const std::string& path) {
         else
             scene.nodes.push_back(int(i));
     }
+    for (const SceneSkin& s : asset.skins)
+        model.skins.push_back(skinOf(model, s));
+    for (const SceneAnimation& a : asset.animations)
+        model.animations.push_back(animationOf(model, a));
     for (const SceneLight& l : asset.lights)
         model.lights.push_back(lightOf(l));
     for (const SceneCamera& c : asset.cameras)

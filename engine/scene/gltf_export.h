@@ -1,4 +1,5 @@
-// A SceneAsset as one .glb: geometry, materials without textures, nodes with extras, lights, cameras.
+// A SceneAsset as one .glb: geometry, materials without textures, nodes with extras, lights, cameras, skins,
+// animations.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace ag {
 
-// Assets with textures or skins are refused: only generated scenes are written.
+// Assets with textures are refused: only generated scenes are written.
 Status exportGlb(const SceneAsset& asset, const std::string& path);
 
 }  // namespace ag

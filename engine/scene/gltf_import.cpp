@@ -177,8 +177,10 @@ Result<SceneAsset> importGltf(const std::string& path, const ImportLimits& limit
     if (const gltf::Fault f = gltf::importTextures(model, asset, limits)) return fail(f);
     if (const gltf::Fault f = gltf::importMeshes(model, asset)) return fail(f);
     splitLargePrimitives(asset);
-    if (const gltf::Fault f = gltf::importNodes(model, asset)) return fail(f);
-    if (!model.animations.empty()) asset.warnings.push_back("its animations are not played");
+    std::vector<int32_t> newIndex;
+    if (const gltf::Fault f = gltf::importNodes(model, asset, newIndex)) return fail(f);
+    if (const gltf::Fault f = gltf::importSkins(model, newIndex, asset, limits)) return fail(f);
+    if (const gltf::Fault f = gltf::importAnimations(model, newIndex, asset)) return fail(f);
     return asset;
 }
 

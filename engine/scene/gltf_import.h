@@ -1,6 +1,6 @@
 // glTF 2.0 files (.gltf, .glb) to a SceneAsset. tinygltf parses; everything it lets pass is checked here, so
-// that a hostile file gives a sentence and nothing else. URIs never leave the file's own folder. Animations
-// are not imported.
+// that a hostile file gives a sentence and nothing else. URIs never leave the file's own folder. Morph
+// targets are not imported.
 #pragma once
 
 #include <string>
@@ -19,6 +19,8 @@ struct ImportLimits {
     uint64_t zeroElements = 1 << 20;  // of an accessor that no data stand behind
     uint32_t nodes = 1'000'000;
     uint32_t nodeDepth = 1024;
+    uint64_t joints = 1'000'000;      // of all skins together
+    uint64_t keyValues = 20'000'000;  // of all animations' channels together
     uint32_t imageSide = 16384;
     uint64_t imageTexels = uint64_t(1) << 28;  // of all images together
     uint64_t layerTexels = uint64_t(1) << 29;  // of all textures, resampled to the sizes of their classes

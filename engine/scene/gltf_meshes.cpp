@@ -124,18 +124,6 @@ size_t repairNormals(Triangles& t) {
     return repaired;
 }
 
-void readSkin(const tinygltf::Model& model, const tinygltf::Primitive& p, Triangles& t) {
-    const int joints = attribute(p, "JOINTS_0"), weights = attribute(p, "WEIGHTS_0");
-    if (joints < 0 || weights < 0) return;
-    const std::vector<uint32_t> j = readUints(model, joints, 4);
-    t.skin.resize(t.positions.size());
-    for (size_t i = 0; i < t.positions.size(); ++i)
-        for (int c = 0; c < 4; ++c)
-            t.skin[i].joints[c] = uint16_t(j[i * 4 + size_t(c)]);
-    fill<glm::vec4>(model, weights, t.positions.size(),
-                    [&](size_t i, glm::vec4 w) { t.skin[i].weights = w; });
-}
-
 Fault readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& p, const std::string& what,
                     Triangles& t, std::vector<std::string>& warnings) {
     const int position = attribute(p, "POSITION");
@@ -154,7 +142,7 @@ Fault readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& p, 
                     [&](size_t i, glm::vec4 v) { t.attributes[i].tangent = v; });
     fill<glm::vec2>(model, attribute(p, "TEXCOORD_0"), vertices,
                     [&](size_t i, glm::vec2 v) { t.attributes[i].uv = v; });
-    readSkin(model, p, t);
+    if (Fault f = readSkin(model, p, what, t.skin)) return f;
 
     t.indices = toList(indicesOf(model, p, vertices), p.mode);
     for (uint32_t index : t.indices)
@@ -183,7 +171,7 @@ void append(Triangles&& t, uint32_t material, bool skinned, SceneAsset& asset) {
     g.indices.insert(g.indices.end(), t.indices.begin(), t.indices.end());
     if (skinned) {
         t.skin.resize(t.positions.size());
-        asset.skinVertices.insert(asset.skinVertices.end(), t.skin.begin(), t.skin.end());
+        g.skin.insert(g.skin.end(), t.skin.begin(), t.skin.end());
     }
     g.primitives.push_back(primitive);
 }

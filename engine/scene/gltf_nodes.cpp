@@ -1,4 +1,4 @@
-// The node tree in parents-first order, with lights, cameras and skins.
+// The node tree in parents-first order, with lights and cameras.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -83,6 +83,10 @@ NodeExtras extrasOf(const tinygltf::Value& extras) {
     out.flickerDepth = std::clamp(floatOf(extras, "flickerDepth", 0), 0.0f, 1.0f);
     out.flickerPeriod = std::max(floatOf(extras, "flickerPeriod", 0), 0.0f);
     out.flickerOff = std::clamp(floatOf(extras, "flickerOff", 0), 0.0f, 1.0f);
+    out.clip = int32_t(std::clamp(numberOf(extras, "clip", 0), -1.0, 1e6));
+    out.clipStart = std::max(floatOf(extras, "clipStart", 0), 0.0f);
+    out.clipSpeed = floatOf(extras, "clipSpeed", 1);
+    out.clipLoops = flagOf(extras, "clipLoops", true);
     return out;
 }
 
@@ -132,25 +136,9 @@ Fault checkPlaces(const SceneAsset& asset) {
     return std::nullopt;
 }
 
-void importSkins(const tinygltf::Model& model, const std::vector<int32_t>& newIndex, SceneAsset& asset) {
-    for (const tinygltf::Skin& s : model.skins) {
-        SceneSkin skin{.name = s.name};
-        for (int joint : s.joints)
-            skin.joints.push_back(uint32_t(std::max(newIndex[size_t(joint)], 0)));
-        skin.inverseBind.resize(s.joints.size(), glm::mat4(1));
-        if (s.inverseBindMatrices >= 0) {
-            const std::vector<float> values = readFloats(model, s.inverseBindMatrices, 16);
-            for (size_t j = 0; j < s.joints.size(); ++j)
-                for (int k = 0; k < 16; ++k)
-                    skin.inverseBind[j][k / 4][k % 4] = values[j * 16 + size_t(k)];
-        }
-        asset.skins.push_back(std::move(skin));
-    }
-}
-
 }  // namespace
 
-Fault importNodes(const tinygltf::Model& model, SceneAsset& asset) {
+Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, std::vector<int32_t>& newIndex) {
     // Roots: of the default scene, else of the first, else every node without a parent.
     std::vector<std::pair<int, int32_t>> pending;  // node, new index of its parent
     const int scene = model.defaultScene >= 0 ? model.defaultScene : model.scenes.empty() ? -1 : 0;
@@ -168,7 +156,7 @@ Fault importNodes(const tinygltf::Model& model, SceneAsset& asset) {
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
         pending.push_back({*root, -1});
 
-    std::vector<int32_t> newIndex(model.nodes.size(), -1);
+    newIndex.assign(model.nodes.size(), -1);
     while (!pending.empty()) {
         const auto [old, parent] = pending.back();
         pending.pop_back();
@@ -192,7 +180,6 @@ Fault importNodes(const tinygltf::Model& model, SceneAsset& asset) {
         asset.lights.push_back(lightFrom(l));
     for (const tinygltf::Camera& c : model.cameras)
         asset.cameras.push_back(cameraFrom(c));
-    importSkins(model, newIndex, asset);
     return std::nullopt;
 }
 

@@ -203,21 +203,6 @@ Fault checkNodes(const tinygltf::Model& model, const ImportLimits& limits) {
     return std::nullopt;
 }
 
-Fault checkSkins(const tinygltf::Model& model) {
-    for (size_t i = 0; i < model.skins.size(); ++i) {
-        const tinygltf::Skin& s = model.skins[i];
-        for (int joint : s.joints)
-            if (!inside(joint, model.nodes))
-                return fmt::format("skin {} names joint {}, which does not exist", i, joint);
-        if (s.inverseBindMatrices == -1) continue;
-        if (!inside(s.inverseBindMatrices, model.accessors) ||
-            model.accessors[size_t(s.inverseBindMatrices)].type != TINYGLTF_TYPE_MAT4 ||
-            model.accessors[size_t(s.inverseBindMatrices)].count < s.joints.size())
-            return fmt::format("skin {} has bad inverse bind matrices", i);
-    }
-    return std::nullopt;
-}
-
 Fault checkLights(const tinygltf::Model& model) {
     for (size_t i = 0; i < model.nodes.size(); ++i) {
         const auto found = model.nodes[i].extensions.find("KHR_lights_punctual");
@@ -277,7 +262,8 @@ Fault validate(const tinygltf::Model& model, const ImportLimits& limits) {
     if (Fault f = checkMeshes(model, limits)) return f;
     if (Fault f = checkMaterials(model)) return f;
     if (Fault f = checkNodes(model, limits)) return f;
-    if (Fault f = checkSkins(model)) return f;
+    if (Fault f = checkSkins(model, limits)) return f;
+    if (Fault f = checkAnimations(model, limits)) return f;
     if (Fault f = checkLights(model)) return f;
     return checkImages(model, limits);
 }

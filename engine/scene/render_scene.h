@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/type_precision.hpp>
 
 namespace ag {
 
@@ -24,6 +25,12 @@ struct VertexAttributes {  // 36 bytes: gpu::VertexLayout::kPositionsAndAttribut
     glm::vec3 normal{0, 1, 0};
     glm::vec4 tangent{1, 0, 0, 1};  // w: handedness; all zero: derive it in the shader
     glm::vec2 uv{0};
+};
+
+// By how much which joints of a figure move a vertex.
+struct SkinVertex {
+    glm::u16vec4 joints{0};
+    glm::vec4 weights{0};  // none negative, 1 together
 };
 
 // A range of the index buffer drawn with one material.
@@ -72,6 +79,7 @@ struct TextureLayers {
 struct GeometryArrays {  // fixed once loaded
     std::vector<glm::vec3> positions;
     std::vector<VertexAttributes> attributes;
+    std::vector<SkinVertex> skin;  // empty, or one a position
     std::vector<uint32_t> indices;
     std::vector<Primitive> primitives;
     std::vector<Material> materials;
@@ -79,11 +87,26 @@ struct GeometryArrays {  // fixed once loaded
     uint64_t version = 1;
 };
 
+constexpr uint32_t kNoFigure = ~0u;
+
 // One drawn primitive. The row's index is its slot on the GPU.
 struct RenderInstance {
     glm::mat4x3 worldFromLocal{1};  // relative to the origin
     uint32_t primitive = 0;
     bool movable = false;  // others may move too, but then what was kept of all that stands still is lost
+    uint32_t figure = kNoFigure;  // of RenderScene::figures: its vertices are that one's own; then movable
+};
+
+// Each figure's vertices begin at a multiple of this, so that a group of the device has those of one only.
+constexpr uint32_t kFigureAlignment = 64;
+
+// A mesh bent by joints: it has a deformed copy of the mesh's vertices, in the frame of its instances.
+struct RenderFigure {
+    uint32_t firstVertex = 0, vertexCount = 0;  // of GeometryArrays: the mesh as it was modelled
+    uint32_t firstDeformed = 0;                 // of all figures' vertices end to end
+    uint32_t firstJoint = 0, jointCount = 0;    // of RenderScene::joints
+    Bounds boundsLocal;                         // of the mesh as it is bent
+    uint64_t poseVersion = 1;                   // equal numbers mean equal joints
 };
 
 enum class LightKind : uint32_t { kDirectional, kPoint, kSpot };
@@ -127,6 +150,8 @@ struct RenderScene {
     const GeometryArrays* geometry = nullptr;
     glm::dvec3 originWorld{0};  // m
     std::vector<RenderInstance> instances;
+    std::vector<RenderFigure> figures;  // who they are changes with all instances
+    std::vector<glm::mat3x4> joints;    // rows of 3x4 matrices: a figure's frame from its mesh as modelled
     std::vector<RenderLight> lights;
     std::vector<RenderProbe> probes;
     RenderCamera camera;
@@ -143,8 +168,21 @@ struct RenderScene {
     struct Range {
         uint32_t begin = 0, end = 0;
     };
-    std::vector<Range> changedInstances;
+    std::vector<Range> changedInstances;  // those of a figure also when its joints moved
     bool allInstancesChanged = true;
 };
+
+inline const Bounds& boundsLocal(const RenderScene& scene, const RenderInstance& instance) {
+    return instance.figure == kNoFigure ? scene.geometry->primitives[instance.primitive].boundsLocal
+                                        : scene.figures[instance.figure].boundsLocal;
+}
+
+// The vertex that the primitive's index 0 means: of the geometry, or of all figures' deformed ones.
+inline int32_t firstVertexOf(const RenderScene& scene, const RenderInstance& instance) {
+    const int32_t offset = scene.geometry->primitives[instance.primitive].vertexOffset;
+    if (instance.figure == kNoFigure) return offset;
+    const RenderFigure& figure = scene.figures[instance.figure];
+    return offset - int32_t(figure.firstVertex) + int32_t(figure.firstDeformed);
+}
 
 }  // namespace ag

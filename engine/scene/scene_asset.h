@@ -1,5 +1,5 @@
 // An imported or generated scene as plain data: geometry ready for the GPU, a node tree, lights, cameras,
-// skins.
+// skins, animations.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -42,6 +42,11 @@ struct NodeExtras {
     float least = 0;     // rad, where the hinge stops; least > most: it does not
     float most = 0;      // rad
     float swing = 0;     // rad, of a pendulum; its rest is straight down
+    // Of a node that moves by an animation or whose mesh is bent by one
+    int32_t clip = 0;     // the animation, -1: none
+    float clipStart = 0;  // s
+    float clipSpeed = 1;  // times its own; 0: it holds the pose
+    bool clipLoops = true;
 };
 
 struct SceneNode {
@@ -78,10 +83,22 @@ struct SceneSkin {
     std::vector<glm::mat4> inverseBind;  // one a joint
 };
 
-// Per vertex, only when the file has skins; parallel to the positions.
-struct SkinVertex {
-    glm::u16vec4 joints{0};
-    glm::vec4 weights{0};
+enum class ChannelPath : uint32_t { kTranslation, kRotation, kScale };
+enum class Interpolation : uint32_t { kStep, kLinear, kCubic };
+
+// What happens to one part of a node's transform.
+struct SceneChannel {
+    uint32_t node = 0;
+    ChannelPath path = ChannelPath::kTranslation;
+    Interpolation interpolation = Interpolation::kLinear;
+    std::vector<float> times;       // s, rising
+    std::vector<glm::vec4> values;  // rotations: x y z w; one a time, kCubic: tangent in, value, tangent out
+};
+
+struct SceneAnimation {
+    std::string name;
+    float duration = 0;  // s, when its last channel ends
+    std::vector<SceneChannel> channels;
 };
 
 struct SceneAsset {
@@ -92,7 +109,7 @@ struct SceneAsset {
     std::vector<SceneLight> lights;
     std::vector<SceneCamera> cameras;
     std::vector<SceneSkin> skins;
-    std::vector<SkinVertex> skinVertices;
+    std::vector<SceneAnimation> animations;
     std::vector<std::string> warnings;  // one sentence each
 };
 

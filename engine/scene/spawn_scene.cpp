@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/components.h"
+#include "engine/scene/figure.h"
 #include "engine/scene/mover.h"
 #include "engine/scene/transform_system.h"
 
@@ -35,11 +36,72 @@ void addMover(World& world, const SceneNode& node, Entity entity) {
     if (MeshInstance* mesh = world.write<MeshInstance>(entity)) mesh->movable = 1;
 }
 
+AnimationPlayer playerOf(const NodeExtras& extras) {
+    return {extras.clip, extras.clipStart, extras.clipSpeed, extras.clipLoops};
+}
+
+// A figure stands in the frame its joints hang from, whatever node shows it: it is an entity of its own.
+// Returns its depth.
+uint32_t addFigure(World& world, const SceneAsset& asset, const FigureLibrary& library, size_t node,
+                   std::vector<Entity>& entities) {
+    const auto model = uint32_t(library.modelOfNode[node]);
+    const SceneMesh& mesh = asset.meshes[library.models[model].mesh];
+    const Entity entity = world.create(LocalTransform{.node = uint32_t(node)}, WorldTransform{},
+                                       makeName(asset.nodes[node].name),
+                                       MeshInstance{mesh.firstPrimitive, mesh.primitiveCount, 1},
+                                       Figure{model}, playerOf(asset.nodes[node].extras));
+    entities.push_back(entity);
+    const int32_t frame = library.models[model].frame;
+    if (frame < 0) return 0;
+    const uint32_t depth = asset.nodes[size_t(frame)].depth + 1;
+    world.add(entity, Parent{entities[size_t(frame)]});
+    world.add(entity, HierarchyDepth{depth});
+    return depth;
+}
+
+// Nodes that an animation moves and from which something hangs that is seen. Joints alone are not seen:
+// figures know where they are.
+std::vector<size_t> movingNodes(const SceneAsset& asset, const FigureLibrary& library) {
+    std::vector<bool> seen(asset.nodes.size(), false);
+    for (const FigureModel& model : library.models)
+        if (model.frame >= 0) seen[size_t(model.frame)] = true;
+    for (size_t i = asset.nodes.size(); i-- > 0;) {
+        const SceneNode& n = asset.nodes[i];
+        if ((n.mesh >= 0 && library.modelOfNode[i] < 0) || n.light >= 0 || n.camera >= 0) seen[i] = true;
+        if (seen[i] && n.parent >= 0) seen[size_t(n.parent)] = true;
+    }
+    std::vector<bool> moves(asset.nodes.size(), false);
+    for (const SceneAnimation& animation : asset.animations)
+        for (const SceneChannel& channel : animation.channels)
+            moves[channel.node] = true;
+    std::vector<size_t> nodes;
+    for (size_t i = 0; i < asset.nodes.size(); ++i)
+        if (seen[i] && moves[i]) nodes.push_back(i);
+    return nodes;
+}
+
+// They and what hangs from them is movable.
+void addPlayers(World& world, const SceneAsset& asset, const FigureLibrary& library,
+                const std::vector<Entity>& entities) {
+    std::vector<bool> moved(asset.nodes.size(), false);
+    for (const size_t node : movingNodes(asset, library)) {
+        world.add(entities[node], playerOf(asset.nodes[node].extras));
+        moved[node] = true;
+    }
+    for (size_t i = 0; i < asset.nodes.size(); ++i) {
+        const int32_t parent = asset.nodes[i].parent;
+        moved[i] = moved[i] || (parent >= 0 && moved[size_t(parent)]);
+        if (!moved[i]) continue;
+        if (MeshInstance* mesh = world.write<MeshInstance>(entities[i])) mesh->movable = 1;
+    }
+}
+
 }  // namespace
 
 std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
     std::vector<Entity> entities;
     uint32_t deepest = 0;
+    const FigureLibrary& library = world.setResource<FigureLibrary>(makeFigureLibrary(asset));
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
         const LocalTransform local{node.local.translation, node.local.rotation, node.local.scale,
@@ -51,7 +113,7 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
             world.add(entity, Parent{entities[size_t(node.parent)]});
             world.add(entity, HierarchyDepth{node.depth});
         }
-        if (node.mesh >= 0) {
+        if (node.mesh >= 0 && library.modelOfNode[i] < 0) {
             const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
             world.add(entity, MeshInstance{mesh.firstPrimitive, mesh.primitiveCount});
         }
@@ -63,6 +125,10 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
     }
     for (size_t i = 0; i < asset.nodes.size(); ++i)
         addMover(world, asset.nodes[i], entities[i]);
+    for (size_t i = 0; i < asset.nodes.size(); ++i)
+        if (library.modelOfNode[i] >= 0)
+            deepest = std::max(deepest, addFigure(world, asset, library, i, entities));
+    addPlayers(world, asset, library, entities);
     for (size_t node : strongestLights(asset))
         world.add(entities[node], BounceLight{});
     world.setResource<HierarchyLevels>(deepest);

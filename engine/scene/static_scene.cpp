@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/scene/figure.h"
 #include "engine/scene/projection.h"
 
 namespace ag {
@@ -38,6 +39,17 @@ RenderLight lightOf(const SceneLight& light, const WorldPlacement& place, const 
                     .id = id};
     out.direction = glm::normalize(place.linear * glm::vec3(0, 0, -1));
     return out;
+}
+
+// As it is when its animation starts.
+uint32_t placeFigure(const FigureLibrary& library, uint32_t model, const SceneNode& node,
+                     RenderScene& scene) {
+    const uint32_t figure = addFigure(library.models[model], scene);
+    const RenderFigure& row = scene.figures[figure];
+    poseFigure(library, model, node.extras.clip, node.extras.clipStart,
+               std::span(scene.joints).subspan(row.firstJoint, row.jointCount));
+    finishPose(library.models[model], scene, figure);
+    return figure;
 }
 
 float strength(const RenderLight& light) {
@@ -126,6 +138,7 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
     RenderScene scene;
     scene.geometry = &asset.geometry;
     const std::vector<WorldPlacement> places = placeNodes(asset);
+    const FigureLibrary library = makeFigureLibrary(asset);
     scene.originWorld = originWorld;
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
@@ -136,12 +149,16 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
             scene.lights.back().castsShadow = node.extras.castsShadow;
         }
         if (node.mesh < 0) continue;
+        const int32_t model = library.modelOfNode[i];
+        const uint32_t figure = model < 0 ? kNoFigure : placeFigure(library, uint32_t(model), node, scene);
+        const int32_t frame = model < 0 ? int32_t(i) : library.models[size_t(model)].frame;
+        const WorldPlacement place = frame < 0 ? WorldPlacement{} : places[size_t(frame)];
         const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
-        const glm::mat3& m = places[i].linear;
-        const glm::mat4x3 world(m[0], m[1], m[2], glm::vec3(places[i].translation - scene.originWorld));
+        const glm::mat3& m = place.linear;
+        const glm::mat4x3 world(m[0], m[1], m[2], glm::vec3(place.translation - scene.originWorld));
         for (uint32_t p = mesh.firstPrimitive; p < mesh.firstPrimitive + mesh.primitiveCount; ++p) {
-            scene.instances.push_back({world, p});
-            scene.bounds.add(boundsOf(asset.geometry.primitives[p].boundsLocal, world));
+            scene.instances.push_back({world, p, model >= 0, figure});
+            scene.bounds.add(boundsOf(boundsLocal(scene, scene.instances.back()), world));
         }
     }
     chooseBounceLights(scene.lights);

@@ -16,11 +16,13 @@ using std::acos, std::cos, std::exp2, std::log2, std::pow, std::sin, std::sqrt;
 }  // namespace ag::io
 #define AG_FUNCTION inline
 #define AG_OUT(T) T&
+#define AG_INOUT(T) T&
 #define AG_BEGIN namespace ag::io {
 #define AG_END }
 #else
 #define AG_FUNCTION
 #define AG_OUT(T) out T
+#define AG_INOUT(T) inout T
 #define AG_BEGIN
 #define AG_END
 #endif

@@ -12,7 +12,7 @@ layout(set = 0, binding = 0) uniform samplerBuffer instances;
 
 struct InstanceTransform {
     vec4 row0, row1, row2;
-    uint material;
+    uint material, figure;
 };
 
 InstanceTransform fetchInstance(int slot) {
@@ -20,7 +20,9 @@ InstanceTransform fetchInstance(int slot) {
     t.row0 = texelFetch(instances, slot * 4 + 0);
     t.row1 = texelFetch(instances, slot * 4 + 1);
     t.row2 = texelFetch(instances, slot * 4 + 2);
-    t.material = floatBitsToUint(texelFetch(instances, slot * 4 + 3).x);
+    vec4 ids = texelFetch(instances, slot * 4 + 3);
+    t.material = floatBitsToUint(ids.x);
+    t.figure = floatBitsToUint(ids.z);
     return t;
 }
 

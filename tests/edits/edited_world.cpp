@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/scene/extract_system.h"
+#include "engine/scene/animation_system.h"
 #include "engine/scene/spawn_scene.h"
 #include "engine/scene/transform_system.h"
 #include "gi/gi_systems.h"
+#include "tools/scenegen/builder.h"
+#include "tools/scenegen/figures.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::test {
@@ -18,7 +20,15 @@ constexpr size_t kMostThings = 28, kMostLights = 7;
 
 // Every kind of surface the passes tell apart.
 SceneAsset variedHall() {
-    SceneAsset asset = *scenegen::buildScene("hall", 0);
+    scenegen::SceneBuilder b(*scenegen::buildScene("hall", 0));
+    const scenegen::PillarShape shape{.joints = 3, .rings = 8, .sides = 8};
+    const uint32_t figure = b.model("figure", scenegen::pillarParts(shape, 2, 1), glm::vec3(0));
+    b.attach(figure, b.place("under a figure", {1, 0.2f, 1}));
+    const auto mesh = uint32_t(b.node(figure).mesh);
+    SceneAsset asset = b.finish();
+    scenegen::addChains(asset, mesh, shape, 1);
+    asset.nodes[figure].extras.clipSpeed = 0;
+    asset.nodes[figure].extras.clipLoops = false;  // comes to rest by itself
     std::vector<Material>& materials = asset.geometry.materials;
     materials[0].alphaMode = AlphaMode::kMask;
     materials[1].doubleSided = true;
@@ -53,16 +63,23 @@ EditedWorld::EditedWorld(uint32_t seed) : random_(seed), asset_(variedHall()), s
         if (world_.has<MeshInstance>(entity)) things_.push_back(entity);
         if (world_.has<PunctualLight>(entity)) lights_.push_back(entity);
     }
-    for (const Entity thing : things_)
+    for (const Entity thing : things_) {
         meshes_.push_back(*world_.get<MeshInstance>(thing));
+        if (world_.has<Figure>(thing)) figureMesh_ = meshes_.back();
+    }
     spawnLight(LightKind::kDirectional);
     for (const glm::dvec3 place : {glm::dvec3(-2, 1, 0), glm::dvec3(3, 1, 2)})
         world_.create(LocalTransform{.translation = place}, WorldTransform{}, gi::IrradianceProbe{});
     world_.setResource<ExtractState>();
     world_.setResource<ActiveCamera>(cameraOf(asset_, 0), size_);
     world_.setResource<RenderScene>().geometry = &asset_.geometry;
+    schedule_.add("playAnimations",
+                  [](View<AnimationPlayer> players, Res<const FigureLibrary> library, JobRunner& runner) {
+                      advancePlayers(players, *library, 1.0f / 30, runner);
+                  });
     schedule_.add("updateRootTransforms", updateRootTransforms);
     schedule_.add("updateChildTransforms", updateChildTransforms);
+    schedule_.add("poseFigures", poseFigures);
     schedule_.add("extractScene", extractScene);
     schedule_.add("extractProbes", gi::extractProbes);
 }
@@ -80,12 +97,12 @@ std::string EditedWorld::edit() {
         std::string (EditedWorld::*apply)();
     };
     static constexpr std::array kKinds = {
-        Kind{20, &EditedWorld::moveThing},   Kind{5, &EditedWorld::addThing},
-        Kind{5, &EditedWorld::removeThing},  Kind{14, &EditedWorld::switchLight},
-        Kind{9, &EditedWorld::moveLight},    Kind{4, &EditedWorld::addLight},
-        Kind{4, &EditedWorld::removeLight},  Kind{14, &EditedWorld::moveCamera},
-        Kind{3, &EditedWorld::resize},       Kind{9, &EditedWorld::changeSetting},
-        Kind{3, &EditedWorld::resetSettings}};
+        Kind{20, &EditedWorld::moveThing},    Kind{5, &EditedWorld::addThing},
+        Kind{5, &EditedWorld::removeThing},   Kind{14, &EditedWorld::switchLight},
+        Kind{9, &EditedWorld::moveLight},     Kind{4, &EditedWorld::addLight},
+        Kind{4, &EditedWorld::removeLight},   Kind{14, &EditedWorld::moveCamera},
+        Kind{6, &EditedWorld::poseFigure},    Kind{3, &EditedWorld::resize},
+        Kind{9, &EditedWorld::changeSetting}, Kind{3, &EditedWorld::resetSettings}};
     uint32_t at = below(100);
     for (const Kind& kind : kKinds) {
         if (at < kind.weight) return (this->*kind.apply)();
@@ -119,6 +136,25 @@ std::string EditedWorld::removeThing() {
     world_.destroy(things_[pick]);
     things_.erase(things_.begin() + pick);
     return fmt::format("removed thing {}", pick);
+}
+
+// Starts, stops, takes another pose or its rest; now and then another figure comes.
+std::string EditedWorld::poseFigure() {
+    std::vector<Entity> figures;
+    for (const Entity thing : things_)
+        if (world_.has<Figure>(thing)) figures.push_back(thing);
+    if (figures.empty() || (figures.size() < 3 && below(5) == 0)) {
+        things_.push_back(world_.create(LocalTransform{.translation = glm::dvec3(inside()), .node = 0},
+                                        WorldTransform{}, figureMesh_, Figure{},
+                                        AnimationPlayer{.seconds = between(0, 1), .speed = 0, .loops = 0}));
+        return "added a figure";
+    }
+    const uint32_t pick = below(figures.size()), what = below(4);
+    AnimationPlayer& player = *world_.write<AnimationPlayer>(figures[pick]);
+    if (what < 2) player.speed = player.speed == 0 ? between(-1, 2) : 0;
+    if (what == 2) player.seconds = between(0, 1);
+    if (what == 3) player.clip = player.clip < 0 ? 0 : -1;
+    return fmt::format("posed figure {} ({})", pick, what);
 }
 
 // Off and on again, or something about it that does not move it.

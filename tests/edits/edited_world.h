@@ -32,6 +32,7 @@ class EditedWorld {
     std::string moveThing();
     std::string addThing();
     std::string removeThing();
+    std::string poseFigure();
     std::string switchLight();
     std::string moveLight();
     std::string addLight();
@@ -51,8 +52,9 @@ class EditedWorld {
     World world_;
     Schedule schedule_;
     JobRunner runner_{1};
-    std::vector<Entity> things_, lights_;
-    std::vector<MeshInstance> meshes_;  // that a new thing may have
+    std::vector<Entity> things_, lights_;  // figures are things too
+    std::vector<MeshInstance> meshes_;     // that a new thing may have
+    MeshInstance figureMesh_;
     glm::uvec2 size_{48, 32};
     gi::GiSettings settings_;
     Settings registry_;  // defaults: small and quick

@@ -1,6 +1,7 @@
 // glTF and GLB files to the importer; what it lets through must hold together.
 #include <cmath>
 
+#include "engine/scene/deform.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/static_scene.h"
 #include "tests/fuzz/as_file.h"
@@ -23,6 +24,15 @@ void checkAsset(const ag::SceneAsset& asset) {
     const ag::RenderScene scene = ag::staticScene(asset);
     for (const ag::RenderInstance& i : scene.instances)
         require(i.primitive < g.primitives.size() && std::isfinite(glm::length(i.worldFromLocal[3])));
+    ag::SceneAsset moved = asset;
+    for (ag::SceneNode& node : moved.nodes)
+        node.extras.clipStart = 0.37f;
+    for (const ag::RenderScene& posed : {scene, ag::staticScene(moved)}) {
+        const ag::DeformedVertices bent = ag::deformFigures(posed);
+        for (const ag::RenderFigure& f : posed.figures)
+            for (uint32_t v = 0; v < f.vertexCount; ++v)
+                require(std::isfinite(glm::length(glm::dvec3(bent.positions[f.firstDeformed + v]))));
+    }
 }
 
 }  // namespace
@@ -33,6 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
                                   .indices = 300'000,
                                   .zeroElements = 1000,
                                   .nodes = 1000,
+                                  .joints = 10'000,
+                                  .keyValues = 100'000,
                                   .imageSide = 512,
                                   .imageTexels = 1 << 18,
                                   .layerTexels = 1 << 20};

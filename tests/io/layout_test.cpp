@@ -14,6 +14,7 @@
 #include "shaders/rsm/rsm_io.h"
 #include "shaders/scene/scene_io.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
+#include "shaders/skinning/skinning_io.h"
 #include "shaders/surface_points/surface_points_io.h"
 #include "shaders/val_clustering/val_clustering_io.h"
 #include "shaders/val_fit/val_fit_io.h"
@@ -52,6 +53,15 @@ const std::map<std::string, Layout>& layouts() {
          {sizeof(io::ShadowView),
           {AG_MEMBER(ShadowView, clipFromWorld), AG_MEMBER(ShadowView, origin), AG_MEMBER(ShadowView, size),
            AG_MEMBER(ShadowView, texelSize), AG_MEMBER(ShadowView, farDistance)}}},
+        {"SkinFigure",
+         {sizeof(io::SkinFigure),
+          {AG_MEMBER(SkinFigure, firstVertex), AG_MEMBER(SkinFigure, vertexCount),
+           AG_MEMBER(SkinFigure, firstDeformed), AG_MEMBER(SkinFigure, firstJoint)}}},
+        {"SkinnedVertex",
+         {sizeof(io::SkinnedVertex), {AG_MEMBER(SkinnedVertex, joints), AG_MEMBER(SkinnedVertex, weights)}}},
+        {"VertexRow",
+         {sizeof(io::VertexRow),
+          {AG_MEMBER(VertexRow, normal), AG_MEMBER(VertexRow, tangent), AG_MEMBER(VertexRow, uv)}}},
         {"Probe",
          {sizeof(io::Probe),
           {AG_MEMBER(Probe, position), AG_MEMBER(Probe, idLow), AG_MEMBER(Probe, normal),

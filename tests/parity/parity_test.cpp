@@ -57,6 +57,23 @@ TEST(Parity, DirectLight) {
     }
 }
 
+// Figures bent as their animation says: both see the same pose.
+TEST(Parity, PosedFigures) {
+    Parity p("figures", 9);
+    const reference::Reference truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512});
+    const ImageDifference direct = differ(truth.bounces[0], p.render(Layer::kDirect, {}, 2));
+    const ImageDifference bounce = differ(truth.bounces[1], p.render(Layer::kBounce1, {}, 60));
+    std::printf("figures: direct %.4f, bounce %.4f of the truth (relative RMSE %.3f, %.3f)\n",
+                direct.meanRatio, bounce.meanRatio, direct.relativeRmse, bounce.relativeRmse);
+    EXPECT_NEAR(direct.meanRatio, 1, 0.02);
+    EXPECT_NEAR(bounce.meanRatio, 1, 0.05);
+    const Image depth = p.render(Layer::kDepth, {}, 1);
+    int off = 0;
+    for (size_t i = 0; i < depth.pixels.size(); ++i)
+        off += std::abs(depth.pixels[i].x - truth.depth.pixels[i].x) > 2e-3f;
+    EXPECT_LT(off, 60) << "pixels that see another surface: only along silhouettes";
+}
+
 TEST(Parity, GBuffer) {
     Parity p("cornell");
     const reference::Reference truth = p.trace({.paths = {.bounces = 0}});

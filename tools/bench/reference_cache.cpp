@@ -69,6 +69,8 @@ uint64_t sceneHash(const RenderScene& scene) {
                 h = hashArray(texels, h);
     for (const RenderInstance& i : scene.instances)
         h = hashValue(i.worldFromLocal, combineHash(h, i.primitive));
+    for (const RenderFigure& f : scene.figures)
+        h = combineHash(combineHash(h, f.firstVertex), f.poseVersion);
     for (const RenderLight& l : scene.lights)
         h = hashLight(l, h);
     return hashValue(scene.camera.clipFromWorld, h);

@@ -47,7 +47,7 @@ glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t laye
 
 }  // namespace
 
-RayScene::RayScene(const RenderScene& scene) : scene_(scene) {
+RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformFigures(scene)) {
     device_ = rtcNewDevice(nullptr);
     AG_CHECK(device_ != nullptr);
     rtc_ = rtcNewScene(device_);
@@ -61,18 +61,19 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene) {
         uint32_t vertices = 0;
         for (uint32_t i = 0; i < p.indexCount; ++i)
             vertices = std::max(vertices, g.indices[p.firstIndex + i] + 1);
+        const VertexPointers local = verticesOf(scene, deformed_, instance);
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertices));
         for (uint32_t v = 0; v < vertices; ++v)
-            positions[v] = instance.worldFromLocal * glm::vec4(g.positions[size_t(p.vertexOffset) + v], 1);
+            positions[v] = instance.worldFromLocal * glm::vec4(local.positions[v], 1);
         auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
             geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, p.indexCount / 3));
         std::copy_n(g.indices.begin() + p.firstIndex, p.indexCount, indices);
         const glm::mat3 linear(instance.worldFromLocal[0], instance.worldFromLocal[1],
                                instance.worldFromLocal[2]);
         parts_.push_back(
-            std::make_unique<Part>(Part{&instance, &p, linear, glm::transpose(glm::inverse(linear)),
+            std::make_unique<Part>(Part{&instance, &p, local, linear, glm::transpose(glm::inverse(linear)),
                                         glm::determinant(linear) < 0, material.doubleSided}));
         if (material.alphaMode == AlphaMode::kMask) {
             rtcSetGeometryUserData(geometry, this);
@@ -98,7 +99,7 @@ RayScene::~RayScene() {
 glm::vec2 RayScene::uvAt(const Part& part, uint32_t triangle, float u, float v) const {
     const GeometryArrays& g = *scene_.geometry;
     const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
-    const VertexAttributes* a = &g.attributes[size_t(part.primitive->vertexOffset)];
+    const VertexAttributes* a = part.vertices.attributes;
     return a[i[0]].uv * (1 - u - v) + a[i[1]].uv * u + a[i[2]].uv * v;
 }
 
@@ -176,7 +177,7 @@ glm::vec3 RayScene::shadingNormal(const Part& part, uint32_t triangle, float u, 
     const GeometryArrays& g = *scene_.geometry;
     const Material& m = g.materials[part.primitive->material];
     const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
-    const VertexAttributes* a = &g.attributes[size_t(part.primitive->vertexOffset)];
+    const VertexAttributes* a = part.vertices.attributes;
     const float w = 1 - u - v;
     glm::vec3 n =
         glm::normalize(part.normalFromLocal * (a[i[0]].normal * w + a[i[1]].normal * u + a[i[2]].normal * v));
@@ -189,7 +190,7 @@ glm::vec3 RayScene::shadingNormal(const Part& part, uint32_t triangle, float u, 
         t = glm::normalize(t - n * glm::dot(n, t));
         b = glm::cross(n, t) * tangent.w;
     } else {  // along the triangle's own texture coordinates
-        const glm::vec3* p = &g.positions[size_t(part.primitive->vertexOffset)];
+        const glm::vec3* p = part.vertices.positions;
         const glm::vec3 e1 = part.worldFromLocal * (p[i[1]] - p[i[0]]),
                         e2 = part.worldFromLocal * (p[i[2]] - p[i[0]]);
         const glm::vec2 d1 = a[i[1]].uv - a[i[0]].uv, d2 = a[i[2]].uv - a[i[0]].uv;

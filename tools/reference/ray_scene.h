@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/scene/render_scene.h"
+#include "engine/scene/deform.h"
 
 namespace ag::reference {
 
@@ -59,6 +59,7 @@ class RayScene {
     struct Part {  // one Embree geometry: an instance
         const RenderInstance* instance;
         const Primitive* primitive;
+        VertexPointers vertices;  // by the primitive's indices
         glm::mat3 worldFromLocal, normalFromLocal;
         bool mirrored, doubleSided;
     };
@@ -69,6 +70,7 @@ class RayScene {
     static void filterMasked(const RTCFilterFunctionNArguments* arguments);
 
     const RenderScene& scene_;
+    const DeformedVertices deformed_;
     RTCDevice device_ = nullptr;
     RTCScene rtc_ = nullptr;
     std::vector<std::unique_ptr<Part>> parts_;  // by geometry id

@@ -12,6 +12,7 @@ namespace ag::scenegen {
 class SceneBuilder {
   public:
     explicit SceneBuilder(std::string name) { asset_.name = std::move(name); }
+    explicit SceneBuilder(SceneAsset start) : asset_(std::move(start)) {}  // goes on with it
 
     // Lambert: metallic 0, roughness 1, no specular. Returns the material's index.
     uint32_t material(const std::string& name, glm::vec3 albedo);

@@ -9,6 +9,7 @@
 #include "common/false_color.h"
 #include "engine/scene/gltf_import.h"
 #include "tools/scenegen/builder.h"
+#include "tools/scenegen/figures.h"
 #include "tools/scenegen/gallery.h"
 
 namespace ag::scenegen {
@@ -229,7 +230,7 @@ struct Entry {
     SceneAsset (*build)(uint32_t param);
 };
 
-constexpr std::array<Entry, 10> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 11> kScenes = {{{"cornell", cornell},
                                             {"corner", corner},
                                             {"occluder", occluder},
                                             {"corridor", corridor},
@@ -237,6 +238,7 @@ constexpr std::array<Entry, 10> kScenes = {{{"cornell", cornell},
                                             {"furnace", furnace},
                                             {"lamps", lamps},
                                             {"crowd", crowd},
+                                            {"figures", figures},
                                             {"hall", hall},
                                             {"gallery", gallery}}};
 constexpr auto kNames = [] {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/core/log.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/light_check.h"
 #include "tools/scenegen/scenes.h"
 #include "tools/workbench/hang_lamps.h"
@@ -84,6 +85,16 @@ Status addSpots(const SceneOptions& options, RenderScene& scene) {
     return Ok{};
 }
 
+Status choosePose(const SceneOptions& options, SceneAsset& asset) {
+    if (options.clip.empty()) return Ok{};
+    const auto n = parseNumbers(options.clip, 2, 2);
+    if (!n || (*n)[0] < 0 || (*n)[0] >= double(asset.animations.size()) || std::abs((*n)[1]) > 1e6)
+        return Error{fmt::format("--clip takes INDEX,SECONDS, not '{}' ({} has {} animations)", options.clip,
+                                 options.scene, asset.animations.size())};
+    poseAsset(asset, uint32_t((*n)[0]), float((*n)[1]));
+    return Ok{};
+}
+
 Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& asset) {
     if (!options.view.empty()) {
         const auto n = parseNumbers(options.view, 6, 7);
@@ -115,6 +126,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
                     "glTF or GLB file, or a built-in name, or one of the scene library (see README)")
         ->required();
     command.add_option("--param", o.param, "number of a built-in scene that takes one");
+    command.add_option("--clip", o.clip, "as an animation of it has it: INDEX,SECONDS");
     command.add_option("--size", o.size, "pixels, WxH")->capture_default_str();
     command.add_option("--camera", o.camera, "index or name of one of the scene's cameras");
     command.add_option("--view", o.view, "camera: PX,PY,PZ,TX,TY,TZ[,VFOV_DEG]");
@@ -175,6 +187,7 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     LoadedScene loaded{.asset = std::make_unique<SceneAsset>(std::move(*asset)), .size = *size};
     for (const std::string& warning : loaded.asset->warnings)
         spdlog::warn("{}: {}", options.scene, warning);
+    if (const Status posed = choosePose(options, *loaded.asset); !posed) return posed.error();
     const auto camera = chooseCamera(options, *loaded.asset);
     if (!camera) return camera.error();
     loaded.scene = staticScene(*loaded.asset, camera->position);

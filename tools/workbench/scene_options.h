@@ -15,6 +15,7 @@ struct SceneOptions {
     std::string scene;
     uint32_t param = 0;
     std::string camera;  // index or name
+    std::string clip;    // INDEX,SECONDS
     std::string size = "640x360";
     std::string view;                 // PX,PY,PZ,TX,TY,TZ[,VFOV_DEG]
     std::vector<std::string> suns;    // DX,DY,DZ[,E]

@@ -1,0 +1,10 @@
+#include "game/systems/play_animations.h"
+
+namespace ag::game {
+
+void playAnimations(View<AnimationPlayer> players, Res<const FigureLibrary> library, Res<const GameTime> time,
+                    JobRunner& runner) {
+    advancePlayers(players, *library, float(time->step), runner);
+}
+
+}  // namespace ag::game

@@ -1,0 +1,45 @@
+// What the points reflect of the light that fell on them a frame ago: emitters like a light map's texels.
+#define AG_SCENE_INSTANCES
+#include "later_bounces/later_bounces_io.h"
+#include "rsm/rsm_io.h"
+#include "scene/scene.glsl"
+#include "surface_points/place_edge.glsl"
+#ifdef AG_FIGURES
+#include "surface_points/figure_sample.glsl"
+#endif
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { EmitPush p; } push;
+
+layout(set = 0, binding = 1, scalar) readonly buffer Points { BouncePoint items[]; } points;
+layout(set = 0, binding = 2) uniform samplerBuffer irradiance;  // W/m²
+layout(set = 0, binding = 3, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
+layout(set = 0, binding = 4, scalar) writeonly buffer Edges { SurfaceEdge items[]; } edges;  // two a point
+#ifdef AG_FIGURES
+layout(set = 0, binding = 5, scalar) readonly buffer Positions { vec3 items[]; } deformedPositions;
+layout(set = 0, binding = 6, scalar) readonly buffer Attributes { VertexRow items[]; } deformedAttributes;
+
+// The point as its figure is bent now.
+void followFigure(inout BouncePoint p) {
+    uvec4 corners = uvec4(floatBitsToUint(p.normalLocal), floatBitsToUint(p.edgesLocal[0].inward.x));
+    SurfaceSample s = AG_DEFORMED_SAMPLE(deformedPositions, deformedAttributes, p.instance, p.positionLocal, corners);
+    p.positionLocal = s.positionLocal;
+    p.normalLocal = s.normalLocal;
+    p.edgesLocal = s.edgesLocal;
+}
+#endif
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.p.count) return;
+    BouncePoint p = points.items[i];
+    InstanceTransform t = fetchInstance(int(p.instance));
+#ifdef AG_FIGURES
+    if (t.figure != kNoFigure) followFigure(p);
+#endif
+    vec3 e = push.p.known == 1 ? texelFetch(irradiance, int(i)).rgb : vec3(0.0);
+    vec3 flux = min(p.albedo, vec3(kMostAlbedo)) * e * p.area;
+    texels.items[i] = RsmTexel(transformPoint(t, p.positionLocal), p.area, normalize(transformNormal(t, p.normalLocal)),
+                               (flux.x + flux.y + flux.z) / 3.0, flux, 1.0);
+    for (int k = 0; k < 2; ++k) edges.items[i * 2 + k] = placeEdge(t, p.edgesLocal[k]);
+}

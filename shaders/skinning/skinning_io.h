@@ -1,0 +1,34 @@
+// Figures as the GPU sees them. Scalar layout.
+#ifndef AG_SKINNING_IO_H
+#define AG_SKINNING_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+const uint kSkinGroup = 64;  // vertices a group deforms, all of one figure
+
+struct SkinFigure {
+    uint firstVertex;  // of the mesh as it was modelled
+    uint vertexCount;
+    uint firstDeformed;  // of the figure's own, a multiple of kSkinGroup
+    uint firstJoint;
+};
+
+struct SkinnedVertex {  // who moves it
+    uvec2 joints;       // of the figure's, two in 16 bits each
+    vec4 weights;
+};
+
+struct VertexRow {  // all but the position
+    vec3 normal;
+    vec4 tangent;
+    vec2 uv;
+};
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif

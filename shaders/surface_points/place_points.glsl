@@ -1,0 +1,47 @@
+// Samples of the surfaces to where their instances are this frame.
+#define AG_SCENE_INSTANCES
+#include "scene/scene.glsl"
+#include "surface_points/place_edge.glsl"
+#ifdef AG_FIGURES
+#include "surface_points/figure_sample.glsl"
+#endif
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { uint count; } push;
+
+layout(set = 0, binding = 1) uniform samplerBuffer samples;
+layout(set = 0, binding = 2, scalar) writeonly buffer Points { SurfacePoint items[]; } points;
+#ifdef AG_FIGURES
+layout(set = 0, binding = 3, scalar) readonly buffer Positions { vec3 items[]; } deformedPositions;
+layout(set = 0, binding = 4, scalar) readonly buffer Attributes { VertexRow items[]; } deformedAttributes;
+#endif
+
+SurfaceSample fetchSample(int i) {
+    vec4 a = texelFetch(samples, i * 4), n = texelFetch(samples, i * 4 + 1);
+    SurfaceSample s;
+    s.positionLocal = a.xyz;
+    s.instance = floatBitsToUint(a.w);
+    s.normalLocal = n.xyz;
+    s.bendLocal = n.w;
+    for (int k = 0; k < 2; ++k) s.edgesLocal[k] = edgeOf(texelFetch(samples, i * 4 + 2 + k));
+    return s;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    SurfaceSample s = fetchSample(int(i));
+    InstanceTransform t = fetchInstance(int(s.instance));
+#ifdef AG_FIGURES
+    if (t.figure != kNoFigure)
+        s = AG_DEFORMED_SAMPLE(deformedPositions, deformedAttributes, s.instance, s.positionLocal,
+                               floatBitsToUint(vec4(s.normalLocal, s.bendLocal)));
+#endif
+    SurfacePoint p;
+    p.position = transformPoint(t, s.positionLocal);
+    p.normal = normalize(transformNormal(t, s.normalLocal));
+    p.bend = s.bendLocal / max(length(transformDirection(t, s.normalLocal)), 1e-20);
+    p.unused = 0.0;
+    for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, s.edgesLocal[k]);
+    points.items[i] = p;
+}
