@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/core/check.h"
 #include "gi/light_views.h"
 #include "shaders/val_clustering/val_clustering_io.h"
 
@@ -88,12 +89,11 @@ ClusterShares::Light steadyLight(const RenderLight& light, float flux, const Clu
     return {light.id, near ? known->flux : flux, 0};
 }
 
-// By flux in steps of 8, at least one each, the largest remainders first: together all there are.
-void shareSteps(Sharers sharers, uint32_t budget) {
+// By flux, at least one step each, the largest remainders first: together all there are.
+void shareSteps(Sharers sharers, uint32_t steps) {
     float total = 0;
     for (const Sharer& s : sharers)
         total += s.flux;
-    const uint32_t steps = budget / kShareStep;
     const auto wanted = [&](const Sharer& s) {
         return total > 0 ? double(s.flux) / double(total) * steps : double(steps) / double(sharers.size());
     };
@@ -111,15 +111,17 @@ void shareSteps(Sharers sharers, uint32_t budget) {
 
 // Each map's clusters follow those of the one before; the largest share gets the budget's rest.
 void shareClusters(RsmLayout& layout, Sharers sharers, uint32_t budget) {
-    shareSteps(sharers, budget);
+    const uint32_t sharing = uint32_t(sharers.size());
+    AG_CHECK_MSG(budget >= sharing, "two maps would have the same cluster");
+    const uint32_t step = std::clamp(budget / sharing, 1u, kShareStep);  // so that each gets one
+    shareSteps(sharers, budget / step);
     for (Sharer& s : sharers)
-        s.clusters *= kShareStep;
-    std::ranges::max_element(sharers, {}, &Sharer::clusters)->clusters += budget % kShareStep;
+        s.clusters *= step;
+    std::ranges::max_element(sharers, {}, &Sharer::clusters)->clusters += budget % step;
     uint32_t next = 0;
     for (const Sharer& s : sharers) {
-        // Fewer than 8 for each: the last ones get what there is, or all but the same one.
-        const uint32_t first = std::min(next, budget - 1), count = std::min(s.clusters, budget - first);
-        next = first + count;
+        const uint32_t first = next, count = s.clusters;
+        next += count;
         if (s.map == kNoMap) continue;
         io::RsmMap& map = layout.maps[s.map];
         map.firstCluster = first;
