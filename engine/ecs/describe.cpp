@@ -101,7 +101,7 @@ void listEntities(const World& world, std::string_view filter, std::vector<Entit
         if (filter.empty()) return true;
         if (!name) return false;
         const std::string_view text = name->text;
-        return std::ranges::search(text, filter, sameLetter).begin() != text.end();
+        return std::search(text.begin(), text.end(), filter.begin(), filter.end(), sameLetter) != text.end();
     };
     for (const Archetype& archetype : world.archetypes()) {
         const uint8_t column = archetype.columnOf[componentId<Name>()];

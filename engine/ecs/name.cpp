@@ -39,8 +39,9 @@ void NameIndex::refresh(const World& world) {
 
 std::span<const NameIndex::Entry> NameIndex::sameHash(const World& world, const Name& name) {
     refresh(world);
-    const auto found = std::ranges::equal_range(entries_, hashText(name.text), {}, &Entry::first);
-    return {found.begin(), found.end()};
+    const uint64_t hash = hashText(name.text);  // equal_range's result needs clang 16
+    return {std::ranges::lower_bound(entries_, hash, {}, &Entry::first),
+            std::ranges::upper_bound(entries_, hash, {}, &Entry::first)};
 }
 
 Entity NameIndex::find(const World& world, std::string_view text) {

@@ -96,8 +96,9 @@ FigureModel makeModel(const FigureLibrary& library, uint32_t mesh, uint32_t skin
 
 std::span<const uint32_t> FigureLibrary::channelsOf(uint32_t animation, uint32_t node) const {
     const auto nodeOf = [&](uint32_t c) { return asset->animations[animation].channels[c].node; };
-    const auto [first, last] = std::ranges::equal_range(channels[animation], node, {}, nodeOf);
-    return {first, last};
+    const std::vector<uint32_t>& order = channels[animation];  // equal_range's result needs clang 16
+    return {std::ranges::lower_bound(order, node, {}, nodeOf),
+            std::ranges::upper_bound(order, node, {}, nodeOf)};
 }
 
 FigureLibrary makeFigureLibrary(const SceneAsset& asset) {

@@ -43,6 +43,7 @@ struct Case {
 void moveLast(RenderScene& scene) {
     const uint32_t last = uint32_t(scene.instances.size()) - 1;
     scene.instances[last].worldFromLocal[3].x += 0.01f;
+    if (!scene.figures.empty()) ++scene.figures.back().poseVersion;
     scene.changedInstances = {{last, last + 1}};
     scene.allInstancesChanged = scene.instancesVersion == 1;
     ++scene.instancesVersion;
@@ -80,6 +81,7 @@ TEST(PassTable, HasEveryPassThatTheFrameCanHave) {
     std::set<std::string> captured;
     addPasses({"afterglow", "cornell", 0, true}, captured);
     addPasses({"afterglow", "lamps", 20}, captured);
+    addPasses({"afterglow", "figures", 1}, captured);
     for (const std::string_view preset : gi::presetNames())
         if (std::ranges::count(kSamePasses, preset) == 0) addPasses({preset, "cornell"}, captured);
     for (const std::string& name : wanted)
