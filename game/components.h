@@ -33,6 +33,9 @@ enum class FlowerMood : uint32_t {
     kOpen,     // for good: its room is solved
 };
 
+// m above a flower's foot: just over its closed petals, where light is asked for.
+constexpr float kFlowerHead = 0.70f;
+
 struct Flower {
     glm::vec3 wants{1};  // colour, greatest channel 1
     float amount = 0;    // W/m², mean of the channels

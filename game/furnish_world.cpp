@@ -9,8 +9,6 @@
 namespace ag::game {
 namespace {
 
-constexpr float kProbeHeight = 0.70f;  // m above a flower's foot: just over its closed petals
-
 struct Furnished {  // one node
     World& world;
     const SceneAsset& asset;
@@ -38,7 +36,7 @@ void addMovable(const Furnished& f, const Body& body) {
 
 void addFlower(const Furnished& f) {
     f.world.add(f.entity, Flower{f.node.extras.wants, f.node.extras.amount, f.node.extras.room});
-    f.world.add(f.entity, gi::IrradianceProbe{.offset = {0, kProbeHeight, 0}});
+    f.world.add(f.entity, gi::IrradianceProbe{.offset = {0, kFlowerHead, 0}});
     f.world.add(f.entity, gi::ProbeLight{});
 }
 

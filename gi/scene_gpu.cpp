@@ -50,18 +50,6 @@ uint64_t viewsNeeded(const RenderScene& scene) {
     return views;
 }
 
-template <class T>
-std::unique_ptr<gpu::Buffer> loadBuffer(gpu::Device& device, const char* name, const std::vector<T>& items,
-                                        bool geometry, VkFormat texel = VK_FORMAT_UNDEFINED) {
-    auto buffer = std::make_unique<gpu::Buffer>(
-        device, gpu::BufferDesc{.name = name,
-                                .sizeBytes = std::max<uint64_t>(items.size(), 1) * sizeof(T),
-                                .vertexOrIndex = geometry,
-                                .texelFormat = texel});
-    if (!items.empty()) gpu::uploadBuffer(device, *buffer, std::as_bytes(std::span(items)));
-    return buffer;
-}
-
 // A class without textures still needs something bound: one black texel.
 std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, VkFormat format, uint32_t size,
                                        const std::vector<std::vector<uint8_t>>& layers) {
@@ -116,9 +104,11 @@ SceneGpu::~SceneGpu() {
 
 void SceneGpu::load(const GeometryArrays& geometry) {
     device_.waitIdle();
-    positions_ = loadBuffer(device_, "scene.positions", geometry.positions, true);
-    attributes_ = loadBuffer(device_, "scene.attributes", geometry.attributes, true);
-    indices_ = loadBuffer(device_, "scene.indices", geometry.indices, true);
+    positions_ =
+        gpu::loadBuffer(device_, {.name = "scene.positions", .vertexOrIndex = true}, geometry.positions);
+    attributes_ =
+        gpu::loadBuffer(device_, {.name = "scene.attributes", .vertexOrIndex = true}, geometry.attributes);
+    indices_ = gpu::loadBuffer(device_, {.name = "scene.indices", .vertexOrIndex = true}, geometry.indices);
     skin_.load(geometry);
     ++loads_;
     loadTextures(geometry);
@@ -140,7 +130,7 @@ void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) 
         strongestEmission_ = std::max({strongestEmission_, m.emissive.x, m.emissive.y, m.emissive.z});
         hasGlossy_ = hasGlossy_ || m.metallic > 0 || m.specular > 0;
     }
-    materials_ = loadBuffer(device_, "scene.materials", rows, false, kVec4Texels);
+    materials_ = gpu::loadBuffer(device_, {.name = "scene.materials", .texelFormat = kVec4Texels}, rows);
     materialsVersion_ = combineHash(geometry.version, hashValue(units.light));
 }
 
@@ -157,10 +147,7 @@ void SceneGpu::loadTextures(const GeometryArrays& geometry) {
 std::unique_ptr<gpu::Buffer> SceneGpu::grown(std::unique_ptr<gpu::Buffer> old, const char* name,
                                              uint64_t bytes, VkFormat texel, bool indirect) {
     if (old && old->sizeBytes() >= bytes) return old;
-    if (old) {
-        std::shared_ptr<gpu::Buffer> retired = std::move(old);
-        device_.retire([retired]() mutable { retired.reset(); });
-    }
+    gpu::retire(device_, std::move(old));
     return std::make_unique<gpu::Buffer>(
         device_,
         gpu::BufferDesc{
@@ -196,17 +183,15 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
     stillSampleCount_ = chosen.stillCount;
     stillArea_ = chosen.stillArea;
     movableArea_ = chosen.movableArea;
-    for (auto* old : {&samples_, &bouncePoints_}) {
-        if (!*old) continue;
-        std::shared_ptr<gpu::Buffer> retired = std::move(*old);
-        device_.retire([retired]() mutable { retired.reset(); });
-    }
+    for (auto* old : {&samples_, &bouncePoints_})
+        gpu::retire(device_, std::move(*old));
     bouncePointCount_ = 0;
     if (sampleCount_ == 0) return;
-    samples_ = loadBuffer(device_, "scene.surface_samples", chosen.samples, false, kVec4Texels);
+    samples_ = gpu::loadBuffer(device_, {.name = "scene.surface_samples", .texelFormat = kVec4Texels},
+                               chosen.samples);
     const auto points = chooseBouncePoints(scene, chosen, kBouncePoints);
     bouncePointCount_ = uint32_t(points.size());
-    bouncePoints_ = loadBuffer(device_, "scene.bounce_points", points, false);
+    bouncePoints_ = gpu::loadBuffer(device_, {.name = "scene.bounce_points"}, points);
 }
 
 void SceneGpu::noteMovements(const RenderScene& scene) {
@@ -276,10 +261,7 @@ void SceneGpu::stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<con
     if (bytes.empty()) return;
     Staging& staging = staging_[frameSlot];
     if (!staging.buffer || staging.used + bytes.size() > staging.buffer->sizeBytes()) {
-        if (staging.buffer) {
-            std::shared_ptr<gpu::Buffer> retired = std::move(staging.buffer);
-            device_.retire([retired]() mutable { retired.reset(); });
-        }
+        gpu::retire(device_, std::move(staging.buffer));
         const uint64_t size = std::max<uint64_t>(uint64_t(1) << 20, bytes.size() * 2);
         staging.buffer = std::make_unique<gpu::Buffer>(
             device_, gpu::BufferDesc{.name = "scene.staging", .sizeBytes = size, .hostVisible = true});

@@ -26,14 +26,6 @@ uint32_t deformedCount(const RenderScene& scene) {
     return last.firstDeformed + groupsOf(last.vertexCount) * io::kSkinGroup;
 }
 
-template <class T>
-std::unique_ptr<gpu::Buffer> loadBuffer(gpu::Device& device, const char* name, const std::vector<T>& items) {
-    auto buffer = std::make_unique<gpu::Buffer>(
-        device, gpu::BufferDesc{.name = name, .sizeBytes = std::max<uint64_t>(items.size(), 1) * sizeof(T)});
-    if (!items.empty()) gpu::uploadBuffer(device, *buffer, std::as_bytes(std::span(items)));
-    return buffer;
-}
-
 std::unique_ptr<gpu::Buffer> jointBuffer(gpu::Device& device, const char* name, size_t joints) {
     return std::make_unique<gpu::Buffer>(
         device,
@@ -53,7 +45,7 @@ void SkinGpu::load(const GeometryArrays& geometry) {
     tableVersion_ = 0;
     skin_.reset(), figures_.reset(), groups_.reset(), joints_.reset(), previousJoints_.reset();
     geometryVersion_ = geometry.version;
-    if (!geometry.skin.empty()) skin_ = loadBuffer(device_, "skinning.skin", geometry.skin);
+    if (!geometry.skin.empty()) skin_ = gpu::loadBuffer(device_, {.name = "skinning.skin"}, geometry.skin);
 }
 
 // Blocking: figures come and go with all instances.
@@ -65,13 +57,10 @@ void SkinGpu::makeBuffers(const RenderScene& scene) {
         std::fill_n(first, groupsOf(figure.vertexCount), uint32_t(rows.size()));
         rows.push_back(rowOf(figure));
     }
-    for (auto* old : {&figures_, &groups_, &joints_, &previousJoints_}) {
-        if (!*old) continue;
-        std::shared_ptr<gpu::Buffer> retired = std::move(*old);
-        device_.retire([retired]() mutable { retired.reset(); });
-    }
-    figures_ = loadBuffer(device_, "skinning.figures", rows);
-    groups_ = loadBuffer(device_, "skinning.groups", groups);
+    for (auto* old : {&figures_, &groups_, &joints_, &previousJoints_})
+        gpu::retire(device_, std::move(*old));
+    figures_ = gpu::loadBuffer(device_, {.name = "skinning.figures"}, rows);
+    groups_ = gpu::loadBuffer(device_, {.name = "skinning.groups"}, groups);
     joints_ = jointBuffer(device_, "skinning.joints", scene.joints.size());
     previousJoints_ = jointBuffer(device_, "skinning.previous_joints", scene.joints.size());
     uploadedPoses_.assign(scene.figures.size(), 0);

@@ -4,11 +4,13 @@
 
 #include <volk.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -96,6 +98,16 @@ class Image {
 // Blocking uploads and downloads, for loading and for tests: stages, submits, waits.
 void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset = 0);
 void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> bytes, uint64_t offset = 0);
+// A buffer of just these items (room for one if there are none); `desc` without its size.
+template <class T>
+std::unique_ptr<Buffer> loadBuffer(Device& device, BufferDesc desc, const std::vector<T>& items) {
+    desc.sizeBytes = std::max<uint64_t>(items.size(), 1) * sizeof(T);
+    auto buffer = std::make_unique<Buffer>(device, desc);
+    if (!items.empty()) uploadBuffer(device, *buffer, std::as_bytes(std::span(items)));
+    return buffer;
+}
+// Gone when the work that may still use it has finished; may be null.
+void retire(Device& device, std::unique_ptr<Buffer> buffer);
 // Texels of mip 0 of one layer, tightly packed rows; fills the remaining mips by blits when `makeMips`.
 // Leaves the image in SHADER_READ_ONLY_OPTIMAL.
 void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels,

@@ -39,6 +39,11 @@ void blitMips(VkCommandBuffer commands, const Image& image, uint32_t layer) {
 
 }  // namespace
 
+void retire(Device& device, std::unique_ptr<Buffer> buffer) {
+    if (!buffer) return;
+    device.retire([old = std::shared_ptr<Buffer>(std::move(buffer))]() mutable { old.reset(); });
+}
+
 void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset) {
     if (bytes.empty()) return;
     Buffer staging(device, {.name = "transfer.upload", .sizeBytes = bytes.size(), .hostVisible = true});

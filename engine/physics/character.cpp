@@ -6,8 +6,7 @@
 namespace ag {
 namespace {
 
-constexpr float kGravity = 9.81f;  // m/s²
-constexpr float kSkin = 0.015f;    // m kept from what is met
+constexpr float kSkin = 0.015f;  // m kept from what is met
 constexpr int kMostSlides = 4;
 
 Capsule capsuleOf(const Character& c, const CharacterSettings& s) {

@@ -9,6 +9,8 @@
 
 namespace ag {
 
+constexpr float kGravity = 9.81f;  // m/s², downwards
+
 enum class BodyKind : uint32_t {
     kStatic,     // never moves
     kKinematic,  // goes where its LocalTransform is put, whatever stands there

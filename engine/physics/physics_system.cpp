@@ -98,7 +98,7 @@ void keepPendulums(View<const Pendulum, const Hinge, const Body, const BodyState
         const glm::vec3 arm = state.rotation * (body.center - hinge.pivot);
         const float length = glm::length(arm), lean = std::acos(std::clamp(-arm.y / length, -1.0f, 1.0f));
         if (lean > 0.12f) return;
-        const float wanted = std::sqrt(2 * 9.81f * (1 - std::cos(p.amplitude)) / length);
+        const float wanted = std::sqrt(2 * kGravity * (1 - std::cos(p.amplitude)) / length);
         const float sign = swing < 0 ? -1.0f : 1.0f;
         physics->world->setVelocity(state.body, glm::cross(axis, arm) * (sign * wanted),
                                     axis * (sign * wanted));

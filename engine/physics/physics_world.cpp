@@ -10,7 +10,6 @@
 namespace ag {
 namespace {
 
-constexpr float kGravity = 9.81f;  // m/s²
 constexpr short kSolidGroup = 1, kWalkerGroup = 2, kCarriedGroup = 4;
 constexpr short kAllGroups = kSolidGroup | kWalkerGroup | kCarriedGroup;
 

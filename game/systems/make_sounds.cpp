@@ -7,10 +7,8 @@
 namespace ag::game {
 namespace {
 
-constexpr float kGravity = 9.81f;        // m/s²
 constexpr float kFullKnock = 60;         // N s, of the loudest
 constexpr float kLeastLanding = 1.2f;    // m/s downwards: less is a stair
-constexpr float kHeadHeight = 0.7f;      // m, of a flower
 constexpr float kOpenToShut = 0.05f;     // of its petals: below, there is nothing to close
 constexpr double kCrouchedStride = 0.6;  // m
 
@@ -28,7 +26,7 @@ void hearFlowers(const Flowers& flowers, double seconds, Sounds& sounds) {
         FlowerSeen now{.bloomed = f.bloomed != 0, .blinded = f.mood == FlowerMood::kBlinded};
         const FlowerSeen before = sounds.flowers.exchange(entity, now).value_or(now);
         now.shutAt = before.shutAt;
-        const glm::dvec3 head = at.translation + glm::dvec3(0, kHeadHeight, 0);
+        const glm::dvec3 head = at.translation + glm::dvec3(0, kFlowerHead, 0);
         if (now.bloomed && !before.bloomed)
             sounds.now.push_back(soundAt(head, SoundId::kBloom, 1,
                                          bloomPitch(f.wants, placeInRoom(flowers, f.room, at.node))));
