@@ -49,21 +49,21 @@ uint32_t sharpBitsOf(const io::SurfaceSample& s) {
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const SurfaceSamples& samples,
                                                 uint32_t count) {
     std::vector<io::BouncePoint> points;
-    const size_t all = samples.samples.size(), still = samples.stillCount;
-    const double share = double(all) / count;
+    const double share = double(samples.samples.size()) / count;
     for (uint32_t i = 0; i < count; ++i) {
         const size_t at = size_t((i + 0.5) * share);
+        double area = 0;
+        for (size_t k = size_t(i * share), end = size_t((i + 1) * share); k < end; ++k)
+            area += double(samples.pointAreas[samples.samples[k].instance]);
         const io::SurfaceSample& s = samples.samples[at];
         const Primitive& p = scene.geometry->primitives[scene.instances[s.instance].primitive];
-        const double area = at < still ? double(samples.stillArea) / double(still)
-                                       : double(samples.movableArea) / double(all - still);
         const bool figure = scene.instances[s.instance].figure != kNoFigure;
         const bool cutOut = figure ? (sharpBitsOf(s) & io::kSharpCutOut) != 0 : s.edgesLocal[0].distance < 0;
         points.push_back(
             {.positionLocal = s.positionLocal,
              .instance = s.instance,
              .normalLocal = s.normalLocal,
-             .area = cutOut ? 0 : float(area * share),
+             .area = cutOut ? 0 : float(area),
              .albedo = albedoAbout(*scene.geometry, scene.geometry->materials[p.material], samples.uvs[at]),
              .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}});
         if (figure) points.back().edgesLocal[0].inward.x = s.bendLocal;

@@ -82,7 +82,7 @@ io::IsmSplatPush layerPush(io::IsmSplatPush push, const PointLayer& layer, uint3
     push.endSegment = layer.firstSegment + layer.segmentCount;
     push.firstEntry = firstEntry;
     push.entryCount = entryCount;
-    push.pointRadius = splatScale * layer.radius;
+    push.diskRadius = splatScale;
     return push;
 }
 

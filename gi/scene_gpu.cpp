@@ -181,14 +181,14 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
     const SurfaceSamples chosen = sampleSurfaces(scene, kSurfaceSamples);
     sampleCount_ = uint32_t(chosen.samples.size());
     stillSampleCount_ = chosen.stillCount;
-    stillArea_ = chosen.stillArea;
-    movableArea_ = chosen.movableArea;
-    for (auto* old : {&samples_, &bouncePoints_})
+    for (auto* old : {&samples_, &pointAreas_, &bouncePoints_})
         gpu::retire(device_, std::move(*old));
     bouncePointCount_ = 0;
     if (sampleCount_ == 0) return;
     samples_ = gpu::loadBuffer(device_, {.name = "scene.surface_samples", .texelFormat = kVec4Texels},
                                chosen.samples);
+    pointAreas_ = gpu::loadBuffer(device_, {.name = "scene.point_areas", .texelFormat = VK_FORMAT_R32_SFLOAT},
+                                  chosen.pointAreas);
     const auto points = chooseBouncePoints(scene, chosen, kBouncePoints);
     bouncePointCount_ = uint32_t(points.size());
     bouncePoints_ = gpu::loadBuffer(device_, {.name = "scene.bounce_points"}, points);
@@ -236,13 +236,12 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
         view.linearTextures[c] = graph.importImage(kLinearNames[c], *linear_[c], geometryVersion_);
     }
     if (sampleCount_ > 0) {
+        view.pointAreas = graph.importBuffer("scene.point_areas", *pointAreas_, sampledSet_);
         view.surfaceSamples = graph.importBuffer("scene.surface_samples", *samples_, sampledSet_);
         view.surfaceSampleCount = sampleCount_;
         view.bouncePoints = graph.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
         view.bouncePointCount = bouncePointCount_;
         view.stillSampleCount = stillSampleCount_;
-        view.stillArea = stillArea_;
-        view.movableArea = movableArea_;
         view.stillVersion = combineHash(combineHash(sampledSet_, stillVersion_), scene.originVersion);
     }
     const RenderCamera& camera = scene.camera;
@@ -339,7 +338,7 @@ uint64_t SceneGpu::deviceBytes() const {
     uint64_t bytes = 0;
     for (const auto* buffer :
          {positions_.get(), attributes_.get(), indices_.get(), materials_.get(), instances_.get(),
-          previousInstances_.get(), commands_.get(), samples_.get(), bouncePoints_.get()})
+          previousInstances_.get(), commands_.get(), samples_.get(), pointAreas_.get(), bouncePoints_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes + skin_.deviceBytes();
 }

@@ -35,14 +35,14 @@ struct SceneView {
     glm::uvec2 size{0};                                       // pixels of the camera's image
     RenderUnits units;                                        // of everything above
     bool hasEmissive = false;
-    bool hasGlossy = false;                // a material that is not Lambert
-    BufferHandle surfaceSamples;           // io::SurfaceSample; also a texel buffer of vec4
-    uint32_t surfaceSampleCount = 0;       // 0: no surface
-    uint32_t stillSampleCount = 0;         // the first ones are on what stands still
-    float stillArea = 0, movableArea = 0;  // m²
-    BufferHandle bouncePoints;             // io::BouncePoint: some of the samples
-    uint32_t bouncePointCount = 0;         // a square of a power of two, or 0
-    uint64_t stillVersion = 0;             // changes when an instance that is not movable may have moved
+    bool hasGlossy = false;       // a material that is not Lambert
+    BufferHandle surfaceSamples;  // io::SurfaceSample; also a texel buffer of vec4
+    BufferHandle pointAreas;      // m² that a sample of each instance stands for: a texel buffer of float
+    uint32_t surfaceSampleCount = 0;  // 0: no surface
+    uint32_t stillSampleCount = 0;    // the first ones are on what stands still
+    BufferHandle bouncePoints;        // io::BouncePoint: some of the samples
+    uint32_t bouncePointCount = 0;    // a square of a power of two, or 0
+    uint64_t stillVersion = 0;        // changes when an instance that is not movable may have moved
     mutable uint32_t viewsClaimed = 0;
     mutable bool readsPrevious = false;  // a pass does, so that previousInstances must be kept
     // The next free slot of DrawLists; claimed in the same order every frame.
@@ -99,11 +99,10 @@ class SceneGpu {
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
-    std::unique_ptr<gpu::Buffer> samples_, bouncePoints_;
+    std::unique_ptr<gpu::Buffer> samples_, pointAreas_, bouncePoints_;
     uint32_t bouncePointCount_ = 0;
     uint32_t sampleCount_ = 0;
     uint32_t stillSampleCount_ = 0;
-    float stillArea_ = 0, movableArea_ = 0;
     uint64_t stillVersion_ = 0, notedVersion_ = 0;  // notedVersion_: of the instances it is about
     uint64_t sampledVersion_ = 0, sampledSet_ = 0;  // of the instances the samples are on
     std::vector<io::Instance> rows_;                // scratch for the conversion

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "engine/core/hash.h"
 
 namespace ag::gi {
 namespace {
 
-PointLayer layerOf(uint32_t first, uint32_t count, float area) {
+PointLayer layerOf(uint32_t first, uint32_t count) {
     if (count == 0) return {};
     return {.count = count,
             .firstSegment = first / io::kSegmentPoints,
-            .segmentCount = (count + io::kSegmentPoints - 1) / io::kSegmentPoints,
-            .radius = std::sqrt(area / (std::numbers::pi_v<float> * float(count)))};
+            .segmentCount = (count + io::kSegmentPoints - 1) / io::kSegmentPoints};
 }
 
 }  // namespace
@@ -22,8 +20,8 @@ PointLayer layerOf(uint32_t first, uint32_t count, float area) {
 SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     if (scene.surfaceSampleCount == 0) return {};
     SurfacePoints p{.count = scene.surfaceSampleCount, .stillVersion = scene.stillVersion};
-    p.still = layerOf(0, scene.stillSampleCount, scene.stillArea);
-    p.moving = layerOf(p.still.count, p.count - p.still.count, scene.movableArea);
+    p.still = layerOf(0, scene.stillSampleCount);
+    p.moving = layerOf(p.still.count, p.count - p.still.count);
     // In powers of two: what moves at the scene's edge shall not change how distances are kept.
     const float diagonal = glm::length(scene.scene->bounds.max - scene.scene->bounds.min);
     p.extent = std::exp2(std::ceil(std::log2(std::max(diagonal, 1e-6f))));
@@ -34,6 +32,7 @@ SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
                                                          : "surface_points/place_points.comp");
     place.read("instances", scene.instances)
         .read("samples", scene.surfaceSamples)
+        .read("areas", scene.pointAreas)
         .write("points", p.points)
         .push(p.count)
         .key(scene.scene->instancesVersion)

@@ -13,7 +13,6 @@ namespace ag::gi {
 // Points that stand still, or those that may move.
 struct PointLayer {
     uint32_t count = 0, firstSegment = 0, segmentCount = 0;
-    float radius = 0;  // m: disks of this radius have the area of the layer's surfaces together
 };
 
 struct SurfacePoints {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 
@@ -89,8 +90,12 @@ std::array<glm::vec3, 3> worldCorners(const RenderInstance& instance, const std:
 struct CurveTriangle {
     uint32_t place;  // Morton code of its centre in the scene's box
     uint32_t instance, triangle;
-    double area;  // m², in the world
+    double area;    // m², in the world
+    double weight;  // share of the points, relative to others'
 };
+
+constexpr uint32_t kLeastPoints =
+    24;  // of an instance: small things would else be a disk larger than they are
 
 // Every third bit of 30 from ten.
 uint32_t spreadThird(uint32_t x) {
@@ -118,7 +123,7 @@ std::vector<CurveTriangle> curveOf(const RenderScene& scene, const DeformedVerti
         for (uint32_t t = 0; t < p.indexCount / 3; ++t) {
             const auto w = worldCorners(scene.instances[i], cornersAmong(positions, g, p, t));
             const double area = 0.5 * double(glm::length(glm::cross(w[1] - w[0], w[2] - w[0])));
-            curve.push_back({mortonCode((w[0] + w[1] + w[2]) / 3.0f, scene.bounds), i, t, area});
+            curve.push_back({mortonCode((w[0] + w[1] + w[2]) / 3.0f, scene.bounds), i, t, area, area});
         }
     }
     std::ranges::stable_sort(curve, {}, &CurveTriangle::place);
@@ -208,11 +213,31 @@ glm::vec3 pointOn(const Corners& c, double share) {
     return (p + q + r) / 3.0f;
 }
 
-double areaOf(const std::vector<CurveTriangle>& curve) {
-    double area = 0;
+double weightOf(const std::vector<CurveTriangle>& curve) {
+    double weight = 0;
     for (const CurveTriangle& t : curve)
-        area += t.area;
-    return area;
+        weight += t.weight;
+    return weight;
+}
+
+std::vector<double> areasOfInstances(const RenderScene& scene, const std::vector<CurveTriangle>& still,
+                                     const std::vector<CurveTriangle>& movable) {
+    std::vector<double> areas(scene.instances.size());
+    for (const auto* curve : {&still, &movable})
+        for (const CurveTriangle& t : *curve)
+            areas[t.instance] += t.area;
+    return areas;
+}
+
+// Per instance, how many times as many points it gets as by its area.
+std::vector<double> densitiesOf(const std::vector<double>& areas, uint32_t count) {
+    const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
+    const auto instances = double(std::ranges::count_if(areas, [](double area) { return area > 0; }));
+    const double least = std::min(double(kLeastPoints), count / (4 * std::max(instances, 1.0)));
+    std::vector<double> densities(areas.size(), 1);
+    for (size_t i = 0; i < areas.size(); ++i)
+        if (areas[i] > 0) densities[i] = std::max(1.0, least * total / (areas[i] * count));
+    return densities;
 }
 
 // Where it is on the figure's triangle, however that is bent.
@@ -227,15 +252,15 @@ void followFigure(const RenderScene& scene, const CurveTriangle& t, glm::vec3 we
     std::memcpy(&sample, &on, sizeof on);
 }
 
-// `count` points at equal steps of all triangles' area laid end to end.
-void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& curve, double area,
+// `count` points at equal steps of all triangles' weights laid end to end.
+void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& curve, double weight,
                  uint32_t count, SurfaceSamples& out) {
     std::unordered_map<uint32_t, std::vector<uint8_t>> sharp;  // by primitive
-    const double step = area / count;
+    const double step = weight / count;
     double before = 0;
     uint32_t taken = 0;
     for (const CurveTriangle& t : curve) {
-        before += t.area;
+        before += t.weight;
         if ((taken + 0.5) * step >= before && &t != &curve.back()) continue;
         const uint32_t primitive = scene.instances[t.instance].primitive;
         const Primitive& p = scene.geometry->primitives[primitive];
@@ -244,7 +269,7 @@ void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& cur
         Corners c{localCorners(*scene.geometry, p, t.triangle), edges[t.triangle]};
         c.bend = bendOf(*scene.geometry, p, t.triangle, c.local);
         for (; taken < count && ((taken + 0.5) * step < before || &t == &curve.back()); ++taken) {
-            const double share = std::clamp(1 - (before - (taken + 0.5) * step) / t.area, 0.0, 1.0);
+            const double share = std::clamp(1 - (before - (taken + 0.5) * step) / t.weight, 0.0, 1.0);
             io::SurfaceSample sample{.positionLocal = pointOn(c, share),
                                      .instance = t.instance,
                                      .normalLocal = faceNormal(c.local),
@@ -267,23 +292,34 @@ void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& cur
 
 SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
     const DeformedVertices deformed = deformFigures(scene);
-    const std::vector<CurveTriangle> still = curveOf(scene, deformed, false),
-                                     movable = curveOf(scene, deformed, true);
-    const double stillArea = areaOf(still), movableArea = areaOf(movable), total = stillArea + movableArea;
-    SurfaceSamples out{.stillArea = float(stillArea), .movableArea = float(movableArea)};
+    std::vector<CurveTriangle> still = curveOf(scene, deformed, false),
+                               movable = curveOf(scene, deformed, true);
+    const std::vector<double> areas = areasOfInstances(scene, still, movable),
+                              densities = densitiesOf(areas, count);
+    for (auto* curve : {&still, &movable})
+        for (CurveTriangle& t : *curve)
+            t.weight *= densities[t.instance];
+    const double stillWeight = weightOf(still), movableWeight = weightOf(movable),
+                 total = stillWeight + movableWeight;
+    SurfaceSamples out;
     if (!(total > 0) || count == 0) return out;
     out.stillCount = count;
-    if (movableArea > 0) {
-        const double segments = stillArea / total * count / io::kSegmentPoints;
+    if (movableWeight > 0) {
+        const double segments = stillWeight / total * count / io::kSegmentPoints;
         out.stillCount =
             std::min(uint32_t(std::lround(segments)), (count - 1) / io::kSegmentPoints) * io::kSegmentPoints;
-        if (stillArea > 0) out.stillCount = std::max(out.stillCount, io::kSegmentPoints);
+        if (stillWeight > 0) out.stillCount = std::max(out.stillCount, io::kSegmentPoints);
+    }
+    const uint32_t movableCount =
+        movableWeight > 0 ? std::max(count, out.stillCount + io::kSegmentPoints) - out.stillCount : 0;
+    for (size_t i = 0; i < densities.size(); ++i) {
+        const double step =
+            scene.instances[i].movable ? movableWeight / movableCount : stillWeight / out.stillCount;
+        out.pointAreas.push_back(float(step / densities[i]));
     }
     out.samples.reserve(count);
-    if (out.stillCount > 0) sampleCurve(scene, still, stillArea, out.stillCount, out);
-    if (movableArea > 0)
-        sampleCurve(scene, movable, movableArea,
-                    std::max(count, out.stillCount + io::kSegmentPoints) - out.stillCount, out);
+    if (out.stillCount > 0) sampleCurve(scene, still, stillWeight, out.stillCount, out);
+    if (movableCount > 0) sampleCurve(scene, movable, movableWeight, movableCount, out);
     return out;
 }
 

@@ -14,11 +14,12 @@ struct SurfaceSamples {
     std::vector<io::SurfaceSample> samples;
     std::vector<glm::vec2> uvs;  // of the vertices, parallel to the samples
     uint32_t stillCount = 0;
-    float stillArea = 0, movableArea = 0;  // m² of the sampled surfaces, one side
+    std::vector<float> pointAreas;  // m², one side: what a point of each of the scene's instances stands for
 };
 
-// About `count` points at equal steps of area along curves through all surfaces but alpha-blended ones, so
-// that every n-th of any stretch is spread evenly over it. The same scene gives the same points.
+// About `count` points along curves through all surfaces but alpha-blended ones, so that every n-th of any
+// stretch is spread evenly over it: at equal steps of area, but no instance is stood for by fewer than 24 as
+// long as a quarter of the points suffices for that. The same scene gives the same points.
 SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
 
 }  // namespace ag::gi

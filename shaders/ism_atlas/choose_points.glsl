@@ -1,5 +1,5 @@
 // Which points of a layer each map is made of: of a segment of the curve through all surfaces so many as its distance
-// from the light asks for (as the solid angle of its area: 1 / d²), none from behind the light's plane. What the light
+// from the light asks for (as the solid angle of its area: area / d²), none from behind the light's plane. What the light
 // sees is then cut as finely near by as far off. One subgroup a map; systematic sampling along the curve, from another
 // place in each map. Needs buffers `segments`, `chosen` and the push constants.
 #ifndef AG_CHOOSE_POINTS_GLSL
@@ -17,9 +17,11 @@ uint firstEntryOf(uint map) { return map * push.p.pointsPerMap + push.p.firstEnt
 // Of a segment, relative to other segments.
 float weightOf(IsmLight light, uint segment) {
     vec4 ball = texelFetch(segments, int(min(segment, push.p.endSegment - 1)));
+    vec2 radiusAndArea = unpackHalf2x16(floatBitsToUint(ball.w));
+    float radius = radiusAndArea.x, area = radiusAndArea.y;
     vec3 d = ball.xyz - light.place;
-    bool asked = segment < push.p.endSegment && light.lit && (!kByDistance || dot(d, light.normal) > -ball.w);
-    return asked ? kByDistance ? 1.0 / max(dot(d, d), ball.w * ball.w) : 1.0 : 0.0;
+    bool asked = segment < push.p.endSegment && light.lit && (!kByDistance || dot(d, light.normal) > -radius);
+    return asked ? kByDistance ? area / max(dot(d, d), radius * radius) : area : 0.0;
 }
 
 // The factor from weight to points that makes them entryCount, no segment having more than all of its own.
@@ -49,11 +51,11 @@ uint choosePoints(uint map, IsmLight light) {
         float end = before + subgroupInclusiveAdd(asked);
         uint first = min(uint(end - asked), push.p.entryCount), last = min(uint(end), push.p.entryCount);
         // Fewer points stand for the same surface: their disks are larger.
-        float radius = push.p.pointRadius * sqrt(kMost / max(asked, 1e-6));
+        float growth = push.p.diskRadius * sqrt(kMost / max(asked, 1e-6));
         for (uint i = first; i < last; ++i) {
             uint rank = bitfieldReverse(i - first) >> 26 ^ scramble & (kSegmentPoints - 1);
             chosen.items[firstEntryOf(map) + i] =
-                packIsmPoint(min(segment * kSegmentPoints + rank, push.p.pointCount - 1), radius);
+                packIsmPoint(min(segment * kSegmentPoints + rank, push.p.pointCount - 1), growth);
         }
         before += subgroupAdd(asked);
     }

@@ -27,7 +27,7 @@ struct IsmSplatPush {
     uint tileSize;                  // texels along a map's side
     uint pointsPerMap;              // of both layers
     uint firstEntry, entryCount;    // the layer's among them
-    float pointRadius;              // m, where all points are used
+    float diskRadius;               // over that of disks with the surfaces' area together
     float inverseExtent;            // 1/m: of the greatest distance
     uint contents;                  // changes with the still points and with what maps are made like
 };

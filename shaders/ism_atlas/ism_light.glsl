@@ -24,10 +24,10 @@ IsmLight ismLight_(vec4 place, vec4 normal, float before) {
 
 vec3 toLight(IsmLight l, vec3 v) { return vec3(dot(v, l.t), dot(v, l.b), dot(v, l.normal)); }
 
-// A chosen point: which one and its disk's radius, a half float without its sign.
-uint packIsmPoint(uint point, float radius) { return packHalf2x16(vec2(radius, 0.0)) << kIsmPointBits | point; }
+// A chosen point: which one and how many times its own radius its disk has, a half float without its sign.
+uint packIsmPoint(uint point, float growth) { return packHalf2x16(vec2(growth, 0.0)) << kIsmPointBits | point; }
 uint pointOf(uint packed) { return packed & ((1u << kIsmPointBits) - 1u); }
-float radiusOf(uint packed) { return unpackHalf2x16(packed >> kIsmPointBits).x; }
+float growthOf(uint packed) { return unpackHalf2x16(packed >> kIsmPointBits).x; }
 
 // The plane through p with normal n as dot(m, d) = 1; planes through the light itself bound nothing.
 vec3 planeThrough(vec3 p, vec3 n) {

@@ -35,9 +35,10 @@ void main() {
     vec4 place = texelFetch(points, point);
     vec3 p = toLight(light, place.xyz - light.place);
     float distance_ = length(p);
+    vec4 normalAndRadius = texelFetch(points, point + 1);
     // Farther along the way from the light: there the surface is for certain behind.
-    p *= 1.0 + depthWithin(place.w, radiusOf(packed), distance_) / max(distance_, 1e-6);
-    vec3 normal = kPlanes ? toLight(light, texelFetch(points, point + 1).xyz) : p / max(length(p), 1e-20);
+    p *= 1.0 + depthWithin(place.w, normalAndRadius.w * growthOf(packed), distance_) / max(distance_, 1e-6);
+    vec3 normal = kPlanes ? toLight(light, normalAndRadius.xyz) : p / max(length(p), 1e-20);
     vec3 m = planeThrough(p, normal);
     planes.items[texel] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, distance_);
 }

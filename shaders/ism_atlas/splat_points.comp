@@ -51,9 +51,10 @@ Splat splatOf(uint map, uint entry, IsmLight light) {
     uint point = min(pointOf(packed), push.p.pointCount - 1);
     Splat s;
     s.entry = entry;
-    s.radius = radiusOf(packed);
     s.place = toLight(light, texelFetch(points, int(point) * 4).xyz - light.place);
-    vec3 normal = toLight(light, texelFetch(points, int(point) * 4 + 1).xyz);
+    vec4 normalAndRadius = texelFetch(points, int(point) * 4 + 1);
+    vec3 normal = toLight(light, normalAndRadius.xyz);
+    s.radius = normalAndRadius.w * growthOf(packed);
     s.plane = planeThrough(s.place, normal);
     for (int k = 0; k < 2; ++k) {
         vec4 edge = texelFetch(points, int(point) * 4 + 2 + k);

@@ -14,6 +14,13 @@ vec3 placeOf(uint segment, uint i) {
     return texelFetch(points, int(min(segment * kSegmentPoints + i, push.pointCount - 1)) * 4).xyz;
 }
 
+// The last segment may have fewer points.
+float areaOf(uint segment, uint i) {
+    uint point = segment * kSegmentPoints + i;
+    float radius = texelFetch(points, int(min(point, push.pointCount - 1)) * 4 + 1).w;
+    return point < push.pointCount ? kPi * radius * radius : 0.0;
+}
+
 void main() {
     uint segment = gl_GlobalInvocationID.x;
     if (segment * kSegmentPoints >= push.pointCount) return;
@@ -24,10 +31,11 @@ void main() {
         most = max(most, p);
     }
     vec3 centre = 0.5 * (least + most);
-    float radius2 = 0.0;
+    float radius2 = 0.0, area = 0.0;
     for (uint i = 0; i < kSegmentPoints; ++i) {
         vec3 d = placeOf(segment, i) - centre;
         radius2 = max(radius2, dot(d, d));
+        area += areaOf(segment, i);
     }
-    segments.items[segment] = SurfaceSegment(centre, sqrt(radius2));
+    segments.items[segment] = SurfaceSegment(centre, packHalf2x16(vec2(sqrt(radius2), area)));
 }

@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { uint count; } push;
 
 layout(set = 0, binding = 1) uniform samplerBuffer samples;
+layout(set = 0, binding = 5) uniform samplerBuffer areas;
 layout(set = 0, binding = 2, scalar) writeonly buffer Points { SurfacePoint items[]; } points;
 #ifdef AG_FIGURES
 layout(set = 0, binding = 3, scalar) readonly buffer Positions { vec3 items[]; } deformedPositions;
@@ -41,7 +42,7 @@ void main() {
     p.position = transformPoint(t, s.positionLocal);
     p.normal = normalize(transformNormal(t, s.normalLocal));
     p.bend = s.bendLocal / max(length(transformDirection(t, s.normalLocal)), 1e-20);
-    p.unused = 0.0;
+    p.radius = sqrt(texelFetch(areas, int(s.instance)).x / kPi);
     for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, s.edgesLocal[k]);
     points.items[i] = p;
 }

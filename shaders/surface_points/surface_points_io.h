@@ -33,7 +33,7 @@ struct SurfacePoint {  // 4 vec4
     vec3 position;     // m
     float bend;        // 1/m
     vec3 normal;       // unit
-    float unused;
+    float radius;      // m, of a disk as large as what it stands for
     SurfaceEdge edges[2];
 };
 
@@ -42,7 +42,7 @@ const uint kSegmentPoints = 64;
 
 struct SurfaceSegment {  // 1 vec4: a ball round a segment's points
     vec3 centre;         // m
-    float radius;        // m
+    uint radiusAndArea;  // halves, m and m²: of the ball, and what the points stand for
 };
 
 #ifdef __cplusplus

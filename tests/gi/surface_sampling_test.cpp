@@ -63,11 +63,24 @@ GeometryArrays sphereOf(float radius) {
     return g;
 }
 
+// The instance that has more triangles than the floor's two.
+uint32_t boxOf(const RenderScene& scene) {
+    return scene.geometry->primitives[scene.instances[1].primitive].indexCount > 6;
+}
+
+// m² that all points together stand for.
+float areaOf(const SurfaceSamples& all) {
+    double area = 0;
+    for (const io::SurfaceSample& s : all.samples)
+        area += double(all.pointAreas[s.instance]);
+    return float(area);
+}
+
 TEST(SurfaceSampling, EqualAreasGetEqualCounts) {
     const SceneAsset asset = floorAndBox();
     const RenderScene scene = staticScene(asset);
     const SurfaceSamples all = sampleSurfaces(scene, 8192);
-    EXPECT_NEAR(all.stillArea, 22, 1e-4);
+    EXPECT_NEAR(areaOf(all), 22, 1e-3);
     ASSERT_NEAR(double(all.samples.size()), 8192, 1);
     for (size_t first = 0; first < 8; ++first) {
         const auto counts = countByInstance(everyNth(all.samples, 8, first));
@@ -102,15 +115,41 @@ TEST(SurfaceSampling, MovableInstancesHaveTheirOwnSegments) {
         const SurfaceSamples all = sampleSurfaces(scene, 8192);
         ASSERT_EQ(all.samples.size(), 8192u);
         EXPECT_EQ(all.stillCount % io::kSegmentPoints, 0u);
-        EXPECT_NEAR(all.stillArea + all.movableArea, 22, 1e-4);
+        EXPECT_NEAR(areaOf(all), 22, 1e-3);
         for (size_t i = 0; i < all.samples.size(); ++i)
             ASSERT_EQ(all.samples[i].instance == moving, i >= all.stillCount) << i;
-        EXPECT_NEAR(all.movableArea / 22, double(8192 - all.stillCount) / 8192, 0.01);
+        EXPECT_NEAR((moving ? 6 : 16) / 22.0, double(8192 - all.stillCount) / 8192, 0.01);
     }
     RenderScene scene = staticScene(asset);
     for (RenderInstance& instance : scene.instances)
         instance.movable = true;
     EXPECT_EQ(sampleSurfaces(scene, 8192).stillCount, 0u);
+}
+
+// A box of 6 m² beside a floor of 160,000 m² would get a point by its area alone.
+TEST(SurfaceSampling, SmallThingsHavePointsThatStandForLess) {
+    const SceneAsset asset = floorAndBox();
+    RenderScene scene = staticScene(asset);
+    const uint32_t box = boxOf(scene);
+    scene.instances[1 - box].worldFromLocal = glm::mat4x3(glm::scale(glm::mat4(1), glm::vec3(100)));
+    const SurfaceSamples all = sampleSurfaces(scene, 8192);
+    auto counts = countByInstance(all.samples);
+    EXPECT_NEAR(counts[box], 24, 2);
+    EXPECT_NEAR(counts[box] * all.pointAreas[box], 6, 0.6);
+    EXPECT_NEAR(areaOf(all), 160006, 200);
+}
+
+// A quarter of the points is for that, however many small things there are.
+TEST(SurfaceSampling, LargeThingsKeepThreeQuartersOfThePoints) {
+    const SceneAsset asset = floorAndBox();
+    RenderScene scene = staticScene(asset);
+    const uint32_t box = boxOf(scene), floor = 1 - box;
+    scene.instances[floor].worldFromLocal = glm::mat4x3(glm::scale(glm::mat4(1), glm::vec3(1000)));
+    const RenderInstance small = scene.instances[box];
+    scene.instances.resize(1000, small);
+    const SurfaceSamples all = sampleSurfaces(scene, 8192);
+    const auto large = std::ranges::count(all.samples, floor, &io::SurfaceSample::instance);
+    EXPECT_NEAR(double(large) / double(all.samples.size()), 0.8, 0.03);
 }
 
 TEST(SurfaceSampling, CutOutPointsStandForNothing) {
@@ -142,7 +181,7 @@ TEST(SurfaceSampling, SegmentsOfTheCurveAreCompact) {
     const SceneAsset asset = *scenegen::buildScene("cornell", 0);
     const RenderScene scene = staticScene(asset);
     const SurfaceSamples all = sampleSurfaces(scene, 1 << 14);
-    const float side = std::sqrt(all.stillArea / float(all.samples.size()));
+    const float side = std::sqrt(areaOf(all) / float(all.samples.size()));
     double sum = 0;
     const size_t segments = all.samples.size() / io::kSegmentPoints;
     for (size_t s = 0; s < segments; ++s) {

@@ -77,9 +77,7 @@ TEST_F(Walkthrough, FlowersMeasureWhatThePathTracerMeasures) {
             "flower %zu: %.4f %.4f %.4f, the path tracer %.4f %.4f %.4f: %+.1f %%; direct %.4f, %.4f\n", i,
             a.x, a.y, a.z, b.x, b.y, b.z, 100 * (mean(a) / mean(b) - 1), mean(measured.direct),
             mean(truth.direct));
-        // At two the area lights' shadow maps shade too much or too little (docs/game.md).
-        const float most = i == 1 || i == 8 ? 0.15f : 0.05f;
-        EXPECT_NEAR(mean(a), mean(b), most * mean(b)) << "flower " << i;
+        EXPECT_NEAR(mean(a), mean(b), 0.1f * mean(b)) << "flower " << i;
         EXPECT_GT(glm::dot(glm::normalize(a), glm::normalize(b)), 0.995f) << "flower " << i;
         EXPECT_NEAR(mean(measured.direct), mean(truth.direct), 0.02f) << "flower " << i;
     }
