@@ -12,12 +12,17 @@ namespace {
 constexpr uint32_t kNoBucket = ~0u;
 constexpr uint64_t kWorthJobs = 1u << 13;  // instances over all views
 
-DrawBucket bucketOf(const Material& material, bool deformed) {
+bool isMirrored(const RenderInstance& instance) {
+    return glm::determinant(glm::mat3(instance.worldFromLocal)) < 0;
+}
+
+DrawBucket bucketOf(const Material& material, const RenderInstance& instance) {
     return {.textureClass = material.textureClass,
             .alphaMask = material.alphaMode == AlphaMode::kMask,
             .doubleSided = material.doubleSided,
             .normalMap = material.normalLayer >= 0,
-            .deformed = deformed};
+            .deformed = instance.figure != kNoFigure,
+            .mirrored = isMirrored(instance)};
 }
 
 // Of what an instance draws and where that stands.
@@ -51,7 +56,7 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
         const Material& material =
             geometry.materials[geometry.primitives[scene.instances[i].primitive].material];
         if (material.alphaMode == AlphaMode::kBlend) continue;
-        const DrawBucket bucket = bucketOf(material, scene.instances[i].figure != kNoFigure);
+        const DrawBucket bucket = bucketOf(material, scene.instances[i]);
         const auto found = std::find(buckets_.begin(), buckets_.end(), bucket);
         instanceBucket_[i] = uint32_t(found - buckets_.begin());
         if (found == buckets_.end()) {
@@ -70,7 +75,9 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
     ++generation_;
 }
 
-void DrawLists::refreshBounds(const RenderScene& scene, bool all) {
+// False if an instance was turned over and belongs to another bucket now.
+bool DrawLists::refreshBounds(const RenderScene& scene, bool all) {
+    bool inPlace = true;
     changed_.assign((scene.instances.size() + 63) / 64, 0);
     const auto refresh = [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
@@ -78,6 +85,8 @@ void DrawLists::refreshBounds(const RenderScene& scene, bool all) {
             bounds_.set(i, instance, boundsLocal(scene, instance));
             transformHash_[i] = shapeHash(scene, instance);
             changed_[i / 64] |= uint64_t(1) << (i % 64);
+            const uint32_t bucket = instanceBucket_[i];
+            inPlace &= bucket == kNoBucket || buckets_[bucket].mirrored == isMirrored(instance);
         }
     };
     if (all || scene.allInstancesChanged)
@@ -86,6 +95,7 @@ void DrawLists::refreshBounds(const RenderScene& scene, bool all) {
         for (const RenderScene::Range& range : scene.changedInstances)
             refresh(range.begin, range.end);
     bounds_.fold(changed_, *jobs_);
+    return inPlace;
 }
 
 void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
@@ -97,8 +107,11 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
             regroup = instancePrimitive_[i] != scene.instances[i].primitive ||
                       instanceFigure_[i] != scene.instances[i].figure;
     if (regroup) rebuildBuckets(scene);
-    if (regroup || instancesVersion_ != scene.instancesVersion)
-        refreshBounds(scene, regroup || scene.instancesVersion != instancesVersion_ + 1);
+    const bool all = regroup || scene.instancesVersion != instancesVersion_ + 1;
+    if ((regroup || instancesVersion_ != scene.instancesVersion) && !refreshBounds(scene, all)) {
+        rebuildBuckets(scene);
+        refreshBounds(scene, true);
+    }
     geometryVersion_ = scene.geometry->version;
     instancesVersion_ = scene.instancesVersion;
 }

@@ -23,6 +23,7 @@ struct DrawBucket {
     bool doubleSided = false;
     bool normalMap = false;
     bool deformed = false;  // of figures: their own vertices
+    bool mirrored = false;  // of instances whose transform turns triangles over
 
     bool operator==(const DrawBucket&) const = default;
 };
@@ -77,7 +78,7 @@ class DrawLists {
         std::vector<uint64_t> inSight;  // a bit an instance
     };
     void rebuildBuckets(const RenderScene& scene);
-    void refreshBounds(const RenderScene& scene, bool all);
+    bool refreshBounds(const RenderScene& scene, bool all);
     void ensureView(uint32_t view);
     void cullView(const RenderScene& scene, const ViewRequest& request);
 

@@ -26,6 +26,7 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
             if (camera) draw.spec[draw.specCount++] = {2, bucket.normalMap};
         }
         draw.cull = bucket.doubleSided || !camera ? gpu::CullMode::kNone : gpu::CullMode::kBack;
+        draw.mirrored = bucket.mirrored;
         draw.deformed = bucket.deformed;
         draw.viewport = viewport;
         std::ranges::copy(push, draw.push.begin());

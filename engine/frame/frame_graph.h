@@ -88,6 +88,7 @@ struct RasterDraw {
     std::array<gpu::SpecConstant, 4> spec{};  // the variant: added to the pass's own constants
     uint32_t specCount = 0;
     gpu::CullMode cull = gpu::CullMode::kBack;
+    bool mirrored = false;   // see gpu::RasterState
     glm::uvec4 viewport{0};  // x, y, width, height in pixels; all zero: the whole target
     std::array<std::byte, 128> push{};
     uint32_t pushSizeBytes = 0;

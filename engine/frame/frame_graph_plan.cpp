@@ -9,7 +9,7 @@ namespace {
 uint64_t hashDraw(uint64_t key, const RasterDraw& draw) {
     for (uint32_t i = 0; i < draw.specCount; ++i)
         key = combineHash(combineHash(key, draw.spec[i].id), draw.spec[i].value);
-    key = combineHash(key, uint64_t(draw.cull));
+    key = combineHash(key, uint64_t(draw.cull) * 2 + draw.mirrored);
     key = hashValue(draw.viewport, key);
     key = hashBytes({draw.push.data(), draw.pushSizeBytes}, key);
     key = combineHash(key, draw.commandCount * 2 + draw.deformed);
@@ -44,6 +44,7 @@ gpu::PipelineRequest FrameGraph::Impl::requestFor(const Pass& pass, const Raster
     request.fragmentShader = pass.shader;
     if (!draw) return request;
     request.raster.cull = draw->cull;
+    request.raster.mirrored = draw->mirrored;
     for (uint32_t i = 0; i < draw->specCount; ++i) {
         AG_CHECK_LT(request.specCount, gpu::kMaxSpecConstants);
         request.spec[request.specCount++] = draw->spec[i];

@@ -23,9 +23,9 @@ uint64_t requestHash(const PipelineRequest& r) {
     hash = hashText(r.vertexShader, hash);
     hash = hashText(r.fragmentShader, hash);
     const RasterState& s = r.raster;
-    for (uint64_t field :
-         {uint64_t(s.vertexLayout), uint64_t(s.cull), uint64_t(s.blend), uint64_t(s.depthTest),
-          uint64_t(s.depthWrite), uint64_t(s.depthEqual), uint64_t(s.colorCount), uint64_t(s.depthFormat)})
+    for (uint64_t field : {uint64_t(s.vertexLayout), uint64_t(s.cull), uint64_t(s.mirrored),
+                           uint64_t(s.blend), uint64_t(s.depthTest), uint64_t(s.depthWrite),
+                           uint64_t(s.depthEqual), uint64_t(s.colorCount), uint64_t(s.depthFormat)})
         hash = combineHash(hash, field);
     hash = hashValue(s.depthBiasSlope, hash);
     for (uint32_t i = 0; i < s.colorCount; ++i)
@@ -266,7 +266,7 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
         .cullMode =
             VkCullModeFlags(state.cull == CullMode::kBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
-        .frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE,
+        .frontFace = state.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
         .depthBiasEnable = state.depthBiasSlope != 0,
         .depthBiasSlopeFactor = state.depthBiasSlope,
         .lineWidth = 1};

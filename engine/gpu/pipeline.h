@@ -42,6 +42,7 @@ enum class VertexLayout : uint32_t {
 struct RasterState {
     VertexLayout vertexLayout = VertexLayout::kNone;
     CullMode cull = CullMode::kNone;
+    bool mirrored = false;  // fronts are wound clockwise, as a mirrored instance's are
     BlendMode blend = BlendMode::kNone;
     bool depthTest = false;  // reversed depth: nearer is greater
     bool depthWrite = false;

@@ -20,5 +20,5 @@ void main() {
     SurfaceMaterial m = fetchMaterial(material, uv);
     vec3 n = unitNormal(normal);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
-    outAlbedo = vec4(diffuseAlbedo(m.baseColor.rgb, m.metallic), 1.0);
+    outAlbedo = vec4(gl_FrontFacing || isDoubleSided(material) ? diffuseAlbedo(m.baseColor.rgb, m.metallic) : vec3(0.0), 1.0);
 }

@@ -89,6 +89,9 @@ struct SurfaceMaterial {
     vec2 uv;
 };
 
+// A single-sided surface blocks light from both sides and reflects it from the front alone, where a camera sees it.
+bool isDoubleSided(uint material) { return texelFetch(materials, int(material) * 6 + 4).w > 0.0; }
+
 // Base colour, metallic and roughness with their textures applied; discards below the alpha cut-off.
 SurfaceMaterial fetchMaterial(uint index, vec2 uv) {
     int base = int(index) * 6;

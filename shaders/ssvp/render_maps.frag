@@ -24,5 +24,5 @@ void main() {
     vec3 n = normalize(normal);
     outPosition = vec4(position, 1.0);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
-    outAlbedo = vec4(diffuseAlbedo(m.baseColor.rgb, m.metallic), 1.0);
+    outAlbedo = vec4(gl_FrontFacing || isDoubleSided(material) ? diffuseAlbedo(m.baseColor.rgb, m.metallic) : vec3(0.0), 1.0);
 }

@@ -70,5 +70,27 @@ TEST(DrawLists, JobsCullWhatTheCallerCulls) {
     }
 }
 
+TEST(DrawLists, WhatIsTurnedOverIsDrawnFromABucketOfItsOwn) {
+    const SceneAsset asset = *scenegen::buildScene("cornell", 0);
+    RenderScene scene = staticScene(asset);
+    setCamera(scene, cameraOf(asset, 0), {160, 90});
+    JobRunner one(1);
+    DrawLists lists;
+    for (int turn = 0; turn < 4; ++turn) {
+        lists.beginFrame(scene, one);
+        const ViewDraws& draws = lists.cull(scene, 0, scene.camera.clipFromWorld);
+        EXPECT_EQ(draws.instanceCount, scene.instances.size());
+        for (size_t b = 0; b < draws.buckets.size(); ++b)
+            for (uint32_t c = 0; c < draws.buckets[b].commandCount; ++c) {
+                const uint32_t row = lists.commands()[draws.buckets[b].firstCommand + c].firstInstance;
+                EXPECT_EQ(lists.buckets()[b].mirrored, row == 1 && turn % 2 == 1);
+            }
+        scene.instances[1].worldFromLocal[0] *= -1.0f;
+        scene.changedInstances = {{1, 2}};
+        scene.allInstancesChanged = false;
+        ++scene.instancesVersion;
+    }
+}
+
 }  // namespace
 }  // namespace ag::gi

@@ -70,6 +70,40 @@ TEST(Rsm, SunFluxOnAPlaneIsItsCrossSection) {
     EXPECT_NEAR(area / 1600, 1, 0.01) << "texel areas add up to the plane's";
 }
 
+// Turns the plane over as a mirrored node does: its front stays above.
+void mirror(RenderScene& scene) {
+    glm::mat4x3& m = scene.instances[0].worldFromLocal;
+    m[2] = -m[2];
+    scene.changedInstances = {{0, 1}};
+    scene.allInstancesChanged = false;
+    ++scene.instancesVersion;
+}
+
+TEST(Rsm, BacksOfSingleSidedSurfacesReflectNothing) {
+    for (const bool doubleSided : {false, true}) {
+        SceneAsset asset = plane(0.6f);
+        asset.geometry.materials[0].doubleSided = doubleSided;
+        Bench b(asset);
+        const auto fluxFrom = [&](float height) {
+            b.scene.lights = {{.kind = LightKind::kSpot,
+                               .position = {0, height, 0},
+                               .direction = {0, height > 0 ? -1 : 1, 0},
+                               .intensity = glm::vec3(7),
+                               .bounces = true,
+                               .id = 1}};
+            b.frame();
+            return totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels));
+        };
+        const double whole = fluxFrom(2);
+        EXPECT_GT(whole, 1);
+        for (int turn = 0; turn < 2; ++turn) {
+            EXPECT_NEAR(fluxFrom(2) / whole, 1, 1e-4) << turn;
+            EXPECT_NEAR(fluxFrom(-2) / whole, doubleSided ? 1 : 0, 1e-4) << turn;
+            mirror(b.scene);
+        }
+    }
+}
+
 TEST(Rsm, PointLightsSixFacesCatchAllItsPower) {
     Bench b(*scenegen::buildScene("furnace", 50));
     b.frame();
@@ -129,6 +163,21 @@ TEST(DirectLight, PlaneAgainstTheFormulas) {
                  .intensity = glm::vec3(9),
                  .id = 1},
                 2e-3);
+}
+
+TEST(GBuffer, MirroredThingsShowTheirFronts) {
+    Bench b(plane(0.5f));
+    for (int turn = 0; turn < 2; ++turn) {
+        b.renderer.render(b.scene, b.size, b.settings, b.options,
+                          [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                              b.last = declared;
+                              graph.output(declared.gbuffer.depth);
+                              graph.output(declared.gbuffer.normal);
+                          });
+        EXPECT_GT(readImage(b.renderer, b.last.gbuffer.depth).at(80, 60).x, 0) << turn;
+        EXPECT_NEAR(readImage(b.renderer, b.last.gbuffer.normal).at(80, 60).y, 1, 1e-3) << turn;
+        mirror(b.scene);
+    }
 }
 
 // A box over the floor: the point straight below it gets nothing, one well beside it everything.

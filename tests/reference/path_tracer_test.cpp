@@ -219,6 +219,28 @@ TEST(Reference, EmissiveWallsLightTheRoom) {
     EXPECT_NEAR(meanOf(r.bounces[1]), 0.4 * 3 * std::numbers::pi, 0.01);
 }
 
+// A lamp behind a curtain lights the floor by what the curtain's back reflects, if it has one.
+TEST(Reference, BacksOfSingleSidedSurfacesReflectNothing) {
+    for (const bool doubleSided : {false, true})
+        for (const bool mirrored : {false, true}) {
+            scenegen::SceneBuilder b("curtain");
+            const uint32_t gray = b.material("gray", glm::vec3(0.5f));
+            b.quad("floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, b.material("floor", glm::vec3(0)));
+            b.quad("curtain", {-1, 0, 1}, {2, 0, 0}, {0, 2, 0}, gray);  // faces +z
+            b.spot("lamp", {0, 1, 0.5f}, {0, 0, 1}, glm::vec3(20), 20, 40);
+            b.camera("camera", {0, 1.5f, -1}, {0, 0, 0.6f}, 50);
+            Traced t(b.finish(), {24, 16});
+            t.asset.geometry.materials[gray].doubleSided = doubleSided;
+            t.scene = staticScene(t.asset);
+            setCamera(t.scene, cameraOf(t.asset, 0), t.size);
+            if (mirrored)  // about x = 0: still the same curtain
+                t.scene.instances[1].worldFromLocal[0] *= -1.0f;
+            const double bounced = meanOf(t.run(1, 64).bounces[1]);
+            EXPECT_EQ(bounced > 0.01, doubleSided) << mirrored;
+            EXPECT_EQ(bounced == 0, !doubleSided) << mirrored;
+        }
+}
+
 // Points close to other surfaces are left out: there a map's texels are too few, and single ones count for
 // too much to be a mean.
 TEST(Reference, LightMapTexelsAgreeWithPaths) {

@@ -155,6 +155,11 @@ void RayScene::resolve(Surface& s) const {
     const GeometryArrays& g = *scene_.geometry;
     const Material& m = g.materials[part.primitive->material];
     s.normal = shadingNormal(part, s.triangle, s.u, s.v, s.geometricNormal);
+    if (s.hidden) {
+        s.albedo = s.baseColor = s.emissive = glm::vec3(0);
+        s.metallic = s.specular = 0;
+        return;
+    }
     s.baseColor = glm::vec3(m.baseColor);
     s.metallic = m.metallic;
     s.roughness = m.roughness;

@@ -16,7 +16,8 @@ struct Surface {                         // what a ray met
     glm::vec3 geometricNormal{0, 1, 0};  // unit, on the ray's side
     uint32_t part = 0, triangle = 0;     // with u, v: the place on it
     float u = 0, v = 0;
-    bool hidden = false;  // a single-sided surface from behind: it blocks light, but no camera sees it
+    bool hidden =
+        false;  // a single-sided surface from behind: blocks light, reflects none, no camera sees it
 
     // From here on valid after RayScene::resolve.
     bool resolved = false;
