@@ -75,6 +75,7 @@ void setRsmc(GiSettings& gi) {
     gi.importance.viewWeight = 1;  // the geometry term toward the view alone
     gi.valClustering.distanceWeight = gi.valClustering.normalWeight = 1;
     gi.valClustering.chromaWeight = 10;
+    gi.valClustering.planeWeight = 0;
 }
 
 void setAcrsm(GiSettings& gi) {
@@ -207,6 +208,8 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.valClustering.normalWeight);
     s.add({"val_clustering", "chroma_weight", 0, 1000, "", "metric: squared difference of flux colour"},
           &gi.valClustering.chromaWeight);
+    s.add({"val_clustering", "plane_weight", 0, 1000, "1/m2", "metric: squared distance from the plane"},
+          &gi.valClustering.planeWeight);
     s.add({"val_clustering", "adaptive", 0, 0, "", "split clusters with much error, drop those with little"},
           &gi.valClustering.adaptive);
     s.add({"val_clustering", "settle_frames", 0, 1000, "frames",

@@ -19,8 +19,8 @@ uint32_t lookPeriod(ValClusteringHistory& history, uint64_t lightVersion, uint32
 
 // Member by member: the struct has padding.
 uint64_t hashOf(const ValClusteringSettings& s) {
-    const glm::vec4 metric(s.distanceWeight, s.normalWeight, s.chromaWeight, s.adaptive ? 1 : 0);
-    return combineHash(hashValue(metric), hashValue(glm::uvec2(s.count, s.settleFrames)));
+    return combineHash(hashValue(metricWeights(s)),
+                       hashValue(glm::uvec3(s.count, s.settleFrames, s.adaptive)));
 }
 
 struct SeedPush {
@@ -123,21 +123,24 @@ void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHa
 
 }  // namespace
 
+glm::vec4 metricWeights(const ValClusteringSettings& s) {
+    return {s.distanceWeight, s.normalWeight, s.chromaWeight, s.planeWeight};
+}
+
 Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
                           const ValClusteringSettings& settings, uint64_t viewVersion,
                           ValClusteringHistory& history) {
     if (rsm.empty()) return {};
     const uint64_t light = combineHash(rsm.inputsVersion, hashOf(settings));
     const uint64_t inputs = combineHash(light, importance.viewDependent() ? viewVersion : 0);
-    const io::ClusterSettings push{
-        .metricWeights = {settings.distanceWeight, settings.normalWeight, settings.chromaWeight},
-        .clusterCount = settings.count,
-        .atlasSize = rsm.atlas.size,
-        .mapCount = rsm.atlas.mapCount,
-        .viewWeight = importance.viewWeight,
-        .lookPeriod = lookPeriod(history, light, settings.settleFrames),
-        // Then the clusters rest, and everything behind them is skipped.
-        .step = history.settling.advance(inputs, settings.settleFrames)};
+    const io::ClusterSettings push{.metricWeights = metricWeights(settings),
+                                   .clusterCount = settings.count,
+                                   .atlasSize = rsm.atlas.size,
+                                   .mapCount = rsm.atlas.mapCount,
+                                   .viewWeight = importance.viewWeight,
+                                   .lookPeriod = lookPeriod(history, light, settings.settleFrames),
+                                   // Then the clusters rest, and everything behind them is skipped.
+                                   .step = history.settling.advance(inputs, settings.settleFrames)};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
     const State state{

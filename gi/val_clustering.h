@@ -15,6 +15,7 @@ struct ValClusteringSettings {
     float distanceWeight = 1;    // w_d, 1/m²
     float normalWeight = 10;     // w_n
     float chromaWeight = 5;      // w_flux of RSMC eq. 1
+    float planeWeight = 12;      // of the distance from the cluster's plane, 1/m²
     bool adaptive = true;        // split clusters with much error, drop those with little (ACRSM 4.8)
     uint32_t settleFrames = 32;  // steps taken after the light maps last changed; then clusters rest
 };
@@ -25,6 +26,8 @@ struct ValClusteringHistory {
     uint64_t lightVersion = 0;  // of the inputs that are not the view
     uint32_t sinceLightChange = 0;
 };
+
+glm::vec4 metricWeights(const ValClusteringSettings& settings);
 
 struct Clusters {
     BufferHandle clusters;                     // io::Cluster

@@ -8,6 +8,7 @@
 #include "common/lane_loop.glsl"
 #include "common/sampling.h"
 #include "importance/importance_io.h"
+#include "val_clustering/covariance.glsl"
 #include "val_clustering/val_clustering_io.h"
 
 layout(local_size_x_id = 100) in;  // one subgroup a cluster
@@ -41,8 +42,9 @@ void main() {
     uint cluster = gl_WorkGroupID.x;
     Cluster c = previous.items[cluster];
     vec2 view = kFromView ? meanOverView(c) : vec2(1.0, 0.0);
-    vec3 weights = push.settings.metricWeights;
-    float metric = weights.x * sum3(c.covarianceDiagonal) + weights.y * (1.0 - c.cosineSpread);
+    vec4 weights = push.settings.metricWeights;
+    float metric = weights.x * sum3(c.covarianceDiagonal) + weights.y * (1.0 - c.cosineSpread) +
+                   weights.w * dot(c.normal, covarianceOf(c) * c.normal);
     if (gl_SubgroupInvocationID == 0)
         errors.items[cluster] = ClusterError(sum3(c.flux) * view.x * metric, sum3(c.flux) * view.y);
 }

@@ -54,7 +54,7 @@ struct ClusterError {  // what one light instead of its texels gets wrong
 };
 
 struct ClusterSettings {  // push constants
-    vec3 metricWeights;   // distance [1/m²], normal, chroma
+    vec4 metricWeights;   // distance [1/m²], normal, chroma, distance from the plane [1/m²]
     uint clusterCount;
     uvec2 atlasSize;  // texels
     uint mapCount;

@@ -247,7 +247,7 @@ void checkAssignmentTwin(Bench& b) {
     const auto candidates = b.read<uint32_t>(b.last.clusters.candidates);
     const auto counts = b.read<uint32_t>(b.last.clusters.candidateCounts);
     const ValClusteringSettings& s = b.settings.valClustering;
-    const glm::vec3 weights(s.distanceWeight, s.normalWeight, s.chromaWeight);
+    const glm::vec4 weights = metricWeights(s);
     size_t checked = 0;
     for (size_t i = 0; i < texels.size(); i += 7) {
         const io::RsmTexel& t = texels[i];
@@ -300,6 +300,37 @@ TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
 }
 
 // Sampled point lights carry the light maps' flux: each as much as its chance leaves it.
+// m: the root of the flux-weighted mean square distance of texels from their clusters' planes.
+double thicknessOfClusters(const SceneAsset& asset, float planeWeight) {
+    Bench b(asset);
+    if (planeWeight >= 0) b.settings.valClustering.planeWeight = planeWeight;
+    b.settings.valClustering.count = 32;
+    for (int i = 0; i < 40; ++i)
+        b.frame();
+    double sum = 0, flux = 0;
+    for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters)) {
+        if (c.texelCount == 0) continue;
+        const glm::dvec3 n(c.normal), own(c.covarianceDiagonal), mixed(c.covarianceMixed);
+        sum += double(c.flux.x) *
+               (glm::dot(own, n * n) + 2 * (mixed.x * n.x * n.y + mixed.y * n.x * n.z + mixed.z * n.y * n.z));
+        flux += double(c.flux.x);
+    }
+    return std::sqrt(std::max(sum, 0.0) / flux);
+}
+
+TEST(ValClustering, KeepsStepsOfAStairApart) {
+    scenegen::SceneBuilder builder("stair");
+    const uint32_t gray = builder.material("gray", glm::vec3(0.5f));
+    for (int step = 0; step < 8; ++step)
+        builder.box("step", {0, 0.15f * float(step), 0.3f * float(step)}, {3, 0.3f, 0.3f}, gray);
+    builder.sun("sun", {0.02f, -1, 0.03f}, glm::vec3(5));
+    builder.camera("camera", {0, 3, -3}, {0, 0.5f, 1}, 60);
+    const SceneAsset asset = builder.finish();
+    const double published = thicknessOfClusters(asset, 0), ours = thicknessOfClusters(asset, -1);
+    EXPECT_GT(published, 0.03) << "steps 0.15 m high share clusters";
+    EXPECT_LT(ours, 0.5 * published);
+}
+
 TEST(VplSampling, LightsCarryTheMapsFlux) {
     for (const char* name : {"cornell", "hall"}) {
         Bench b(*scenegen::buildScene(name, 0));
