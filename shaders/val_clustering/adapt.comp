@@ -23,8 +23,8 @@ layout(set = 0, binding = 3) uniform samplerBuffer texels;
 layout(set = 0, binding = 5, scalar) readonly buffer Errors { ClusterError items[]; } errors;
 layout(set = 0, binding = 4, scalar) writeonly buffer Plans { uint items[]; } plans;
 
-const float kMergeShare = 0.1, kSplitShare = 4.0;  // of the mean error
-const float kLeastTexels = 24.0;
+const float kMergeShare = 0.1, kSplitShare = 3.0;  // of the mean error
+const float kLeastTexels = 8.0;
 
 shared uint emptySlots[kMaxClusters], idleSlots[kMaxClusters], splitters[kMaxClusters];
 
