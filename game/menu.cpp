@@ -11,7 +11,7 @@
 namespace ag::game {
 namespace {
 
-enum MainLine { kLinePlay, kLineContinue, kLineNew, kLineSettings, kLineKeys, kLineQuit };
+enum class MainLine { kResume, kContinue, kNew, kSettings, kKeys, kQuit };
 enum SettingLine { kQuality, kSensitivity, kFieldOfView, kExposure, kVolume, kHints, kInvert, kSettingsBack };
 
 void openPage(Menu& menu, MenuPage page) {
@@ -19,18 +19,44 @@ void openPage(Menu& menu, MenuPage page) {
     menu.selected = 0;
 }
 
+// Only what can be done.
+std::vector<MainLine> mainLines(const Menu& menu) {
+    std::vector<MainLine> lines;
+    if (menu.started) lines.push_back(MainLine::kResume);
+    if (menu.hasSave) lines.push_back(MainLine::kContinue);
+    lines.insert(lines.end(), {MainLine::kNew, MainLine::kSettings, MainLine::kKeys, MainLine::kQuit});
+    return lines;
+}
+
+std::string textOf(MainLine line, const Menu& menu) {
+    switch (line) {
+        case MainLine::kResume:
+            return "Resume";
+        case MainLine::kContinue:
+            return menu.started ? "Back to the saved game" : "Continue";
+        case MainLine::kNew:
+            return "New game";
+        case MainLine::kSettings:
+            return "Settings";
+        case MainLine::kKeys:
+            return "Keys";
+        default:
+            return "Quit";
+    }
+}
+
 MenuEvent chooseMain(Menu& menu) {
-    switch (menu.selected) {
-        case kLinePlay:
-            return MenuEvent::kPlay;
-        case kLineContinue:
-            return menu.hasSave ? MenuEvent::kContinue : MenuEvent::kNone;
-        case kLineNew:
+    switch (mainLines(menu)[size_t(menu.selected)]) {
+        case MainLine::kResume:
+            return MenuEvent::kResume;
+        case MainLine::kContinue:
+            return MenuEvent::kContinue;
+        case MainLine::kNew:
             return MenuEvent::kNewGame;
-        case kLineSettings:
+        case MainLine::kSettings:
             openPage(menu, MenuPage::kSettings);
             return MenuEvent::kNone;
-        case kLineKeys:
+        case MainLine::kKeys:
             openPage(menu, MenuPage::kKeys);
             return MenuEvent::kNone;
         default:
@@ -102,13 +128,12 @@ MenuEvent bindKey(Menu& menu, int code, Bindings& keys) {
 }  // namespace
 
 std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, const Bindings& keys) {
-    if (menu.page == MenuPage::kMain)
-        return {menu.started ? "Resume" : "Play",
-                menu.hasSave ? "Continue the saved game" : "Continue (nothing saved yet)",
-                "New game",
-                "Settings",
-                "Keys",
-                "Quit"};
+    std::vector<std::string> lines;
+    if (menu.page == MenuPage::kMain) {
+        for (const MainLine line : mainLines(menu))
+            lines.push_back(textOf(line, menu));
+        return lines;
+    }
     if (menu.page == MenuPage::kSettings)
         return {fmt::format("Quality: {}", qualityName(s.quality)),
                 fmt::format("Mouse: {:.1f}", s.sensitivity),
@@ -118,11 +143,10 @@ std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, cons
                 fmt::format("Hints: {}", s.hints ? "on" : "off"),
                 fmt::format("Mouse up looks {}", s.invertLook ? "down" : "up"),
                 "Back"};
-    std::vector<std::string> lines;
     for (size_t i = 0; i < kActionCount; ++i)
         lines.push_back(fmt::format(
             "{}: {}", actionName(Action(i)),
-            menu.waitsForKey && int(i) == menu.selected ? "press a key" : codeName(keys.codes[i])));
+            menu.waitsForKey && int(i) == menu.selected ? "press a key" : spokenName(keys.codes[i])));
     lines.push_back("Back");
     return lines;
 }
@@ -141,7 +165,7 @@ MenuEvent pressInMenu(Menu& menu, int code, UserSettings& settings, Bindings& ke
         if (menu.page != MenuPage::kMain)
             openPage(menu, MenuPage::kMain);
         else if (menu.started)
-            return MenuEvent::kPlay;
+            return MenuEvent::kResume;
     }
     return MenuEvent::kNone;
 }
@@ -154,19 +178,26 @@ MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoNav);
     MenuEvent event = MenuEvent::kNone;
+    ImGui::TextColored({1, 0.85f, 0.55f, 1},
+                       "Flowers open in light that has bounced.\nLight the walls, not the flowers.");
+    ImGui::Separator();
     const std::vector<std::string> lines = menuLines(menu, settings, keys);
     for (int i = 0; i < int(lines.size()); ++i) {
         ImGui::PushID(i);
-        if (ImGui::Selectable(lines[size_t(i)].c_str(), i == menu.selected, 0, {240, 0}) &&
-            !menu.waitsForKey) {
-            menu.selected = i;
-            event = choose(menu, settings);
-        }
+        // One highlight for mouse and keys: what is pointed at is selected as soon as the mouse moves.
+        const ImVec4 highlight = ImGui::GetStyleColorVec4(ImGuiCol_Header);
+        ImGui::PushStyleColor(ImGuiCol_HeaderHovered, i == menu.selected ? highlight : ImVec4(0, 0, 0, 0));
+        const bool clicked = ImGui::Selectable(lines[size_t(i)].c_str(), i == menu.selected);
+        ImGui::PopStyleColor();
+        const ImVec2 moved = ImGui::GetIO().MouseDelta;
+        const bool pointedAt = ImGui::IsItemHovered() && (moved.x != 0 || moved.y != 0);
+        if ((clicked || pointedAt) && !menu.waitsForKey) menu.selected = i;
+        if (clicked && !menu.waitsForKey) event = choose(menu, settings);
         ImGui::PopID();
     }
     ImGui::Separator();
     if (!menu.message.empty()) ImGui::TextWrapped("%s", menu.message.c_str());
-    ImGui::TextDisabled("%s", footer.c_str());
+    ImGui::TextUnformatted(footer.c_str());
     ImGui::End();
     return event;
 }

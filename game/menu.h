@@ -10,11 +10,19 @@
 namespace ag::game {
 
 enum class MenuPage : uint32_t { kMain, kSettings, kKeys };
-enum class MenuEvent : uint32_t { kNone, kPlay, kContinue, kNewGame, kQuit, kSettingsChanged, kKeysChanged };
+enum class MenuEvent : uint32_t {
+    kNone,
+    kResume,
+    kContinue,
+    kNewGame,
+    kQuit,
+    kSettingsChanged,
+    kKeysChanged
+};
 
 struct Menu {
     bool open = true;
-    bool started = false;  // a game is under way: "play" is "resume"
+    bool started = false;  // a game is under way
     bool hasSave = false;
     MenuPage page = MenuPage::kMain;
     int selected = 0;

@@ -83,13 +83,17 @@ Status checkSave(const Game& game, const std::string& text, const std::string& p
     return Ok{};
 }
 
+Status putSaveAside(const std::string& path, const std::string& suffix) {
+    std::error_code error;
+    std::filesystem::rename(path, path + suffix, error);
+    if (error) return Error{path + ": " + error.message()};
+    return Ok{};
+}
+
 Status putBrokenSaveAside(const Game& game, const std::string& path) {
     const auto text = readFile(path);
     if (text && checkSave(game, *text, path)) return Ok{};
-    std::error_code error;
-    std::filesystem::rename(path, path + ".broken", error);
-    if (error) return Error{path + ": " + error.message()};
-    return Ok{};
+    return putSaveAside(path, ".broken");
 }
 
 Status restoreGame(Game& game, const std::string& text, const std::string& path) {

@@ -13,6 +13,8 @@ std::string saveText(Game& game);
 Status saveGame(Game& game, const std::string& path);
 // Whether the text is a whole save of the game's level.
 Status checkSave(const Game& game, const std::string& text, const std::string& path);
+// Renames the file at `path`, over an earlier one of that name.
+Status putSaveAside(const std::string& path, const std::string& suffix);
 // What lies at `path` and is no such save is renamed to `path`.broken.
 Status putBrokenSaveAside(const Game& game, const std::string& path);
 // Only for a game fresh from its level; if it fails, the game is as it was.

@@ -142,7 +142,7 @@ class WindowedRun {
     }
     void obey(MenuEvent event) {
         switch (event) {
-            case MenuEvent::kPlay:
+            case MenuEvent::kResume:
                 play();
                 break;
             case MenuEvent::kQuit:
@@ -186,6 +186,8 @@ class WindowedRun {
     }
     void startAnew() {
         if ((menu_.started || ticks_ > 0) && !reload()) return;
+        if (keepBrokenSave() && fileExists(demo_.files.save()))
+            report(putSaveAside(demo_.files.save(), ".before"));  // a new game takes nothing that was won
         play();
     }
     // A save that cannot be read stays where it is, and so does the game under way.
@@ -306,9 +308,12 @@ class WindowedRun {
         chosen_ = event;  // obeyed before the next frame: this one is under way
     }
     std::string keysLine() const {
-        const auto key = [&](Action a) { return codeName(demo_.keys.codes[size_t(a)]); };
+        const auto key = [&](Action a) { return spokenName(demo_.keys.codes[size_t(a)]); };
         return fmt::format(
-            "{}{}{}{} walk, mouse looks, {} turns the lamp,\n{} jump, {} crouch, {} pick up and put down",
+            "{} {} {} {}: walk    mouse: look around\n"
+            "hold {}: aim the lamp alone\n"
+            "{}: jump    {}: crouch\n"
+            "{}: pick up or put down a crate",
             key(Action::kForward), key(Action::kLeft), key(Action::kBack), key(Action::kRight),
             key(Action::kLamp), key(Action::kJump), key(Action::kCrouch), key(Action::kUse));
     }

@@ -56,6 +56,16 @@ std::string codeName(int code) {
     return found == std::end(kNamed) ? "" : found->name;
 }
 
+std::string spokenName(int code) {
+    std::string spoken;
+    for (const char c : codeName(code)) {
+        const bool capital = c >= 'A' && c <= 'Z';
+        if (capital && !spoken.empty()) spoken += ' ';
+        spoken += c;
+    }
+    return spoken;
+}
+
 int codeFromName(std::string_view name) {
     if (name.size() == 1 && ((name[0] >= 'A' && name[0] <= 'Z') || (name[0] >= '0' && name[0] <= '9')))
         return name[0];

@@ -22,7 +22,8 @@ struct Bindings {
 };
 
 std::string_view actionName(Action action);
-std::string codeName(int code);  // "" for codes that cannot be bound
+std::string codeName(int code);    // "" for codes that cannot be bound
+std::string spokenName(int code);  // codeName in words: "Left Shift"
 // 0: there is no such key.
 int codeFromName(std::string_view name);
 

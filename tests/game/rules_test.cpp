@@ -146,10 +146,16 @@ TEST(Menu, IsWalkedWithKeys) {
     UserSettings settings;
     Bindings keys;
     const auto press = [&](int code) { return pressInMenu(menu, code, settings, keys); };
-    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kPlay);
+    EXPECT_EQ(menuLines(menu, settings, keys).size(), 4u) << "nothing to resume, nothing saved";
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kNewGame);
     EXPECT_EQ(press(GLFW_KEY_ESCAPE), MenuEvent::kNone) << "nothing to go back to yet";
+    menu.hasSave = true;
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kContinue);
+    menu.started = true;
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kResume);
+    EXPECT_EQ(press(GLFW_KEY_ESCAPE), MenuEvent::kResume);
     press(GLFW_KEY_DOWN);
-    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kNone) << "nothing is saved";
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kContinue) << "what was saved, instead of this game";
     press(GLFW_KEY_DOWN);
     EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kNewGame);
     press(GLFW_KEY_DOWN);

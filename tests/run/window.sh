@@ -62,7 +62,7 @@ await_end() {  # WHAT [CODE]
 }
 
 start_demo --record "$work/run.replay" --capture-frames 2
-keys Return  # Play
+keys Return  # New game
 turn 5 -52 0
 turn 5 0 50
 xdotool keydown w
@@ -135,9 +135,12 @@ for fault in out_of_date:3 surface_lost:3; do
   await_end "$fault"
   [[ -s $work/$fault.png ]] || { echo "FAILED: $fault left no picture"; exit 1; }
 done
+cp "$work/kept.txt" "$work/user/save.txt"
 start_demo --fault submit:300
-keys Return  # Play
+keys Down  # past Continue
+keys Return  # New game
 await_end "a lost device" 3
 grep -q "the graphics device was lost" "$work/log" || { echo "FAILED: a lost device said nothing: $(cat "$work/log")"; exit 1; }
 [[ $(tail -n 1 "$work/user/save.txt") == end ]] || { echo "FAILED: a lost device lost the game"; exit 1; }
+cmp -s "$work/kept.txt" "$work/user/save.txt.before" || { echo "FAILED: a new game lost the one before it"; exit 1; }
 exit 0
