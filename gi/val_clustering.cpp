@@ -78,6 +78,7 @@ void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importan
 void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHandle slotOfCluster,
                    const io::ClusterSettings& push) {
     graph.compute("val_clustering.gather_candidates", "val_clustering/gather_candidates.comp")
+        .read("texels", rsm.texels)
         .read("seeds", c.seeds)
         .read("maps", rsm.maps)
         .read("tileMaps", rsm.tileMaps)

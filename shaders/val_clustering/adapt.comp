@@ -23,7 +23,7 @@ layout(set = 0, binding = 3) uniform samplerBuffer texels;
 layout(set = 0, binding = 5, scalar) readonly buffer Errors { ClusterError items[]; } errors;
 layout(set = 0, binding = 4, scalar) writeonly buffer Plans { uint items[]; } plans;
 
-const float kMergeShare = 0.1, kSplitShare = 3.0;  // of the mean error
+const float kMergeShare = 0.1, kSplitShare = 2.0;  // of the mean error
 const float kLeastTexels = 8.0;
 
 shared uint emptySlots[kMaxClusters], idleSlots[kMaxClusters], splitters[kMaxClusters];

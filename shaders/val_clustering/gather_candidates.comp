@@ -4,10 +4,12 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 // For each tile, in ascending order, the clusters whose seeds lie within its map's candidate radius (RSMC's r = 2
-// cells of a sqrt(k) x sqrt(k) grid, rounded to tiles). Where none does, the nearest ones: every lit texel finds a
-// cluster. One subgroup a tile, so that the order is fixed.
+// cells of a sqrt(k) x sqrt(k) grid, rounded to tiles), and wherever they lie those nearest by the metric to texels here and
+// there in the tile: where clusters are few, that of a texel's own surface may be far off while another surface's is near.
+// Where no seed is near, the nearest ones: every lit texel finds a cluster. One subgroup a tile, so that the order is fixed.
+#include "common/clustering_metric.h"
 #include "common/lane_loop.glsl"
-#include "rsm/rsm_io.h"
+#include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
 layout(local_size_x_id = 100) in;
@@ -20,6 +22,10 @@ layout(set = 0, binding = 3, scalar) writeonly buffer Candidates { uint items[];
 layout(set = 0, binding = 4, scalar) writeonly buffer CandidateCounts { uint items[]; } candidateCounts;
 layout(set = 0, binding = 5, scalar) writeonly buffer SlotOfCluster { uint items[]; } slotOfCluster;
 
+layout(set = 0, binding = 6) uniform samplerBuffer texels;
+
+const uint kProbes = 16;  // one a row and a column
+
 // Chebyshev distance in tiles; far beyond any map for dead seeds and other maps' clusters.
 uint tileDistance(uint cluster, uvec2 tile, uint map) {
     const uint kFar = 1u << 20;
@@ -28,6 +34,33 @@ uint tileDistance(uint cluster, uvec2 tile, uint map) {
     uint tilesX = push.settings.atlasSize.x / kRsmTileSize;
     ivec2 d = abs(ivec2(seedTile % tilesX, seedTile / tilesX) - ivec2(tile));
     return seedTile == kNoCluster || seedMap != map ? kFar : uint(max(d.x, d.y));
+}
+
+// The map's cluster nearest by the metric to each of a tile's probes; kNoCluster where that is not lit.
+void findNearestByMetric(uint tile, uvec2 place, uint map, uint count, out uint nearest[kProbes]) {
+    float best[kProbes];
+    for (int i = 0; i < int(kProbes); ++i) {
+        best[i] = 3.0e38;
+        nearest[i] = kNoCluster;
+    }
+    for (uint base = 0; base < count; base += kSubgroupSize) {
+        uint cluster = base + gl_SubgroupInvocationID;
+        int at = int(min(cluster, count - 1)) * 3;
+        vec3 position = texelFetch(seeds, at).xyz, normal = texelFetch(seeds, at + 1).xyz, chroma = texelFetch(seeds, at + 2).xyz;
+        bool live = cluster < count && tileDistance(min(cluster, count - 1), place, map) < (1u << 20);
+        for (int i = 0; i < int(kProbes); ++i) {
+            RsmSurface s = AG_RSM_FETCH(texels, rsmTexelIndex(tile, uint(i) * kRsmTileSize + uint(i * 5 + 3) % kRsmTileSize));
+            vec3 own = s.flux * inversesqrt(max(dot(s.flux, s.flux), 1e-38));
+            float metric = clusterMetric(s.position, s.normal, own, position, normal, chroma, push.settings.metricWeights);
+            bool nearer = live && s.weight > 0.0 && metric < best[i];
+            best[i] = nearer ? metric : best[i];
+            nearest[i] = nearer ? cluster : nearest[i];
+        }
+    }
+    for (int i = 0; i < int(kProbes); ++i) {
+        float least = subgroupMin(best[i]);
+        nearest[i] = subgroupMin(best[i] == least ? nearest[i] : kNoCluster);
+    }
 }
 
 void main() {
@@ -46,10 +79,14 @@ void main() {
     uint radius = map == kNoCluster ? 0 : max(maps.items[min(map, push.settings.mapCount - 1)].candidateRadius, nearest);
     bool any = map != kNoCluster && nearest < (1u << 20);
 
+    uint nearestByMetric[kProbes];
+    findNearestByMetric(tile, place, map, count, nearestByMetric);
     uint found = 0;
     for (uint base = 0; base < count; base += kSubgroupSize) {
         uint cluster = base + gl_SubgroupInvocationID;
-        bool take = any && cluster < count && tileDistance(min(cluster, count - 1), place, map) <= radius;
+        bool take = tileDistance(min(cluster, count - 1), place, map) <= radius;
+        for (int i = 0; i < int(kProbes); ++i) take = take || nearestByMetric[i] == cluster;
+        take = take && any && cluster < count;
         uvec4 ballot = subgroupBallot(take);
         uint slot = found + subgroupBallotExclusiveBitCount(ballot);
         take = take && slot < kMaxCandidates;
