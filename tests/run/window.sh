@@ -114,7 +114,7 @@ start=$("$bin/afterglow-demo" --headless --frames 1 --size 32x18 2>/dev/null | g
 end=$("$bin/afterglow-demo" --headless --replay "$work/run.replay" --ticks-per-frame 30 --size 32x18 2>/dev/null | grep 'player at')
 echo "start: $start, end: $end"
 [[ -n $end && $start != "$end" ]] || { echo "FAILED: the player did not move"; exit 1; }
-((walked > 20 && looked > 0)) || { echo "FAILED: the keys or the mouse did not reach the game"; exit 1; }
+((walked > 5 && looked > 0)) || { echo "FAILED: the keys or the mouse did not reach the game"; exit 1; }
 [[ $end == *crate* ]] || { echo "FAILED: no crate was picked up"; exit 1; }
 
 # Going on with the saved game: it starts where that one ended.
