@@ -170,7 +170,8 @@ MenuEvent pressInMenu(Menu& menu, int code, UserSettings& settings, Bindings& ke
     return MenuEvent::kNone;
 }
 
-MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std::string& footer) {
+MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std::string& header,
+                   const std::string& footer) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, size, IM_COL32(0, 0, 0, 120));
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -178,8 +179,7 @@ MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoNav);
     MenuEvent event = MenuEvent::kNone;
-    ImGui::TextColored({1, 0.85f, 0.55f, 1},
-                       "Flowers open in light that has bounced.\nLight the walls, not the flowers.");
+    ImGui::TextColored({1, 0.85f, 0.55f, 1}, "%s", header.c_str());
     ImGui::Separator();
     const std::vector<std::string> lines = menuLines(menu, settings, keys);
     for (int i = 0; i < int(lines.size()); ++i) {

@@ -35,7 +35,8 @@ std::vector<std::string> menuLines(const Menu& menu, const UserSettings& setting
 
 // Codes as Window::takePressedKeys gives them.
 MenuEvent pressInMenu(Menu& menu, int code, UserSettings& settings, Bindings& keys);
-// Within an ImGui frame; the line that was clicked is chosen.
-MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std::string& footer);
+// Within an ImGui frame, under a header and over a footer; the line that was clicked is chosen.
+MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std::string& header,
+                   const std::string& footer);
 
 }  // namespace ag::game

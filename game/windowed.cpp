@@ -32,7 +32,8 @@ constexpr double kTick = 1.0 / 60;            // s
 constexpr int kMostTicksPerFrame = 12;        // a slower frame slows the world rather than piling up
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
 constexpr double kCpuBudgetMs = 80, kGpuBudgetMs = 13;  // of a frame's passes, where none is given
-constexpr double kSaveSeconds = 60;                     // between saves without an occasion
+constexpr const char* kGoal = "Flowers open in light that has bounced.\nLight the walls, not the flowers.";
+constexpr double kSaveSeconds = 60;  // between saves without an occasion
 
 // Keys 1 to 9.
 constexpr std::array<gi::Layer, 9> kKeyLayers = {
@@ -302,7 +303,7 @@ class WindowedRun {
             if (!menu_.open)
                 drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
                         glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
-            if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, keysLine());
+            if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, kGoal, keysLine());
         });
         clickIfAnswered(before, event);
         chosen_ = event;  // obeyed before the next frame: this one is under way

@@ -1,5 +1,5 @@
-// How far an RSM texel is from a cluster (RSMC eq. 1, with the distance from the cluster's plane besides, weights.w:
-// a light has an outline in its plane, but no thickness). Chroma is flux over its length.
+// How far an RSM texel is from a cluster (RSMC eq. 1, with the distance from the cluster's plane besides,
+// weights.w: a light has an outline in its plane, but no thickness). Chroma is flux over its length.
 #ifndef AG_CLUSTERING_METRIC_H
 #define AG_CLUSTERING_METRIC_H
 

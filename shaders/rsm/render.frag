@@ -5,7 +5,6 @@
 // below its size cancel out.
 #define AG_SCENE_MATERIALS
 #include "scene/scene.glsl"
-#include "common/brdf.h"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -20,5 +19,5 @@ void main() {
     SurfaceMaterial m = fetchMaterial(material, uv);
     vec3 n = unitNormal(normal);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
-    outAlbedo = vec4(gl_FrontFacing || isDoubleSided(material) ? diffuseAlbedo(m.baseColor.rgb, m.metallic) : vec3(0.0), 1.0);
+    outAlbedo = vec4(bounceAlbedo(material, m), 1.0);
 }

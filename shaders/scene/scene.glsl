@@ -2,6 +2,7 @@
 #ifndef AG_SCENE_GLSL
 #define AG_SCENE_GLSL
 
+#include "common/brdf.h"
 #include "scene/scene_io.h"
 
 // Interpolated normals may cancel: zero stays zero.
@@ -89,7 +90,6 @@ struct SurfaceMaterial {
     vec2 uv;
 };
 
-// A single-sided surface blocks light from both sides and reflects it from the front alone, where a camera sees it.
 bool isDoubleSided(uint material) { return texelFetch(materials, int(material) * 6 + 4).w > 0.0; }
 
 // Base colour, metallic and roughness with their textures applied; discards below the alpha cut-off.
@@ -118,6 +118,12 @@ SurfaceMaterial fetchMaterial(uint index, vec2 uv) {
     }
     if (kAlphaMask && m.baseColor.a < emissiveCutoff.w) discard;
     return m;
+}
+
+// Of a light map's texel. A single-sided surface blocks light from both sides and reflects it from the front alone,
+// where a camera sees it.
+vec3 bounceAlbedo(uint material, SurfaceMaterial m) {
+    return gl_FrontFacing || isDoubleSided(material) ? diffuseAlbedo(m.baseColor.rgb, m.metallic) : vec3(0.0);
 }
 #endif
 

@@ -4,7 +4,6 @@
 // What a cluster sees: position, normal, albedo.
 #define AG_SCENE_MATERIALS
 #include "scene/scene.glsl"
-#include "common/brdf.h"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -24,5 +23,5 @@ void main() {
     vec3 n = normalize(normal);
     outPosition = vec4(position, 1.0);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
-    outAlbedo = vec4(gl_FrontFacing || isDoubleSided(material) ? diffuseAlbedo(m.baseColor.rgb, m.metallic) : vec3(0.0), 1.0);
+    outAlbedo = vec4(bounceAlbedo(material, m), 1.0);
 }

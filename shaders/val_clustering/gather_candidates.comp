@@ -24,11 +24,12 @@ layout(set = 0, binding = 5, scalar) writeonly buffer SlotOfCluster { uint items
 
 layout(set = 0, binding = 6) uniform samplerBuffer texels;
 
-const uint kProbes = 16;  // one a row and a column
+const uint kProbes = 16;  // of a tile: one a row and a column
+const uint kProbesPerLane = (kProbes + kSubgroupSize - 1) / kSubgroupSize;
+const uint kFar = 1u << 20;  // tiles: beyond any map
 
-// Chebyshev distance in tiles; far beyond any map for dead seeds and other maps' clusters.
+// Chebyshev distance in tiles; kFar for dead seeds and other maps' clusters.
 uint tileDistance(uint cluster, uvec2 tile, uint map) {
-    const uint kFar = 1u << 20;
     uint seedTile = floatBitsToUint(texelFetch(seeds, int(cluster) * 3).w);
     uint seedMap = floatBitsToUint(texelFetch(seeds, int(cluster) * 3 + 1).w);
     uint tilesX = push.settings.atlasSize.x / kRsmTileSize;
@@ -36,31 +37,51 @@ uint tileDistance(uint cluster, uvec2 tile, uint map) {
     return seedTile == kNoCluster || seedMap != map ? kFar : uint(max(d.x, d.y));
 }
 
-// The map's cluster nearest by the metric to each of a tile's probes; kNoCluster where that is not lit.
-void findNearestByMetric(uint tile, uvec2 place, uint map, uint count, out uint nearest[kProbes]) {
-    float best[kProbes];
-    for (int i = 0; i < int(kProbes); ++i) {
-        best[i] = 3.0e38;
-        nearest[i] = kNoCluster;
-    }
+struct Probe {
+    RsmSurface s;
+    vec3 chroma;
+    float metric;
+    uint nearest;  // kNoCluster where it is not lit
+};
+
+Probe probeOf(uint tile, uint index) {
+    uint row = min(index, kProbes - 1);
+    Probe p;
+    p.s = AG_RSM_FETCH(texels, rsmTexelIndex(tile, row * kRsmTileSize + (row * 5 + 3) % kRsmTileSize));
+    p.chroma = p.s.flux * inversesqrt(max(dot(p.s.flux, p.s.flux), 1e-38));
+    p.metric = p.s.weight > 0.0 ? 3.0e38 : -1.0;
+    p.nearest = kNoCluster;
+    return p;
+}
+
+// A lane owns probes and loads a cluster of its own in each round, which it hands to the others.
+void findNearest(inout Probe probes[kProbesPerLane], uvec2 place, uint map, uint count) {
     for (uint base = 0; base < count; base += kSubgroupSize) {
-        uint cluster = base + gl_SubgroupInvocationID;
-        int at = int(min(cluster, count - 1)) * 3;
-        vec3 position = texelFetch(seeds, at).xyz, normal = texelFetch(seeds, at + 1).xyz, chroma = texelFetch(seeds, at + 2).xyz;
-        bool live = cluster < count && tileDistance(min(cluster, count - 1), place, map) < (1u << 20);
-        for (int i = 0; i < int(kProbes); ++i) {
-            RsmSurface s = AG_RSM_FETCH(texels, rsmTexelIndex(tile, uint(i) * kRsmTileSize + uint(i * 5 + 3) % kRsmTileSize));
-            vec3 own = s.flux * inversesqrt(max(dot(s.flux, s.flux), 1e-38));
-            float metric = clusterMetric(s.position, s.normal, own, position, normal, chroma, push.settings.metricWeights);
-            bool nearer = live && s.weight > 0.0 && metric < best[i];
-            best[i] = nearer ? metric : best[i];
-            nearest[i] = nearer ? cluster : nearest[i];
+        uint mine = min(base + gl_SubgroupInvocationID, count - 1);
+        vec3 position = texelFetch(seeds, int(mine) * 3).xyz, normal = texelFetch(seeds, int(mine) * 3 + 1).xyz,
+             chroma = texelFetch(seeds, int(mine) * 3 + 2).xyz;
+        bool live = tileDistance(mine, place, map) < kFar;
+        uint here = min(kSubgroupSize, count - base);
+        [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {
+            if (!subgroupShuffle(live, lane)) continue;
+            vec3 x = subgroupShuffle(position, lane), n = subgroupShuffle(normal, lane), c = subgroupShuffle(chroma, lane);
+            [[unroll]] for (uint i = 0; i < kProbesPerLane; ++i) {
+                float metric = clusterMetric(probes[i].s.position, probes[i].s.normal, probes[i].chroma, x, n, c,
+                                             push.settings.metricWeights);
+                bool nearer = metric < probes[i].metric;
+                probes[i].metric = nearer ? metric : probes[i].metric;
+                probes[i].nearest = nearer ? base + lane : probes[i].nearest;
+            }
         }
     }
-    for (int i = 0; i < int(kProbes); ++i) {
-        float least = subgroupMin(best[i]);
-        nearest[i] = subgroupMin(best[i] == least ? nearest[i] : kNoCluster);
-    }
+}
+
+bool isNearestOfAny(Probe probes[kProbesPerLane], uint cluster) {
+    bool found = false;
+    [[dont_unroll]] for (uint lane = 0; lane < min(kSubgroupSize, kProbes); ++lane)
+        [[unroll]] for (uint i = 0; i < kProbesPerLane; ++i)
+            found = found || subgroupShuffle(probes[i].nearest, lane) == cluster;
+    return found;
 }
 
 void main() {
@@ -70,23 +91,25 @@ void main() {
     uint map = tileMaps.items[tile];
     uint count = push.settings.clusterCount;
 
-    uint nearest = 1u << 20;
+    uint nearest = kFar;
     for (uint base = 0; base < count; base += kSubgroupSize) {
         uint cluster = base + gl_SubgroupInvocationID;
         if (cluster < count) nearest = min(nearest, tileDistance(cluster, place, map));
     }
     nearest = subgroupMin(nearest);
     uint radius = map == kNoCluster ? 0 : max(maps.items[min(map, push.settings.mapCount - 1)].candidateRadius, nearest);
-    bool any = map != kNoCluster && nearest < (1u << 20);
+    bool any = map != kNoCluster && nearest < kFar;
 
-    uint nearestByMetric[kProbes];
-    findNearestByMetric(tile, place, map, count, nearestByMetric);
+    Probe probes[kProbesPerLane];
+    for (uint i = 0; i < kProbesPerLane; ++i) probes[i] = probeOf(tile, i * kSubgroupSize + gl_SubgroupInvocationID);
+    if (any) findNearest(probes, place, map, count);
+
     uint found = 0;
     for (uint base = 0; base < count; base += kSubgroupSize) {
         uint cluster = base + gl_SubgroupInvocationID;
         bool take = tileDistance(min(cluster, count - 1), place, map) <= radius;
-        for (int i = 0; i < int(kProbes); ++i) take = take || nearestByMetric[i] == cluster;
-        take = take && any && cluster < count;
+        bool listed = isNearestOfAny(probes, cluster);
+        take = (take || listed) && any && cluster < count;
         uvec4 ballot = subgroupBallot(take);
         uint slot = found + subgroupBallotExclusiveBitCount(ballot);
         take = take && slot < kMaxCandidates;
