@@ -165,5 +165,17 @@ AG_FUNCTION float polygonVectorFactor(vec3 p, vec3 n, vec2 corners[8], vec4 grad
     return before * factor * clamp(radiosity, 0.0f, 4.0f);
 }
 
+// A light that stands for texels at several heights sends a receiver among them the light of those below it
+// alone: their share, and how far below the receiver they are in the mean [m]. z: the receiver's height over
+// the light's plane; thickness: standard deviation of the texels' heights. A logistic distribution, which has
+// both in closed form.
+AG_FUNCTION vec2 layersBelow(float z, float thickness) {
+    float perUnit = 1.8137994f / thickness;  // pi / sqrt(3) over the deviation
+    float t = perUnit * z;
+    float e = exp(-abs(t));
+    float share = (t > 0.0f ? 1.0f : e) / (1.0f + e);
+    return vec2(share, (max(t, 0.0f) + log(1.0f + e)) / (perUnit * max(share, 1e-6f)));
+}
+
 AG_END
 #endif

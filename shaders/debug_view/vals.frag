@@ -42,17 +42,19 @@ void main() {
     vec3 base = vec3(0.1);
     float deepest = 0.0;  // polygons overlap a little: the one whose rim is farthest wins
     for (uint i = 0; i < push.valCount; ++i) {
-        vec4 place = texelFetch(vals, int(i) * 3), n = texelFetch(vals, int(i) * 3 + 1);
+        vec4 place = texelFetch(vals, int(i) * 3);
+        vec3 n = texelFetch(vals, int(i) * 3 + 1).xyz;
         vec3 flux = texelFetch(vals, int(i) * 3 + 2).xyz;
         if (flux == vec3(0.0)) continue;
         vec3 t, b, d = position - place.xyz;
-        orthonormalBasis(n.xyz, t, b);
+        orthonormalBasis(n, t, b);
+        float radius = sqrt(place.w * kInvPi);  // of the disk of its area
         float inside = depthInside(i, vec2(dot(d, t), dot(d, b)));
-        bool on = inside > deepest && abs(dot(d, n.xyz)) < 0.2 * n.w && dot(n.xyz, normal) > 0.5;
+        bool on = inside > deepest && abs(dot(d, n)) < 0.2 * radius && dot(n, normal) > 0.5;
         if (!on) continue;
         deepest = inside;
         vec3 hue = flux / max(max(flux.x, max(flux.y, flux.z)), 1e-30);
-        base = inside < 0.06 * n.w ? vec3(0.02) : hue * (0.5 + 0.5 * hashToUnit(i));
+        base = inside < 0.06 * radius ? vec3(0.02) : hue * (0.5 + 0.5 * hashToUnit(i));
     }
     float shade = depth > 0.0 ? 0.3 + 0.7 * max(dot(normal, toEye), 0.0) : 0.0;
     color = vec4(base * shade, 1.0);

@@ -10,14 +10,14 @@ struct IsmLight {
     bool lit;
 };
 
-#define AG_ISM_LIGHT(vals, map) ismLight_(texelFetch(vals, int(map) * 3), texelFetch(vals, int(map) * 3 + 1), texelFetch(vals, int(map) * 3 + 2).w)
+#define AG_ISM_LIGHT(vals, map) ismLight_(texelFetch(vals, int(map) * 3).xyz, texelFetch(vals, int(map) * 3 + 1).xyz, texelFetch(vals, int(map) * 3 + 2))
 
-// From just before all of the light's own texels, so that it does not stand in its own way.
-IsmLight ismLight_(vec4 place, vec4 normal, float before) {
+// From just before all of the light's own texels (power.w, m), so that it does not stand in its own way.
+IsmLight ismLight_(vec3 place, vec3 normal, vec4 power) {
     IsmLight l;
-    l.place = place.xyz + normal.xyz * before;
-    l.normal = normal.xyz;
-    l.lit = normal.w > 0.0;
+    l.place = place + normal * power.w;
+    l.normal = normal;
+    l.lit = power.rgb != vec3(0.0);
     orthonormalBasis(l.normal, l.t, l.b);
     return l;
 }

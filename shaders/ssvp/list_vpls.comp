@@ -54,7 +54,6 @@ void main() {
         val = secondLight(i - push.firstCount);
     }
     val.area = 1e-8;
-    val.radius = val.flux == vec3(0.0) ? 0.0 : 5e-5;
     SsvpCluster viewer = clusters.items[min(map, push.clusterCount - 1)];
     ValShapeVectors point;
     point.halfU = viewer.position;

@@ -114,6 +114,8 @@ void fitPolygon(Cluster c, ClusterExtent extent, vec3 t, vec3 b, inout ValShapeV
     shape.inversePolygon = shape.inverseRectangle;
 }
 
+float thicknessOf(Cluster c) { return sqrt(max(dot(c.normal, covarianceOf(c) * c.normal), 0.0)); }
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.valCount) return;
@@ -127,7 +129,7 @@ void main() {
     if (i < push.clusterCount) {
         Cluster c = clusters.items[i];
         if (c.texelCount > 0.0) {
-            val = Val(c.position, c.area, c.normal, sqrt(c.area * 0.31830989), c.flux, extents.items[i].before);
+            val = Val(c.position, c.area, c.normal, thicknessOf(c), c.flux, extents.items[i].before);
             vec3 t, b;
             orthonormalBasis(c.normal, t, b);
             fitRectangle(c, t, b, shape);

@@ -8,13 +8,13 @@
 namespace ag::io {
 #endif
 
-struct Val {        // 3 vec4; black lights pad the list to whole subgroups
-    vec3 position;  // m
-    float area;     // m²
-    vec3 normal;    // unit
-    float radius;   // of the disk of that area, m
-    vec3 flux;      // W
-    float before;   // m, its texels reach before the plane through the centre
+struct Val {          // 3 vec4; black lights pad the list to whole subgroups
+    vec3 position;    // m
+    float area;       // m²
+    vec3 normal;      // unit
+    float thickness;  // m, deviation of its texels from the plane, by flux
+    vec3 flux;        // W
+    float before;     // m, its texels reach before the plane through the centre
 };
 
 const uint kValCorners = 8;

@@ -28,6 +28,7 @@ const uint kNoMap = 0xffffu;  // nothing stands in the light's way
 struct AreaLight {
     vec4 place;   // centre; area, or radius² of a vector disk
     vec3 normal;
+    float thickness;  // of a polygon
     vec4 power;   // flux, or radiosity where the shape's term is a form factor; how far texels stand before the centre
     vec3 halfU, halfV;
     vec4 corners[kValCorners / 2];  // two each
@@ -39,7 +40,9 @@ AreaLight loadLight(uint index) {
     AreaLight l;
     int at = int(index) * 3, shape = int(index * kValShapeVec4s);
     l.place = texelFetch(vals, at);
-    l.normal = texelFetch(vals, at + 1).xyz;
+    vec4 normal = texelFetch(vals, at + 1);
+    l.normal = normal.xyz;
+    l.thickness = kPolygon ? normal.w : 0.0;
     l.power = texelFetch(vals, at + 2);
     vec4 u = kRectangle ? texelFetch(shapes, shape) : vec4(0.0);
     l.map = kSharedMaps ? uint(u.w) : index;
@@ -64,6 +67,7 @@ AreaLight lightOfLane(AreaLight mine, uint lane) {
     l.map = subgroupShuffle(mine.map, lane);
     l.place = subgroupShuffle(mine.place, lane);
     l.normal = subgroupShuffle(mine.normal, lane);
+    l.thickness = kPolygon ? subgroupShuffle(mine.thickness, lane) : 0.0;
     l.power = subgroupShuffle(mine.power, lane);
     l.halfU = kRectangle ? subgroupShuffle(mine.halfU, lane) : vec3(0.0);
     l.halfV = kRectangle ? subgroupShuffle(mine.halfV, lane) : vec3(0.0);
@@ -96,7 +100,13 @@ float shapeTerm(vec3 x, vec3 n, float width, AreaLight l, LightFrame f) {
         corners[2 * i] = l.corners[i].xy;
         corners[2 * i + 1] = l.corners[i].zw;
     }
-    return polygonVectorFactor(toFrame(f, x - l.place.xyz), toFrame(f, n), corners, l.gradient, 0.25 * width);
+    vec3 p = toFrame(f, x - l.place.xyz);
+    float below = 1.0;
+    if (l.thickness > 0.25 * width) {
+        vec2 layers = layersBelow(p.z, l.thickness);
+        below = layers.x, p.z = layers.y;
+    }
+    return below * polygonVectorFactor(p, toFrame(f, n), corners, l.gradient, 0.25 * width);
 }
 
 IsmTile tileOf(AreaLight l, uint ismTileSize) {

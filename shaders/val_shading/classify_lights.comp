@@ -21,6 +21,8 @@ layout(set = 0, binding = 4, scalar) writeonly buffer Lists { uint items[]; } li
 layout(set = 0, binding = 5, scalar) writeonly buffer Counts { uvec2 items[]; } counts;
 layout(set = 0, binding = 6, scalar) writeonly buffer LackingCounts { uint items[]; } lackingCounts;
 
+const float kDeepest = 3.0;  // thicknesses behind a light's plane: below 99.6 % of its texels
+
 struct Box {
     vec3 least, most;
 };
@@ -59,10 +61,11 @@ void main() {
     for (uint base = 0; base < push.p.valCount; base += kSubgroupSize) {
         uint light = base + gl_SubgroupInvocationID;
         int at = int(min(light, push.p.valCount - 1));
-        vec3 place = texelFetch(vals, at * 3).xyz, normal = texelFetch(vals, at * 3 + 1).xyz;
+        vec3 place = texelFetch(vals, at * 3).xyz;
+        vec4 normal = texelFetch(vals, at * 3 + 1);  // and thickness
         bool lit = texelFetch(vals, at * 3 + 2).rgb != vec3(0.0) && any && light < push.p.valCount;
         vec3 d = middle - place;
-        bool reaches = lit && dot(d, normal) + dot(half_, abs(normal)) > 0.0;
+        bool reaches = lit && dot(d, normal.xyz) + dot(half_, abs(normal.xyz)) > -kDeepest * normal.w;
         vec3 apart = max(abs(d) - half_, vec3(0.0));
         vec3 halfU = texelFetch(shapes, at * int(kValShapeVec4s)).xyz;
         float reach = push.p.nearReach * length(halfU);

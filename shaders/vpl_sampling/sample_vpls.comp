@@ -56,7 +56,6 @@ void main() {
     uint inMap = i - map.firstCluster;  // before the first map: beyond any count
     if (i < push.vplCount && inMap < map.clusterCount) val = sampleMap(map, inMap, val);
     val.area = 1e-8;
-    val.radius = val.flux == vec3(0.0) ? 0.0 : 5e-5;
     ValShapeVectors point;
     point.halfU = point.halfV = vec3(0.0);
     point.inverseRectangle = point.inversePolygon = 0.0;

@@ -119,7 +119,7 @@ const std::map<std::string, Layout>& layouts() {
            AG_MEMBER(ClusterSettings, step)}}},
         {"Val",
          {sizeof(io::Val),
-          {AG_MEMBER(Val, position), AG_MEMBER(Val, area), AG_MEMBER(Val, normal), AG_MEMBER(Val, radius),
+          {AG_MEMBER(Val, position), AG_MEMBER(Val, area), AG_MEMBER(Val, normal), AG_MEMBER(Val, thickness),
            AG_MEMBER(Val, flux), AG_MEMBER(Val, before)}}},
         {"ValShapeVectors",
          {sizeof(io::ValShapeVectors),

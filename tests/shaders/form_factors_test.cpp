@@ -227,5 +227,53 @@ TEST(Sampling, HaltonFillsTheSquareEvenly) {
     EXPECT_FLOAT_EQ(io::halton23(6).x, 0.375f);
 }
 
+TEST(FormFactors, LayersBelowAreThoseOfALogisticDistribution) {
+    constexpr float kThickness = 0.3f;
+    const double unit = double(kThickness) * std::sqrt(3.0) / std::numbers::pi, step = 1e-3;
+    for (const double z : {-1.5, -0.4, 0.0, 0.1, 0.7, 4.0}) {
+        double share = 0, depth = 0, square = 0;
+        for (double h = -12; h < 12; h += step) {
+            const double density = 1 / (4 * unit * std::pow(std::cosh(h / (2 * unit)), 2));
+            square += h * h * density * step;
+            if (h > z) continue;
+            share += density * step;
+            depth += (z - h) * density * step;
+        }
+        EXPECT_NEAR(std::sqrt(square), double(kThickness), 1e-3);
+        const glm::vec2 layers = io::layersBelow(float(z), kThickness);
+        EXPECT_NEAR(double(layers.x), share, 2e-3) << z;
+        EXPECT_NEAR(double(layers.y), depth / share, 2e-3 * (1 + depth / share)) << z;
+    }
+    EXPECT_EQ(io::layersBelow(-100, kThickness).x, 0);
+    EXPECT_NEAR(io::layersBelow(100, kThickness).y, 100, 1e-3f);
+}
+
+// Two steps as one light, and a wall beside them: between the steps it sees the lower one alone.
+TEST(FormFactors, AReceiverAmongTheLayersSeesThoseBelow) {
+    constexpr float kRise = 0.2f, kSide = 0.4f;
+    glm::vec2 corners[8];
+    std::ranges::copy(kSquare, corners);
+    const auto step = [](dvec3 x, double height) {
+        const auto place = [&](double u, double v) {
+            return dvec3((u - 0.5) * double(kSide), (v - 0.5) * double(kSide), height);
+        };
+        return quadrature(x, {1, 0, 0}, {0, 0, 1}, 200, place, double(kSide * kSide)) / 2;
+    };
+    double plane = 0, layered = 0;
+    for (float z = -0.09f; z < 0.3f; z += 0.03f) {
+        const vec3 p(-0.25f, 0.02f, z);
+        const double truth = step(p, -0.5 * double(kRise)) + step(p, 0.5 * double(kRise));
+        const auto off = [&](const vec3& at, float share) {
+            const double f = double(io::polygonVectorFactor(at, {1, 0, 0}, corners, {0, 0, 1, 0}, 0));
+            return std::pow(f * double(share) - truth, 2);
+        };
+        const glm::vec2 layers = io::layersBelow(z, 0.5f * kRise);
+        plane += off(p, 1);
+        layered += off({p.x, p.y, layers.y}, layers.x);
+    }
+    std::cout << "two steps as one light: squared error " << plane << ", in layers " << layered << '\n';
+    EXPECT_LT(layered, 0.4 * plane);
+}
+
 }  // namespace
 }  // namespace ag
