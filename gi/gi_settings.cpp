@@ -122,13 +122,13 @@ void setUltra(GiSettings& gi) {
 // Direct light of many lamps: a shadow map each; as published; ours.
 void setLightsReference(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kNone;
-    gi.lightClusters = {
-        .minDistance = 0, .growth = 0, .most = kMostLampClusters, .strongFirst = false, .hysteresis = 1};
+    gi.lightClusters = {.growth = 0, .most = kMostLampClusters, .strongFirst = false, .hysteresis = 1};
     gi.lampLighting = {.tiles = false, .quads = false, .shadowReach = 0};
 }
 
 void setLightCluster(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kNone;
+    gi.lightClusters.growth = 0.1f;
     gi.lightClusters.strongFirst = false;
     gi.lightClusters.hysteresis = 1;
     gi.lightClusters.shareWithin = 0;
@@ -197,7 +197,6 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.rsm.resolution);
     s.add({"rsm", "sun_margin", 0, 1, "", "part of the scene's width added round a sun's map"},
           &gi.rsm.sunMargin);
-    s.add({"rsm", "near", 0.001, 1, "m", "near plane of spot and point faces"}, &gi.rsm.nearDistance);
     s.add({"importance", "view_weight", 0, 1, "", "seed clusters by flux (0) or by what faces the view (1)"},
           &gi.importance.viewWeight);
     s.add({"val_clustering", "count", 16, 1024, "clusters", "clusters over all bounce lights"},
@@ -322,9 +321,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.shadowMaps.cascadeSplit);
     s.add({"light_clusters", "most", 0, kMostLampClusters, "clusters", "of lamps, each with a shadow map"},
           &gi.lightClusters.most);
-    s.add({"light_clusters", "min_distance", 0, 1000, "m", "between clusters' centres at the camera"},
-          &gi.lightClusters.minDistance);
-    s.add({"light_clusters", "growth", 0, 10, "", "of that distance, for each m from the camera"},
+    s.add({"light_clusters", "growth", 0, 10, "", "m between clusters' centres for each m to the camera"},
           &gi.lightClusters.growth);
     s.add({"light_clusters", "strong_first", 0, 0, "",
            "lamps that matter keep a shadow map of their own longer"},
@@ -339,7 +336,6 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.lampShadows.faceResolution);
     s.add({"lamp_shadows", "atlas_size", 256, 16384, "texels", "side of the atlas"},
           &gi.lampShadows.atlasSize);
-    s.add({"lamp_shadows", "near", 0.001, 1, "m", "near plane of the views"}, &gi.lampShadows.nearDistance);
     s.add({"lamp_shadows", "soft_taps", 0, 64, "taps",
            "of a disk as large as a cluster, for its shadow; 0: from its centre"},
           &gi.lampShadows.softTaps);

@@ -55,20 +55,21 @@ void assignPlaces(const RenderScene& scene, const LightClusters& clusters, uint3
 
 // What shading knows of a cluster's map.
 io::LampCluster rowOf(const RenderScene& scene, const LightCluster& cluster, const Places& places,
-                      uint32_t place, const LampShadowSettings& s) {
+                      uint32_t place) {
     const RenderLight& light = scene.lights[cluster.center];
     const bool spot = isSpotCluster(scene, cluster);
     // All of the cluster's lamps see by this map.
     RenderLight farthest = light;
     farthest.range = cluster.reach;
+    const float far = farDistanceOf(farthest, scene.bounds);
     return {.center = light.position,
             .radius = cluster.radius,
             .direction = spot ? light.direction : glm::vec3(0),
-            .tanHalf = spot ? spotView(light, s.nearDistance, 1).tanHalf : 1,
+            .tanHalf = spot ? spotView(light, 1).tanHalf : 1,
             .origin = places.origin(place),
             .size = spot ? 2 * places.face : places.face,
-            .nearDistance = s.nearDistance,
-            .farDistance = farDistanceOf(farthest, scene.bounds)};
+            .nearDistance = kNearOfFar * far,
+            .farDistance = far};
 }
 
 // What the camera sees of the scene; its frustum has no end.
@@ -122,12 +123,12 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
     for (size_t i = 0; i < clusters.clusters.size(); ++i) {
         const uint32_t place = history.places[i];
         const io::LampCluster& row =
-            history.rows.emplace_back(rowOf(s, clusters.clusters[i], places, place, settings));
+            history.rows.emplace_back(rowOf(s, clusters.clusters[i], places, place));
         const bool spot = isSpotCluster(s, clusters.clusters[i]);
         for (uint32_t face = 0; face < (spot ? 1 : kFaces); ++face) {
             const glm::mat4 clipFromWorld =
-                (spot ? spotView(s.lights[clusters.clusters[i].center], row.nearDistance, row.farDistance)
-                      : cubeFaceView(row.center, face, row.nearDistance, row.farDistance))
+                (spot ? spotView(s.lights[clusters.clusters[i].center], row.farDistance)
+                      : cubeFaceView(row.center, face, row.farDistance))
                     .clipFromWorld;
             if (onlySeen && !mayMeet(seen, frustumOf(clipFromWorld))) continue;
             history.views.push_back({firstSlot + place * kFaces + face, clipFromWorld});

@@ -66,7 +66,7 @@ void keepDistances(const RenderScene& scene, const LightClusterSettings& s, Ligh
         h.weights[i] = !s.strongFirst ? 1
                        : measured     ? *measured / h.relevance.mean()
                                       : strengthOf(light) / strength;
-        float distance = s.minDistance + s.growth * glm::distance(light.position, scene.camera.position);
+        float distance = s.growth * glm::distance(light.position, scene.camera.position);
         distance *= std::clamp(1 / std::sqrt(h.weights[i]), 0.25f, 8.0f);
         if (std::ranges::binary_search(h.centers, light.id)) distance *= s.hysteresis;
         h.distances[i] = distance;

@@ -1,5 +1,5 @@
 // Lamps that share a shadow map (LightCluster, Wiesenhütter, Klein, Nischwitz). Pure functions of lights and
-// camera. Two passes: centres among the lamps themselves by a minimum distance that grows with the distance
+// camera. Two passes: centres among the lamps themselves by a minimum distance in proportion to the distance
 // to the camera, then each other lamp to the nearest centre.
 #pragma once
 
@@ -14,9 +14,8 @@ constexpr uint32_t kMostLampClusters = 256;
 constexpr uint32_t kMostLamps = 16384;  // in view; of more the brightest as seen from the camera are taken
 
 struct LightClusterSettings {
-    float minDistance = 0.5f;  // m between centres at the camera
-    float growth = 0.1f;       // m more for each m between lamp and camera; the error seen stays the same
-    uint32_t most = 32;        // clusters; the distances are stretched until so many do
+    float growth = 0.02f;     // m between centres for each m to the camera: the error seen stays the same
+    uint32_t most = 32;       // clusters; the distances are stretched until so many do
     bool strongFirst = true;  // lamps that matter keep a map of their own longer; off: as published, in order
     float hysteresis = 0.75f;  // a centre of the frame before needs this part of the distance; 1: none
 

@@ -57,16 +57,17 @@ SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds, float askew
     return best;
 }
 
-LightView spotView(const RenderLight& light, float nearDistance, float farDistance) {
+LightView spotView(const RenderLight& light, float farDistance) {
     const float halfAngle = std::min(light.outerConeAngle, glm::radians(80.0f));
-    const glm::mat4 clipFromView = lightPerspective(2 * halfAngle, nearDistance, farDistance);
+    const glm::mat4 clipFromView = lightPerspective(2 * halfAngle, kNearOfFar * farDistance, farDistance);
     return {clipFromView * viewFromWorld(light.position, light.direction), std::tan(halfAngle)};
 }
 
-LightView cubeFaceView(glm::vec3 position, uint32_t face, float nearDistance, float farDistance) {
+LightView cubeFaceView(glm::vec3 position, uint32_t face, float farDistance) {
     glm::vec3 forward(0);
     forward[int(face / 2)] = face % 2 == 0 ? 1.0f : -1.0f;
-    const glm::mat4 clipFromView = lightPerspective(glm::radians(90.0f), nearDistance, farDistance);
+    const glm::mat4 clipFromView =
+        lightPerspective(glm::radians(90.0f), kNearOfFar * farDistance, farDistance);
     return {clipFromView * viewFromWorld(position, forward), 1.0f};
 }
 

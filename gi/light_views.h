@@ -9,6 +9,10 @@
 
 namespace ag::gi {
 
+// The near plane of spots' and cubes' views over their far one: what a lamp nearly touches stands in its way
+// too. Reversed depth in floats is as exact however near it is.
+constexpr float kNearOfFar = 1e-4f;
+
 struct LightView {
     glm::mat4 clipFromWorld{1};
     float tanHalf = 1;  // of the half angle; orthographic: root of half the sides' product, m
@@ -19,9 +23,9 @@ glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward, glm::vec3 up);
 // The same with an axis of the world chosen for up.
 glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward);
 // A square round the spot's cone (the outer angle is limited to 80 degrees).
-LightView spotView(const RenderLight& light, float nearDistance, float farDistance);
+LightView spotView(const RenderLight& light, float farDistance);
 // Faces +x -x +y -y +z -z of a cube, each 90 degrees.
-LightView cubeFaceView(glm::vec3 position, uint32_t face, float nearDistance, float farDistance);
+LightView cubeFaceView(glm::vec3 position, uint32_t face, float farDistance);
 
 // What a sun sees of a box, turned about its direction so that the rectangle round it is small: an axis of
 // the world is up in it.

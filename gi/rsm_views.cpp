@@ -33,8 +33,8 @@ LightView faceView(const RenderLight& light, uint32_t face, const RenderScene& s
     const float far = farDistanceOf(light, scene.bounds);
     if (light.kind == LightKind::kDirectional)
         return sunView(light.direction, scene.bounds, settings.sunMargin);
-    if (light.kind == LightKind::kSpot) return spotView(light, settings.nearDistance, far);
-    return cubeFaceView(light.position, face, settings.nearDistance, far);
+    if (light.kind == LightKind::kSpot) return spotView(light, far);
+    return cubeFaceView(light.position, face, far);
 }
 
 io::RsmMap mapOf(const RenderLight& light) {

@@ -38,7 +38,7 @@ TEST(DrawLists, JobsCullWhatTheCallerCulls) {
     setCamera(scene, cameraOf(asset, 0), {160, 90});
     std::vector<ViewRequest> views = {{0, scene.camera.clipFromWorld}};
     for (uint32_t face = 0; face < 6; ++face)
-        views.push_back({1 + face, cubeFaceView({1, 2, 0}, face, 0.05f, 15).clipFromWorld});
+        views.push_back({1 + face, cubeFaceView({1, 2, 0}, face, 15).clipFromWorld});
     JobRunner one(1), four(4);
     DrawLists serial, jobs;
     std::mt19937 random(3);

@@ -26,12 +26,7 @@ RenderScene sceneWithLamps(uint32_t count) {
 }
 
 LightClusterSettings published() {
-    return {.minDistance = 1,
-            .growth = 0.1f,
-            .most = 256,
-            .strongFirst = false,
-            .hysteresis = 1,
-            .shareWithin = 0};
+    return {.growth = 0.2f, .most = 256, .strongFirst = false, .hysteresis = 1, .shareWithin = 0};
 }
 
 TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
@@ -45,7 +40,7 @@ TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
     std::vector<uint32_t> centers;
     for (const uint32_t lamp : c.lamps) {
         const glm::vec3 p = scene.lights[lamp].position;
-        const float apart = s.minDistance + s.growth * glm::distance(p, scene.camera.position);
+        const float apart = s.growth * glm::distance(p, scene.camera.position);
         bool alone = true;
         for (const uint32_t center : centers)
             alone = alone && glm::distance(scene.lights[center].position, p) >= apart;
@@ -106,8 +101,7 @@ TEST(LightClusters, TheBudgetIsKeptByStretchingDistances) {
 TEST(LightClusters, WithoutADistanceEachLampStandsForItself) {
     const RenderScene scene = sceneWithLamps(100);
     LightClusterHistory history;
-    const LightClusters& c =
-        clusterLamps(scene, {}, {.minDistance = 0, .growth = 0, .most = 256, .hysteresis = 1}, history);
+    const LightClusters& c = clusterLamps(scene, {}, {.growth = 0, .most = 256, .hysteresis = 1}, history);
     EXPECT_EQ(c.clusters.size(), c.lamps.size());
     for (const LightCluster& cluster : c.clusters) {
         EXPECT_EQ(cluster.lampCount, 1u);

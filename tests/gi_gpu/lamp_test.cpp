@@ -46,7 +46,7 @@ TEST(LampShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
                anew = directBench(*scenegen::buildScene("lamps", 14));
     anew->options.skip = false;
     for (Bench* b : {kept.get(), anew.get()})
-        b->settings.lightClusters = {.minDistance = 0, .growth = 0};  // a map each
+        b->settings.lightClusters = {.growth = 0};  // a map each
     kept->frame();
     const PassReport* faces = passNamed(*kept, "lamp_shadows.faces");
     ASSERT_NE(faces, nullptr);
