@@ -41,7 +41,9 @@ float litShare(ShadowMap map, float texel, vec3 position, vec3 normal, vec3 toLi
     vec3 pushed = position + (normal + toLight) * (0.25 * texel);
     vec3 point = shadowPoint(map, pushed);
     vec2 at = point.xy;
-    bool outside = point.z < 0.0 || any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(map.size)));
+    // The push may lead half a texel out of a cube's face.
+    vec2 off = abs(at - 0.5 * float(map.size)) - 0.5 * float(map.size);
+    bool outside = point.z < 0.0 || max(off.x, off.y) > 0.5;
     vec2 slope = receiverSlope(map, pushed, normal, toLight, texel, point);
     float texelDepth = max(abs(shadowPoint(map, pushed + toLight * texel).z - point.z), 1e-9);
     float tolerance = 0.5 * max(abs(slope.x) + abs(slope.y) - 2.0 * texelDepth, 0.0);
