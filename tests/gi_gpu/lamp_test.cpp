@@ -70,6 +70,23 @@ TEST(LampShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
     }
 }
 
+// A lamp in a closed box, nearly touching a wall of it, over a floor that is seen by all seams of its cube.
+TEST(LampShadows, NothingLeavesAClosedBox) {
+    for (const float size : {0.3f, 1.0f, 40.0f}) {
+        scenegen::SceneBuilder b("box");
+        const uint32_t gray = b.material("gray", glm::vec3(0.5f));
+        b.quad("floor", size * glm::vec3(-3, 0, -3), {0, 0, 6 * size}, {6 * size, 0, 0}, gray);
+        b.box("box", size * glm::vec3(0, 1.5f, 0), glm::vec3(0.6f * size), gray);
+        b.point("lamp", size * glm::vec3(0.297f, 1.5f, 0.02f), glm::vec3(100 * size * size));
+        b.camera("camera", size * glm::vec3(0, 4, 4), glm::vec3(0), 60);
+        const auto bench = directBench(b.finish(), {320, 192});
+        float most = 0;
+        for (const glm::vec3& pixel : directImage(*bench).pixels)
+            most = std::max(most, pixel.x);
+        EXPECT_EQ(most, 0) << size;
+    }
+}
+
 TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
     const auto b = directBench(*scenegen::buildScene("lamps", 256));
     b->settings.lightClusters.most = 16;
