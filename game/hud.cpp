@@ -73,7 +73,7 @@ const char* shapeName(Shape shape) {
 }
 
 const char* moodText(FlowerMood mood) {
-    static constexpr const char* kTexts[] = {"in the dark", "not its colour", "more of that",
+    static constexpr const char* kTexts[] = {"in the dark", "not its colour", "still too dim",
                                              "opening",     "direct light!",  "open"};
     return kTexts[size_t(mood)];
 }
