@@ -213,20 +213,6 @@ TEST(FormFactors, CreasesAreAsLightAsWhatIsAPixelAway) {
     EXPECT_EQ(factor(0, {0, 0, 1}), 0) << "in the plane";
 }
 
-TEST(Sampling, HaltonFillsTheSquareEvenly) {
-    std::array<int, 64> cells{};
-    for (uint32_t i = 1; i <= 6400; ++i) {
-        const glm::vec2 p = io::halton23(i);
-        ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
-        ++cells[size_t(p.x * 8) + 8 * size_t(p.y * 8)];
-    }
-    for (int count : cells)
-        EXPECT_NEAR(count, 100, 6);
-    EXPECT_FLOAT_EQ(io::halton23(1).x, 0.5f);
-    EXPECT_FLOAT_EQ(io::halton23(1).y, 1.0f / 3);
-    EXPECT_FLOAT_EQ(io::halton23(6).x, 0.375f);
-}
-
 TEST(FormFactors, LayersBelowAreThoseOfALogisticDistribution) {
     constexpr float kThickness = 0.3f;
     const double unit = double(kThickness) * std::sqrt(3.0) / std::numbers::pi, step = 1e-3;
@@ -273,6 +259,20 @@ TEST(FormFactors, AReceiverAmongTheLayersSeesThoseBelow) {
     }
     std::cout << "two steps as one light: squared error " << plane << ", in layers " << layered << '\n';
     EXPECT_LT(layered, 0.4 * plane);
+}
+
+TEST(Sampling, HaltonFillsTheSquareEvenly) {
+    std::array<int, 64> cells{};
+    for (uint32_t i = 1; i <= 6400; ++i) {
+        const glm::vec2 p = io::halton23(i);
+        ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+        ++cells[size_t(p.x * 8) + 8 * size_t(p.y * 8)];
+    }
+    for (int count : cells)
+        EXPECT_NEAR(count, 100, 6);
+    EXPECT_FLOAT_EQ(io::halton23(1).x, 0.5f);
+    EXPECT_FLOAT_EQ(io::halton23(1).y, 1.0f / 3);
+    EXPECT_FLOAT_EQ(io::halton23(6).x, 0.375f);
 }
 
 }  // namespace
