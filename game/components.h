@@ -22,6 +22,7 @@ struct Flicker {             // of a light: another strength each turn, or none
 
 struct HandLamp {
     float yaw = 0, pitch = 0;  // rad, relative to the player's view
+    float focus = 3;           // m before the eyes, where its beam meets the view's middle
 };
 
 enum class FlowerMood : uint32_t {

@@ -14,6 +14,7 @@ namespace ag::game {
 namespace {
 
 constexpr double kHintReach = 4.5;  // m
+constexpr float kGrazing = 1;       // W/m², up to which direct light is a beam's soft edge
 
 struct Hue {
     glm::vec3 color;
@@ -48,6 +49,10 @@ std::string nearestHint(const std::vector<Hint>& hints, const Player& player, in
     return best ? best->text : "";
 }
 
+float strongest(glm::vec3 light) {
+    return std::max({light.x, light.y, light.z});
+}
+
 bool crateInReach(World& world, const Player& player) {
     const PhysicsWorld& physics = *world.resource<Physics>().world;
     bool any = false;
@@ -72,10 +77,11 @@ const char* shapeName(Shape shape) {
     return kNames[size_t(shape)];
 }
 
-const char* moodText(FlowerMood mood) {
+const char* moodText(const FlowerLine& flower) {
+    if (flower.mood == FlowerMood::kBlinded && flower.grazed) return "a beam's edge!";
     static constexpr const char* kTexts[] = {"in the dark", "not its colour", "still too dim",
                                              "opening",     "direct light!",  "open"};
-    return kTexts[size_t(mood)];
+    return kTexts[size_t(flower.mood)];
 }
 
 HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints) {
@@ -92,10 +98,17 @@ HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints) {
             // Full bars are the amount, of light that is exactly the wanted colour.
             const glm::vec3 full = f.wants * (3 * f.amount / (f.wants.x + f.wants.y + f.wants.z));
             const float top = std::max({full.x, full.y, full.z, 1e-6f});
-            hud.flowers.push_back({full / top, light.bounced / top, f.openness, f.mood,
-                                   at.translation + glm::dvec3(0, 0.8, 0)});
+            hud.flowers.push_back(
+                {.wants = full / top,
+                 .received = light.bounced / top,
+                 .openness = f.openness,
+                 .mood = f.mood,
+                 .closing = f.openness > 0 && f.mood != FlowerMood::kGrowing && f.mood != FlowerMood::kOpen,
+                 .grazed = strongest(light.direct) < kGrazing,
+                 .position = at.translation + glm::dvec3(0, 0.8, 0)});
         });
     hud.goal = goalText(progress, here);
+    hud.legend = progress.roomsSolved == 0;
     hud.carrying = bool(player.carried);
     hud.crateInReach = !hud.carrying && crateInReach(world, player);
     if (showHints && !progress.won && !(here && here->solved))

@@ -16,6 +16,8 @@ struct FlowerLine {
     glm::vec3 wants{1}, received{0};  // of full bars, channel by channel
     float openness = 0;
     FlowerMood mood = FlowerMood::kDark;
+    bool closing = false;    // light is missing, slowly
+    bool grazed = false;     // direct light that hardly shows: the edge of a beam
     glm::dvec3 position{0};  // m, of its head
 };
 
@@ -23,12 +25,13 @@ struct HudState {
     std::vector<FlowerLine> flowers;
     std::string goal, hint, notice;
     bool carrying = false, crateInReach = false;
+    bool legend = false;  // says how bars are read
 };
 
 enum class Shape : uint32_t { kCircle, kTriangle, kSquare, kDiamond, kStar, kCross, kHexagon };
 Shape shapeOf(glm::vec3 wants);
 const char* shapeName(Shape shape);
-const char* moodText(FlowerMood mood);
+const char* moodText(const FlowerLine& flower);
 
 HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints);
 // Within an ImGui frame, over a picture of `size` pixels seen through `clipFromWorld` about `origin`.

@@ -82,7 +82,7 @@ void drawBars(ImDrawList& list, ImVec2 at, float height, const FlowerLine& flowe
     }
 }
 
-void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& flowers) {
+void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& flowers, bool legend) {
     constexpr float kWidth = 178, kHeight = 34;
     float y = 28;
     for (const FlowerLine& flower : flowers) {
@@ -92,11 +92,16 @@ void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>
         drawShape(list, shape, {x + 16, y + 18}, 10, colorOf(flower.wants), flower.openness);
         drawBars(list, {x + 34, y + 4}, kHeight - 2, flower);
         char open[24];
-        std::snprintf(open, sizeof open, "%d %% open", int(flower.openness * 100));
-        const char* lines[] = {shapeName(shape), moodText(flower.mood), open};
+        std::snprintf(open, sizeof open, "%d %% %s", int(flower.openness * 100),
+                      flower.closing ? "closing" : "open");
+        const char* lines[] = {shapeName(shape), moodText(flower), open};
         for (int i = 0; i < 3; ++i)
             list.AddText({x + 78, y + 3 + 15 * float(i)}, kInk, lines[i]);
         y += kHeight + 24;
+    }
+    if (legend && !flowers.empty()) {
+        const char* text = "frame: wanted, fill: received";
+        drawText(list, {size.x - ImGui::CalcTextSize(text).x - 10, y}, text);
     }
 }
 
@@ -118,7 +123,7 @@ void drawMarks(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& 
 void drawHud(const HudState& hud, glm::vec2 size, const glm::mat4& clipFromWorld, glm::dvec3 origin) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     drawMarks(list, size, hud.flowers, clipFromWorld, origin);
-    drawFlowers(list, size, hud.flowers);
+    drawFlowers(list, size, hud.flowers, hud.legend);
     drawText(list, {size.x - ImGui::CalcTextSize(hud.goal.c_str()).x - 10, 8}, hud.goal.c_str());
     list.AddCircleFilled({size.x / 2, size.y / 2}, 2, IM_COL32(255, 255, 255, 110));
     drawCentered(list, size.y - 26, size.x, hud.hint);

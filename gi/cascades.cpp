@@ -23,13 +23,13 @@ Sphere sliceSphere(const RenderCamera& camera, float aspect, float near, float f
     return {camera.position + camera.forward * along, std::max(radius, 1e-3f)};
 }
 
-// A sixteenth of the power of two below.
-float coarseStep(float length) {
-    return std::exp2(std::floor(std::log2(std::max(length, 1e-3f)))) / 16.0f;
+// A sixteenth of the power of two below, in parts of `extent`.
+float coarseStep(float length, float extent) {
+    return extent * std::exp2(std::floor(std::log2(std::max(length / extent, 1e-6f)))) / 16.0f;
 }
 
-float coarse(float length) {
-    const float step = coarseStep(length);
+float coarse(float length, float extent) {
+    const float step = coarseStep(length, extent);
     return std::ceil(length / step) * step;
 }
 
@@ -43,7 +43,7 @@ float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float lo
 }
 
 Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirection, const Bounds& casters,
-                   float sliceNear, float sliceFar, uint32_t resolution) {
+                   float extent, float sliceNear, float sliceFar, uint32_t resolution) {
     const Sphere sphere = sliceSphere(camera, aspect, sliceNear, sliceFar);
     const SunRectangle scene = sunRectangle(sunDirection, casters, 0);
     const glm::vec3 center = glm::vec3(scene.rotation * glm::vec4(sphere.center, 1));
@@ -51,10 +51,10 @@ Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirect
     for (int i = 0; i < 2; ++i) {
         // Sizes in coarse steps, so that neither a breathing field of view nor a thing that moves at the
         // scene's edge changes that of a texel.
-        const float whole = coarse((scene.seen.max[i] - scene.seen.min[i]) * 1.02f);
-        size[i] = std::min(coarse(2 * sphere.radius), whole);
+        const float whole = coarse((scene.seen.max[i] - scene.seen.min[i]) * 1.02f, extent);
+        size[i] = std::min(coarse(2 * sphere.radius, extent), whole);
         const float texel = size[i] / float(resolution), slack = 0.5f * (whole - size[i]);
-        const float grid = coarseStep(whole) / 8;
+        const float grid = coarseStep(whole, extent) / 8;
         const float sceneMiddle = std::floor((scene.seen.min[i] + scene.seen.max[i]) * 0.5f / grid) * grid;
         const float aside = std::clamp(center[i] - sceneMiddle, -slack, slack);
         middle[i] = std::floor((sceneMiddle + aside) / texel) * texel;

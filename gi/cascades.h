@@ -14,7 +14,8 @@ struct Cascade {
 
 // Distance along the camera's axis where slice `index` of `count` ends.
 float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float logShare);
+// `extent`: of the scene, see steadyExtent(); the grid that sizes are rounded to follows it.
 Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirection, const Bounds& casters,
-                   float sliceNear, float sliceFar, uint32_t resolution);
+                   float extent, float sliceNear, float sliceFar, uint32_t resolution);
 
 }  // namespace ag::gi

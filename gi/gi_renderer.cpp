@@ -43,6 +43,7 @@ void GiRenderer::load(const GeometryArrays& geometry) {
     scene_.load(geometry);
     if (units_ != RenderUnits{}) ++unitsGeneration_;
     units_ = {};
+    extent_ = 0;
     startAnew();
 }
 
@@ -60,6 +61,7 @@ const RenderScene& GiRenderer::inOwnUnits(const RenderScene& scene) {
     const RenderUnits units = chooseUnits(scene, scene_.strongestEmission(), units_);
     if (units != units_) {
         units_ = units;
+        extent_ = 0;
         ++unitsGeneration_;
         waitIdle();
         scene_.useUnits(*scene.geometry, units);
@@ -85,6 +87,7 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
     scene_.beginFrame(scene, jobs_);
     SceneView view = scene_.import(graph_, scene, size);
     view.units = units_;
+    view.extent = extent_ = steadyExtent(scene.bounds, extent_);
     GiSettings asked = settings;
     asked.ismAtlas.keepMaps = settings.ismAtlas.keepMaps && options.skip;
     asked.composite.exposure += std::log2(units_.light);

@@ -76,6 +76,7 @@ class GiRenderer {
     FrameGraph graph_;
     GiHistory history_;
     RenderUnits units_;
+    float extent_ = 0;  // in those units
     uint64_t unitsGeneration_ = 0;
     RenderScene converted_;  // while the units are not metres and watts
     std::array<Slot, kFramesInFlight> slots_;

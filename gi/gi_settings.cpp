@@ -314,9 +314,9 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"shadow_maps", "resolution", 64, 4096, "texels", "side of a sun's cascade"},
           &gi.shadowMaps.resolution);
     s.add({"shadow_maps", "cascades", 1, 4, "", "cascades of a sun"}, &gi.shadowMaps.cascades);
-    s.add({"shadow_maps", "cascade_distance", 1, 10000, "m",
-           "that the cascades share out; the last one goes on to the scene's end"},
-          &gi.shadowMaps.cascadeDistance);
+    s.add({"shadow_maps", "cascade_reach", 0.001, 1, "",
+           "part of the way to the scene's end that cascades share out; the last one goes on to it"},
+          &gi.shadowMaps.cascadeReach);
     s.add({"shadow_maps", "cascade_split", 0, 1, "", "0 uniform, 1 logarithmic"},
           &gi.shadowMaps.cascadeSplit);
     s.add({"light_clusters", "most", 0, kMostLampClusters, "clusters", "of lamps, each with a shadow map"},

@@ -122,8 +122,7 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
     const DrawFilter filter = hasMasked(scene) ? DrawFilter::kAll : DrawFilter::kOpaqueOnly;
     for (size_t i = 0; i < clusters.clusters.size(); ++i) {
         const uint32_t place = history.places[i];
-        const io::LampCluster& row =
-            history.rows.emplace_back(rowOf(s, clusters.clusters[i], places, place));
+        const io::LampCluster& row = history.rows.emplace_back(rowOf(s, clusters.clusters[i], places, place));
         const bool spot = isSpotCluster(s, clusters.clusters[i]);
         for (uint32_t face = 0; face < (spot ? 1 : kFaces); ++face) {
             const glm::mat4 clipFromWorld =

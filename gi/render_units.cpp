@@ -11,6 +11,8 @@ constexpr float kUsualDiagonal = 8;      // of a scene, in units of length
 constexpr float kDiagonalReach = 32;     // it may be so many times that, or that part of it
 constexpr float kIrradianceReach = 256;  // the same of irradiance, which usually is one
 constexpr float kStep = 5;               // powers of two from one unit to the next
+constexpr float kRoomToMove = 1.25f;     // diagonals that a steady extent starts with
+constexpr float kLeastFilled = 0.4f;     // of it, by the diagonal
 constexpr int kGenerationShift = 40;
 
 // The unit before as long as `value` is near one in it.
@@ -43,6 +45,13 @@ RenderUnits chooseUnits(const RenderScene& scene, float emission, RenderUnits be
     const float diagonal = glm::length(scene.bounds.max - scene.bounds.min);
     return {unitFor(diagonal / kUsualDiagonal, kDiagonalReach, before.length),
             unitFor(usualIrradiance(scene, diagonal, emission), kIrradianceReach, before.light)};
+}
+
+float steadyExtent(const Bounds& bounds, float before) {
+    if (bounds.empty()) return before;
+    const float diagonal = glm::length(bounds.max - bounds.min);
+    if (diagonal <= before && diagonal >= kLeastFilled * before) return before;
+    return kRoomToMove * diagonal;
 }
 
 void inUnits(const RenderScene& scene, RenderUnits units, uint64_t generation, RenderScene& out) {

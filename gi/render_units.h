@@ -18,6 +18,11 @@ struct RenderUnits {
 // the brightest material, W/(m² sr).
 RenderUnits chooseUnits(const RenderScene& scene, float emission, RenderUnits before);
 
+// A length that the scene fits in, and that stays while things move at its edge: for grids and ranges that
+// shall look the same at any scale. Chosen anew when the scene outgrows it or has left most of it. 0: no
+// scene yet.
+float steadyExtent(const Bounds& bounds, float before);
+
 // `scene` in those units. Exact but for numbers that leave the range of floats. `generation` counts the
 // changes of units: versions of different ones differ.
 void inUnits(const RenderScene& scene, RenderUnits units, uint64_t generation, RenderScene& out);

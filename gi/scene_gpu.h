@@ -34,6 +34,7 @@ struct SceneView {
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
     glm::uvec2 size{0};                                       // pixels of the camera's image
     RenderUnits units;                                        // of everything above
+    float extent = 0;                                         // see steadyExtent()
     bool hasEmissive = false;
     bool hasGlossy = false;       // a material that is not Lambert
     BufferHandle surfaceSamples;  // io::SurfaceSample; also a texel buffer of vec4

@@ -43,14 +43,14 @@ void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowM
     const RenderCamera& camera = scene.scene->camera;
     const float aspect = float(scene.size.x) / float(scene.size.y);
     const uint32_t count = std::clamp(settings.cascades, 1u, io::kMaxCascades);
-    const float whole = sceneReach(*scene.scene), reach = std::min(whole, settings.cascadeDistance);
+    const float whole = sceneReach(*scene.scene), reach = whole * settings.cascadeReach;
     float begin = camera.near;
     for (uint32_t i = 0; i < count; ++i) {
         const float split =
             cascadeEnd(i, count, std::max(camera.near, kLeastSplit * reach), reach, settings.cascadeSplit);
         const float end = i + 1 == count ? whole : split;  // beyond it nothing would cast a shadow
-        const Cascade c =
-            fitCascade(camera, aspect, light.direction, scene.scene->bounds, begin, end, settings.resolution);
+        const Cascade c = fitCascade(camera, aspect, light.direction, scene.scene->bounds, scene.extent,
+                                     begin, end, settings.resolution);
         views.items[views.count++] = {
             .clipFromWorld = c.clipFromWorld,
             .size = settings.resolution,

@@ -13,7 +13,7 @@ constexpr uint32_t kMostSuns = 4;
 struct ShadowMapSettings {
     uint32_t resolution = 1024;  // texels along a cascade's side
     uint32_t cascades = 3;       // of each sun, 1 to 4
-    float cascadeDistance = 60;  // m from the camera the last cascade reaches; cut to the scene
+    float cascadeReach = 1;      // part of the way to the scene's end that cascades share out
     float cascadeSplit = 0.75f;  // 0 uniform, 1 logarithmic
 };
 

@@ -22,9 +22,7 @@ SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     SurfacePoints p{.count = scene.surfaceSampleCount, .stillVersion = scene.stillVersion};
     p.still = layerOf(0, scene.stillSampleCount);
     p.moving = layerOf(p.still.count, p.count - p.still.count);
-    // In powers of two: what moves at the scene's edge shall not change how distances are kept.
-    const float diagonal = glm::length(scene.scene->bounds.max - scene.scene->bounds.min);
-    p.extent = std::exp2(std::ceil(std::log2(std::max(diagonal, 1e-6f))));
+    p.extent = scene.extent;
     p.points = graph.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
                                                       .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     PassBuilder place =

@@ -8,6 +8,8 @@ namespace {
 
 constexpr float kSkin = 0.015f;  // m kept from what is met
 constexpr int kMostSlides = 4;
+constexpr float kFlatOn = 0.9f;    // cosine between the way and what stops it, past which one slides along
+constexpr float kShoulder = 1.5f;  // radii beside an obstacle's edge that one steps round it
 
 Capsule capsuleOf(const Character& c, const CharacterSettings& s) {
     return {s.radius, c.height};
@@ -94,6 +96,26 @@ void walk(PhysicsWorld& physics, Character& c, glm::vec3 way, glm::vec3 push, co
     c.feet = straight;
 }
 
+// Where a shoulder is caught at an edge (a doorpost), sideways past it: to the side where the way ahead is
+// free.
+void stepAside(const PhysicsWorld& physics, Character& c, glm::vec3 way, const CharacterSettings& s) {
+    const float length = glm::length(way);
+    if (length < 1e-4f) return;
+    const glm::vec3 ahead = way / length, right(-ahead.z, 0, ahead.x);
+    glm::dvec3 reached = c.feet;
+    const auto hit = advance(physics, capsuleOf(c, s), reached, way);
+    const bool blocked = hit && hit->share < 0.5f && physics.kind(hit->body) == BodyKind::kStatic &&
+                         glm::dot(hit->normal, ahead) < -kFlatOn;
+    if (!blocked) return;
+    for (const glm::vec3 side : {right, -right}) {
+        glm::dvec3 beside = c.feet;
+        if (advance(physics, capsuleOf(c, s), beside, side * kShoulder * s.radius)) continue;
+        if (advance(physics, capsuleOf(c, s), beside, ahead * s.radius)) continue;
+        advance(physics, capsuleOf(c, s), c.feet, side * length);
+        return;
+    }
+}
+
 void crouch(const PhysicsWorld& physics, Character& c, bool wanted, const CharacterSettings& s) {
     const float height = wanted ? s.crouchHeight : s.height;
     if (height > c.height) {  // only where there is room
@@ -105,10 +127,12 @@ void crouch(const PhysicsWorld& physics, Character& c, bool wanted, const Charac
     c.crouched = wanted;
 }
 
-void accelerate(Character& c, const CharacterIntent& intent, const CharacterSettings& s, float seconds) {
-    glm::vec2 way = intent.way;
-    if (const float length = glm::length(way); length > 1) way /= length;
-    const glm::vec2 wanted = way * (c.crouched ? s.crouchSpeed : s.speed);
+glm::vec2 wantedVelocity(const Character& c, const CharacterIntent& intent, const CharacterSettings& s) {
+    const float length = glm::length(intent.way), most = c.crouched ? s.crouchSpeed : s.speed;
+    return intent.way * (length > 1 ? most / length : most);
+}
+
+void accelerate(Character& c, glm::vec2 wanted, const CharacterSettings& s, float seconds) {
     const glm::vec2 has(c.velocity.x, c.velocity.z);
     glm::vec2 change = wanted - has;
     const float most = (c.grounded ? s.acceleration : s.airAcceleration) * seconds;
@@ -147,11 +171,14 @@ void moveCharacter(PhysicsWorld& physics, Character& c, const CharacterIntent& i
                    const CharacterSettings& s, float seconds) {
     c.feet += glm::dvec3(physics.wayOut(capsuleOf(c, s), c.feet));
     crouch(physics, c, intent.crouch, s);
-    accelerate(c, intent, s, seconds);
+    const glm::vec2 wanted = wantedVelocity(c, intent, s);
+    accelerate(c, wanted, s, seconds);
     const glm::dvec3 before = c.feet;
+    const glm::vec3 way = glm::vec3(c.velocity.x, 0, c.velocity.z) * seconds;
     // It is pushed as fast as one wants to go, not as one is let to.
     const glm::vec3 push = glm::vec3(intent.way.x, 0, intent.way.y) * s.speed;
-    walk(physics, c, glm::vec3(c.velocity.x, 0, c.velocity.z) * seconds, push, s, seconds);
+    walk(physics, c, way, push, s, seconds);
+    if (c.grounded) stepAside(physics, c, glm::vec3(wanted.x, 0, wanted.y) * seconds, s);
     // What was stopped has no speed left.
     const glm::vec3 moved = glm::vec3(c.feet - before) / seconds;
     if (glm::length(glm::vec2(moved.x, moved.z)) < glm::length(glm::vec2(c.velocity.x, c.velocity.z))) {

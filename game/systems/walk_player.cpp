@@ -7,12 +7,24 @@ namespace ag::game {
 namespace {
 
 constexpr float kRadiansPerPixel = 0.0025f;
-constexpr float kMostPitch = 1.45f;     // rad
-constexpr float kEyesBelowTop = 0.13f;  // m
-constexpr float kCrouchRate = 4.5f;     // m/s the eyes sink or rise
+constexpr float kMostPitch = 1.45f;                        // rad
+constexpr float kEyesBelowTop = 0.13f;                     // m
+constexpr glm::vec3 kHand(0.18f, -0.22f, -0.12f);          // m from the eyes, where the lamp is
+constexpr float kNearestFocus = 0.8f, kFarthestFocus = 8;  // m
+constexpr float kFocusRate = 8;                            // 1/s
+constexpr float kCrouchRate = 4.5f;                        // m/s the eyes sink or rise
 
 glm::quat lookAlong(float yaw, float pitch) {
     return glm::angleAxis(-yaw, glm::vec3(0, 1, 0)) * glm::angleAxis(pitch, glm::vec3(1, 0, 0));
+}
+
+// Towards the distance of what the view's middle is on, not at once, so that the beam does not jump at edges.
+float focused(const PhysicsWorld& physics, const Player& player, float before, float seconds) {
+    const glm::dvec3 ahead(viewDirection(player.yaw, player.pitch));
+    const auto hit = physics.ray(player.position, player.position + ahead * double(kFarthestFocus));
+    const float wanted = std::max(kNearestFocus, kFarthestFocus * (hit ? hit->share : 1));
+    if (std::abs(wanted - before) < 1e-3f) return wanted;  // and then it rests
+    return glm::mix(before, wanted, std::min(kFocusRate * seconds, 1.0f));
 }
 
 }  // namespace
@@ -38,16 +50,20 @@ void walkPlayer(Res<const Input> input, Res<const GameTime> time, Res<Physics> p
     player->position = player->body.feet + glm::dvec3(0, double(player->eyeHeight), 0);
 }
 
-void aimLamp(View<LocalTransform, HandLamp> lamps, Res<const Input> input, Res<const Player> player) {
+void aimLamp(View<LocalTransform, HandLamp> lamps, Res<const Input> input, Res<const GameTime> time,
+             Res<const Physics> physics, Res<const Player> player) {
     lamps.each([&](LocalTransform& local, HandLamp& lamp) {
         if (input->buttons & kButtonLamp) {
             lamp.yaw = std::clamp(lamp.yaw + input->look.x * kRadiansPerPixel, -1.2f, 1.2f);
             lamp.pitch = std::clamp(lamp.pitch - input->look.y * kRadiansPerPixel, -0.9f, 0.9f);
         }
-        const glm::quat head = lookAlong(player->yaw, 0);
-        const glm::dvec3 position = player->position + glm::dvec3(head * glm::vec3(0.18f, -0.22f, -0.12f));
+        lamp.focus = focused(*physics->world, *player, lamp.focus, float(time->step));
+        const glm::vec3 hand = lookAlong(player->yaw, 0) * kHand;
+        const glm::dvec3 position = player->position + glm::dvec3(hand);
         const float pitch = std::clamp(player->pitch + lamp.pitch, -kMostPitch, kMostPitch);
-        const glm::quat rotation = lookAlong(player->yaw + lamp.yaw, pitch);
+        const glm::vec3 beam = viewDirection(player->yaw + lamp.yaw, pitch) * lamp.focus - hand;
+        const glm::quat rotation = lookAlong(std::atan2(beam.x, -beam.z),
+                                             std::atan2(beam.y, glm::length(glm::vec2(beam.x, beam.z))));
         const bool moved = local.translation != position || local.rotation != rotation;
         local.translation = position;
         local.rotation = rotation;

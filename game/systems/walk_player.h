@@ -9,8 +9,10 @@
 namespace ag::game {
 
 void walkPlayer(Res<const Input> input, Res<const GameTime> time, Res<Physics> physics, Res<Player> player);
-// The lamp in the hand: below and beside the eyes, along the view, moved on its own while the button is held.
-void aimLamp(View<LocalTransform, HandLamp> lamps, Res<const Input> input, Res<const Player> player);
+// The lamp in the hand, below and beside the eyes: it lights what the view's middle is on, and is moved on
+// its own while the button is held.
+void aimLamp(View<LocalTransform, HandLamp> lamps, Res<const Input> input, Res<const GameTime> time,
+             Res<const Physics> physics, Res<const Player> player);
 // Between the ticks.
 void followPlayer(Res<const Player> player, Res<const Physics> physics, Res<ActiveCamera> camera);
 

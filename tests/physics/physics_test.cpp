@@ -152,6 +152,23 @@ TEST(Character, StandsOnTheFloorAndIsStoppedByWalls) {
     EXPECT_LT(w.who.feet.x, 1.951 - 0.3);
 }
 
+// Doorposts catch no shoulder; a wall that goes on, and a crate, stop one as before.
+TEST(Character, StepsAsideWhereAShoulderIsCaught) {
+    for (const double side : {1.0, -1.0})
+        for (const double overlap : {-0.1, 0.0, 0.1}) {
+            Walk w;
+            w.world.add(box(BodyKind::kStatic, {0.4f, 3, 4}), {2, 1.5, side * (2 - overlap)}, kUpright);
+            w.go({1, 0}, 150);
+            EXPECT_GT(w.who.feet.x, 2.5) << "a post " << overlap << " m before the middle";
+            EXPECT_LT(std::abs(w.who.feet.z), 0.5);
+        }
+    Walk wall;
+    wall.world.add(box(BodyKind::kStatic, {0.4f, 3, 4}), {2, 1.5, 1.5}, kUpright);
+    wall.go({1, 0}, 150);
+    EXPECT_LT(wall.who.feet.x, 1.8) << "its end is half a metre off";
+    EXPECT_NEAR(wall.who.feet.z, 0, 0.01);
+}
+
 TEST(Character, JumpsAsHighAsTheSettingSays) {
     Walk w;
     w.go({0, 0}, 30);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "tools/scenegen/scenes.h"
 #include "tools/stress/cases.h"
 
@@ -35,6 +37,13 @@ SceneAsset scaled(SceneAsset asset, float by) {
     return asset;
 }
 
+// Clustering weighs distances per m², or per square of the renderer's unit where that is no metre.
+void keepMetric(Stage& stage, float by) {
+    const float perUnit = gi::chooseUnits(stage.scene, 0, {}).length / by;
+    stage.settings.valClustering.distanceWeight *= perUnit * perUnit;
+    stage.settings.valClustering.planeWeight *= perUnit * perUnit;
+}
+
 SceneAsset lit(SceneAsset asset, float by) {
     for (SceneLight& light : asset.lights)
         light.intensity *= by;
@@ -53,12 +62,11 @@ class Invariances {
         for (const double distance : {1e3, 1e4, 1e5, 1e6})
             row(fmt::format("{}, moved by {:g} m", scene_, distance), kSameNumbers,
                 [&] { return moved(plain_, distance * glm::dvec3(1, 0.371, -0.6173)); });
-        for (const float scale : {0x1p-10f, 0x1p10f})
-            row(fmt::format("{}, scaled by {:g}", scene_, scale), kSameNumbers,
-                [&] { return scaled(plain_, scale); });
-        for (const float scale : {1e-3f, 1e-2f, 1e-1f, 1e1f, 1e2f, 1e3f})
-            row(fmt::format("{}, scaled by {:g}", scene_, scale), kOtherClusters,
-                [&] { return scaled(plain_, scale); });
+        for (const float scale : {0x1p-10f, 0x1p10f, 1e-3f, 1e-2f, 1e-1f, 1e1f, 1e2f, 1e3f})
+            row(
+                fmt::format("{}, scaled by {:g}", scene_, scale),
+                std::exp2(std::round(std::log2(scale))) == scale ? kSameNumbers : kOtherClusters,
+                [&] { return scaled(plain_, scale); }, 1, [&](Stage& stage) { keepMetric(stage, scale); });
         for (const float power : {1e-6f, 1e-3f, 1e3f, 1e6f})
             row(
                 fmt::format("{}, light times {:g}", scene_, power), kHalfFloats,
@@ -66,10 +74,12 @@ class Invariances {
     }
 
   private:
-    void row(const std::string& name, double limit, FunctionRef<SceneAsset()> make, float power = 1) {
+    void row(
+        const std::string& name, double limit, FunctionRef<SceneAsset()> make, float power = 1,
+        Prepare prepare = [](Stage&) {}) {
         if (!bench_.wants(name)) return;
         if (!truth_) truth_ = renderStill(bench_, plain_);
-        Still still = renderStill(bench_, make());
+        Still still = renderStill(bench_, make(), prepare);
         for (glm::vec3& p : still.image.pixels)
             p /= power;
         bench_.report({name, "relative RMSE", relativeRmse(truth_->image, still.image), limit,

@@ -70,7 +70,7 @@ bool paintRoom(Bot& b) {
     // The swinging board, from beside its flower
     b.lookAhead();
     b.walk(-1.0, -41.0);
-    b.walk(-1.2, -43.2);
+    b.walk(-0.8, -43.1);
     b.look(-2.7, 1.2, -41.6);
     if (!b.waitForFlower(10)) return false;
     // The panel, turned round its post
@@ -110,7 +110,7 @@ bool playWrongColour(Bot& b) {
     b.walk(0, -7.2);
     b.walk(0, -13.8);
     b.walk(1.2, -16.2);
-    b.look(5.0, 1.5, -17.3);
+    b.look(5.0, 1.5, -16.8);
     b.wait(300);
     return !b.failed();
 }
