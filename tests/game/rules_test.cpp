@@ -12,6 +12,7 @@
 #include "game/menu.h"
 #include "game/save_game.h"
 #include "game/systems/grow_flowers.h"
+#include "game/systems/walk_player.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::game {
@@ -238,6 +239,53 @@ TEST(Hud, ShapesTellTheColoursApart) {
     EXPECT_EQ(hud.flowers.size(), 2u);
     EXPECT_NE(hud.goal.find("0 of 2"), std::string::npos);
     EXPECT_FALSE(hud.hint.empty());
+}
+
+TEST(Hud, TellsWhyAFlowerCloses) {
+    Game game(level(), 1);
+    game.tick({});
+    const auto read = [&](FlowerMood mood, float openness, float direct) {
+        View<Flower, gi::ProbeLight>(game.world(), {}).each([&](Flower& f, gi::ProbeLight& light) {
+            f.mood = mood;
+            f.openness = openness;
+            light.direct = glm::vec3(direct);
+            return true;
+        });
+        return readHud(game.world(), game.hints(), true).flowers.at(0);
+    };
+    EXPECT_TRUE(read(FlowerMood::kThirsty, 0.5f, 0).closing);
+    EXPECT_FALSE(read(FlowerMood::kThirsty, 0, 0).closing) << "it is shut";
+    EXPECT_FALSE(read(FlowerMood::kGrowing, 0.5f, 0).closing);
+    EXPECT_FALSE(read(FlowerMood::kOpen, 1, 0).closing);
+    EXPECT_STREQ(moodText(read(FlowerMood::kBlinded, 0, 5)), "direct light!");
+    EXPECT_STREQ(moodText(read(FlowerMood::kBlinded, 0, 0.2f)), "a beam's edge!");
+    EXPECT_TRUE(readHud(game.world(), game.hints(), true).legend) << "no room is solved yet";
+}
+
+// Near and far: its beam goes through what the middle of the view is on.
+TEST(Lamp, LightsWhatTheMiddleOfTheViewIsOn) {
+    Game game(level(), 1);
+    const PhysicsWorld& physics = *game.world().resource<Physics>().world;
+    double nearest = 100, farthest = 0;
+    for (int turn = 0; turn < 12; ++turn) {
+        for (int i = 0; i < 80; ++i)
+            game.tick({.forward = turn == 6 && i < 30 ? 1.0f : 0, .look = {i < 10 ? 33.0f : 0, 0}});
+        const Player& player = game.player();
+        const glm::dvec3 ahead(viewDirection(player.yaw, player.pitch));
+        const auto hit = physics.ray(player.position, player.position + ahead * 8.0);
+        if (!hit) continue;
+        const double distance = glm::length(hit->position - player.position);
+        nearest = std::min(nearest, distance), farthest = std::max(farthest, distance);
+        View<const HandLamp, const LocalTransform>(game.world(), {})
+            .each([&](const HandLamp&, const LocalTransform& at) {
+                const glm::dvec3 to = hit->position - at.translation,
+                                 beam = glm::dvec3(at.rotation * glm::vec3(0, 0, -1));
+                EXPECT_LT(glm::length(to - beam * glm::dot(to, beam)), 0.01)
+                    << "at " << distance << " m, turn " << turn;
+            });
+    }
+    EXPECT_LT(nearest, 2);
+    EXPECT_GT(farthest, 4);
 }
 
 }  // namespace
