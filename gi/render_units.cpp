@@ -12,6 +12,7 @@ constexpr float kDiagonalReach = 32;     // it may be so many times that, or tha
 constexpr float kIrradianceReach = 256;  // the same of irradiance, which usually is one
 constexpr float kStep = 5;               // powers of two from one unit to the next
 constexpr float kRoomToMove = 1.25f;     // diagonals that a steady extent starts with
+constexpr float kLeastExtent = 1e-6f;    // units, of a scene that is a point
 constexpr float kLeastFilled = 0.4f;     // of it, by the diagonal
 constexpr int kGenerationShift = 40;
 
@@ -51,7 +52,7 @@ float steadyExtent(const Bounds& bounds, float before) {
     if (bounds.empty()) return before;
     const float diagonal = glm::length(bounds.max - bounds.min);
     if (diagonal <= before && diagonal >= kLeastFilled * before) return before;
-    return kRoomToMove * diagonal;
+    return std::max(kRoomToMove * diagonal, kLeastExtent);
 }
 
 void inUnits(const RenderScene& scene, RenderUnits units, uint64_t generation, RenderScene& out) {

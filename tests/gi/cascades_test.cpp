@@ -57,6 +57,7 @@ TEST(SteadyExtent, StaysUntilTheSceneOutgrowsItOrLeavesMostOfIt) {
         EXPECT_EQ(steadyExtent(cube(side), chosen), chosen);
     EXPECT_GT(steadyExtent(cube(2), chosen), chosen);
     EXPECT_LT(steadyExtent(cube(0.2f), chosen), chosen);
+    EXPECT_GT(steadyExtent(cube(0), 0), 0) << "a point";
     EXPECT_EQ(steadyExtent({}, chosen), chosen) << "nothing there yet";
 }
 
