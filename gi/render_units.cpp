@@ -51,7 +51,7 @@ RenderUnits chooseUnits(const RenderScene& scene, float emission, RenderUnits be
 float steadyExtent(const Bounds& bounds, float before) {
     if (bounds.empty()) return before;
     const float diagonal = glm::length(bounds.max - bounds.min);
-    if (diagonal <= before && diagonal >= kLeastFilled * before) return before;
+    if (before > 0 && diagonal <= before && diagonal >= kLeastFilled * before) return before;
     return std::max(kRoomToMove * diagonal, kLeastExtent);
 }
 
