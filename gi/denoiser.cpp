@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "gi/pixel_rays.h"
 #include "shaders/denoiser/denoiser_io.h"
 
 namespace ag::gi {
@@ -15,21 +16,6 @@ constexpr std::array<std::string_view, kMostRounds> kRoundNames = {
     "denoiser.filter0", "denoiser.filter1", "denoiser.filter2", "denoiser.filter3", "denoiser.filter4"};
 constexpr std::array<std::string_view, kMostRounds> kLineNames = {
     "denoiser.lines0", "denoiser.lines1", "denoiser.lines2", "denoiser.lines3", "denoiser.lines4"};
-
-// Rays through pixels' centres, one metre along the camera's axis.
-io::PixelRays raysOf(const RenderCamera& camera, glm::vec2 size) {
-    const auto rayAt = [&](glm::vec2 pixel) {
-        const glm::vec2 ndc = (pixel + 0.5f) / size * 2.0f - 1.0f;
-        const glm::vec4 h = camera.worldFromClip * glm::vec4(ndc, 1, 1);
-        const glm::vec3 ray = glm::vec3(h) / h.w - camera.position;
-        return ray / glm::dot(ray, camera.forward);
-    };
-    const glm::vec3 corner = rayAt({0, 0});
-    return {.eye = camera.position,
-            .corner = corner,
-            .right = (rayAt({size.x - 1, 0}) - corner) / std::max(size.x - 1, 1.0f),
-            .down = (rayAt({0, size.y - 1}) - corner) / std::max(size.y - 1, 1.0f)};
-}
 
 struct Images {
     HistoryImage light;    // rgb: mean; a: frames it stands for
@@ -56,7 +42,9 @@ void addFilter(FrameGraph& graph, std::string_view name, const Images& images, I
 Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
                        const NoisyLight& noisy, const DenoiserSettings& s, DenoiserHistory& history) {
     if (!s.enabled || !noisy.irradiance.image) return noisy.irradiance;
-    const glm::uvec2 size = gbuffer.size, tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
+    const uint32_t step = noisy.irradiance.step;
+    const glm::uvec2 size = graph.info(noisy.irradiance.image).size;
+    const glm::uvec2 tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size};
     const ImageInfo tileInfo{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = tileCount};
     const RenderCamera& camera = scene.scene->camera;
@@ -69,19 +57,15 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
     Images images{.light = graph.historyImage("denoiser.light", info),
                   .surface = graph.historyImage("denoiser.surface", info),
                   .tiles = graph.historyImage("denoiser.tiles", tileInfo)};
-    const io::PixelRays rays = raysOf(camera, size);
+    const io::PixelRays rays = pixelRays(camera, gbuffer.size, step);
     const io::DenoiserCameras cameras{.previousClipFromWorld = before.clipFromWorld,
                                       .now = rays,
-                                      .before = raysOf(before, size),
+                                      .before = pixelRays(before, gbuffer.size, step),
                                       .pixelSize = glm::length(rays.down)};
     images.cameras = graph.buffer("denoiser.cameras", {.sizeBytes = sizeof cameras});
     graph.upload("denoiser.cameras", images.cameras, std::as_bytes(std::span(&cameras, 1)));
 
     const ImageHandle reprojected = graph.image("denoiser.reprojected", info);
-    struct Push {
-        float near;
-        uint32_t valid, seed;
-    };
     graph.compute("denoiser.reproject", "denoiser/reproject.comp")
         .sample("normalMap", gbuffer.normal)
         .sample("depthMap", gbuffer.depth)
@@ -92,7 +76,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         .write("history", reprojected)
         .sample("motionMap", gbuffer.motion ? gbuffer.motion : gbuffer.normal)
         .spec(0, bool(gbuffer.motion))
-        .push(Push{camera.near, known && images.light.valid, noisy.step})
+        .push(io::ReprojectPush{camera.near, known && images.light.valid, noisy.step, step})
         .dispatchThreads(size.x, size.y);
     const ImageHandle excess = graph.image("denoiser.excess", tileInfo);
     graph.compute("denoiser.measure_tiles", "denoiser/measure_tiles.comp")
@@ -131,7 +115,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         }
         from = to;
     }
-    return {from, noisy.irradiance.coat};
+    return {.image = from, .coat = noisy.irradiance.coat, .step = step};
 }
 
 }  // namespace ag::gi

@@ -9,6 +9,7 @@
 #include "gi/probes.h"
 #include "gi/ssvp.h"
 #include "gi/texel_shading.h"
+#include "gi/upsampling.h"
 #include "gi/val_fit.h"
 #include "gi/vpl_sampling.h"
 

@@ -62,6 +62,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, scene.scene->instancesVersion);
     f.indirect = addDenoiser(graph, scene, f.gbuffer, {f.indirect, light, steps}, s.denoiser, h.denoiser);
+    f.indirect = addUpsampling(graph, scene, f.gbuffer, f.indirect);
     if (!goesOn) f.bounce1 = f.indirect;  // all there is
 
     // Direct light

@@ -36,8 +36,8 @@ void setIrsm(GiSettings& gi) {
 
 void setStochastic(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kStochasticRsm;
-    gi.stochasticRsm = {.samples = 8, .random = true, .whole = true, .visible = true};
-    gi.denoiser = {.enabled = true};
+    gi.stochasticRsm = {.samples = 8, .spacing = 2, .random = true, .whole = true, .visible = true};
+    gi.denoiser = {.enabled = true, .rounds = 2};
 }
 
 // Point lights with hard shadows out of uniform points; distances in paraboloids of the atlas's full size.
@@ -285,6 +285,8 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"stochastic_rsm", "interpolate", 0, 0, "",
            "gather a 16th of the pixels, blend where surfaces are alike"},
           &gi.stochasticRsm.interpolate);
+    s.add({"stochastic_rsm", "spacing", 1, 4, "pixels", "from one gathered to the next, unless interpolated"},
+          &gi.stochasticRsm.spacing);
     s.add({"stochastic_rsm", "random", 0, 0, "", "other samples in each pixel and frame, for the denoiser"},
           &gi.stochasticRsm.random);
     s.add({"stochastic_rsm", "whole", 0, 0, "",

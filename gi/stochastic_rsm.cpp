@@ -122,8 +122,11 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
                             const StochasticRsmSettings& settings, Settling& settling) {
     if (rsm.empty()) return {};
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    const uint32_t spacing = settings.interpolate ? 1 : settings.spacing;
+    const glm::uvec2 gathered = glm::max(gbuffer.size / spacing, 1u);
     const Irradiance result{
-        graph.image("stochastic_rsm.irradiance", {.format = format, .size = gbuffer.size})};
+        .image = graph.image("stochastic_rsm.irradiance", {.format = format, .size = gathered}),
+        .step = spacing};
     const uint64_t listed = settings.interpolate ? uint64_t(gbuffer.size.x) * gbuffer.size.y : 0;
     const BufferHandle list =
         graph.buffer("stochastic_rsm.list", {.sizeBytes = (1 + listed) * sizeof(uint32_t)});
@@ -143,8 +146,8 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
 
     if (!settings.interpolate) {
         for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
-            addGather(graph, kGatherNames[m], in, m, result.image, 1, false, m > 0)
-                .dispatchThreads(gbuffer.size.x * gbuffer.size.y);
+            addGather(graph, kGatherNames[m], in, m, result.image, spacing, false, m > 0)
+                .dispatchThreads(gathered.x * gathered.y);
         return result;
     }
     const glm::uvec2 coarseSize = (gbuffer.size + kCoarseStep - 1u) / kCoarseStep;

@@ -29,6 +29,7 @@ struct ValShadingSettings {
 struct Irradiance {
     ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add
     ImageHandle coat;   // rgba16f, W/(m² sr): what gloss adds to the Lambert part; invalid: nothing
+    uint32_t step = 1;  // pixels from one that `image` holds to the next
 };
 
 // Passes and resources of one gathering; literals, because the graph keeps views of them.

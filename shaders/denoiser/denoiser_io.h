@@ -2,7 +2,7 @@
 #ifndef AG_DENOISER_IO_H
 #define AG_DENOISER_IO_H
 
-#include "common/portable.h"
+#include "common/pixel_rays.h"
 
 #ifdef __cplusplus
 namespace ag::io {
@@ -10,18 +10,17 @@ namespace ag::io {
 
 const uint kDenoiserTile = 8;  // pixels along the side of a tile of statistics
 
-struct PixelRays {  // a pixel's surface lies at eye + depth x (corner + x right + y down), depth in m along
-                    // the axis
-    vec3 eye;
-    vec3 corner;  // through the centre of pixel 0, 0
-    vec3 right;   // a pixel on
-    vec3 down;
-};
-
 struct DenoiserCameras {
     mat4 previousClipFromWorld;
     PixelRays now, before;
     float pixelSize;  // m at 1 m depth
+};
+
+struct ReprojectPush {
+    float near;  // m
+    uint valid;  // 0: there is no frame before
+    uint seed;   // another in each frame
+    uint step;   // pixels from one that has light to the next
 };
 
 struct AccumulatePush {

@@ -18,20 +18,24 @@ layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D history;  // a: 
 layout(set = 0, binding = 7) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
 layout(constant_id = 0) const bool kMotion = false;
 const float kMostMovedLength = 4.0;  // frames: what moves comes into other light
-layout(push_constant) uniform Push { float near; uint valid; uint seed; } push;
+layout(push_constant, scalar) uniform Push { ReprojectPush p; } push;
 
 void main() {
     ivec2 size = imageSize(surface), pixel = min(ivec2(gl_GlobalInvocationID.xy), size - 1);
+    ivec2 fullSize = textureSize(depthMap, 0);
+    int step = int(push.p.step);
+    ivec2 full = min(pixel * step + step / 2, fullSize - 1);
     DenoiserCameras c = cameras.c;
-    float reversed = texelFetch(depthMap, pixel, 0).x, depth = reversed > 0.0 ? push.near / reversed : 0.0;
-    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
+    float reversed = texelFetch(depthMap, full, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
+    vec3 normal = texelFetch(normalMap, full, 0).xyz;
     vec3 place = placeOf(c.now, vec2(pixel), depth) + c.now.eye;
-    vec4 motion = kMotion ? texelFetch(motionMap, pixel, 0) : vec4(0.0);
+    vec4 motion = kMotion ? texelFetch(motionMap, full, 0) : vec4(0.0);
     place += motion.xyz;
     vec4 clip = c.previousClipFromWorld * vec4(place, 1.0);
-    vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, nearest = floor(at + 0.5);
+    vec2 before = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(fullSize) - 0.5;
+    vec2 at = (before - float(step / 2)) / float(step), nearest = floor(at + 0.5);
     float footprint = 2.0 * c.pixelSize * max(depth, 1e-3);
-    bool known = push.valid == 1 && depth > 0.0 && clip.w > 0.0;
+    bool known = push.p.valid == 1 && depth > 0.0 && clip.w > 0.0;
     vec4 close = vec4(0.0), wide = vec4(0.0);
     float closeWeight = 0.0, wideWeight = 0.0;
     [[unroll]] for (int y = -1; y <= 1; ++y)
@@ -54,5 +58,5 @@ void main() {
     result.a = motion.w > 0.0 ? min(result.a, kMostMovedLength) : result.a;
     if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), size))) return;
     imageStore(surface, pixel, vec4(normal, depth));
-    imageStore(history, pixel, known ? vec4(roundedByChance(result.rgb, pixel, push.seed + 7u), result.a) : vec4(0.0));
+    imageStore(history, pixel, known ? vec4(roundedByChance(result.rgb, pixel, push.p.seed + 7u), result.a) : vec4(0.0));
 }

@@ -2,20 +2,9 @@
 #ifndef AG_DENOISER_SURFACE_GLSL
 #define AG_DENOISER_SURFACE_GLSL
 
+#include "common/pixel_rays.h"
 #include "common/sampling.h"
 #include "denoiser/denoiser_io.h"
-
-// Relative to the eye, m.
-vec3 placeOf(PixelRays rays, vec2 pixel, float depth) {
-    return depth * (rays.corner + pixel.x * rays.right + pixel.y * rays.down);
-}
-
-// 1 on one plane and facing one way, else less. `apart`: m between two surface points; `footprint`: m a pixel covers.
-float likeness(vec3 normal, vec3 apart, float footprint, vec3 otherNormal) {
-    float off = dot(normal, apart) / footprint, facing = max(dot(normal, otherNormal), 0.0);
-    float f2 = facing * facing, f8 = f2 * f2 * f2 * f2;
-    return f8 * f8 / (1.0 + off * off * off * off);
-}
 
 // To half floats, up or down by chance, so that means over many frames stay true: some devices cut off, and what is lost
 // in a history is lost again in each frame. `seed` differs from frame to frame.

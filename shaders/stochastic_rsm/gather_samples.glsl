@@ -155,7 +155,7 @@ void main() {
     ivec2 pixel = ivec2(min(cell * push.p.step + push.p.step / 2, size - 1));
     float depth = texelFetch(depthMap, pixel, 0).x;
     vec3 x = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
-    vec2 by = kRandom ? texelFetch(noise, (pixel.y & 63) * 64 + (pixel.x & 63)).xy + push.p.shift : vec2(0.0);
+    vec2 by = kRandom ? texelFetch(noise, int((cell.y & 63u) * 64u + (cell.x & 63u))).xy + push.p.shift : vec2(0.0);
     vec3 e = depth > 0.0 ? gather(x, texelFetch(normalMap, pixel, 0).xyz, by) : vec3(0.0);
     if (!there) return;
     if (!kFirst) e += imageLoad(irradiance, ivec2(cell)).rgb;

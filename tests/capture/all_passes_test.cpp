@@ -56,7 +56,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     ASSERT_TRUE(gi::applyPreset(c.preset, settings.gi));
     settings.gi.laterBounces.enabled = c.laterBounces;
     settings.gi.denoiser.enabled = settings.gi.denoiser.motion = true;
-    settings.gi.stochasticRsm.interpolate = true;
+    settings.gi.stochasticRsm.interpolate = c.preset == "rsm-400";
     settings.gi.valClustering.count = 64;
     RenderScene scene = staticScene(asset);
     setCamera(scene, cameraOf(asset, 0), settings.size);

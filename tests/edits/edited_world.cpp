@@ -46,6 +46,7 @@ gi::GiSettings smallSettings() {
     gi.ismAtlas.pointsPerMap = 128;
     gi.laterBounces.settleFrames = 2;
     gi.stochasticRsm.samples = 4;
+    gi.stochasticRsm.spacing = 2;
     gi.stochasticRsm.settleFrames = 2;
     gi.shadowMaps.resolution = 64;
     gi.shadowMaps.cascades = 2;

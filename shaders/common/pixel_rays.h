@@ -1,0 +1,32 @@
+// Surfaces on screen from their depth along the camera's axis, and how alike two of them are.
+#ifndef AG_PIXEL_RAYS_H
+#define AG_PIXEL_RAYS_H
+
+#include "common/portable.h"
+
+AG_BEGIN
+
+struct PixelRays {  // a pixel's surface lies at eye + depth x (corner + x right + y down), depth in m along
+                    // the axis
+    vec3 eye;
+    vec3 corner;  // through the centre of pixel 0, 0
+    vec3 right;   // a pixel on
+    vec3 down;
+};
+
+// Relative to the eye, m.
+AG_FUNCTION vec3 placeOf(PixelRays rays, vec2 pixel, float depth) {
+    return depth * (rays.corner + pixel.x * rays.right + pixel.y * rays.down);
+}
+
+// 1 on one plane and facing one way, else less. `apart`: m between two surface points; `footprint`: m a pixel
+// covers.
+AG_FUNCTION float likeness(vec3 normal, vec3 apart, float footprint, vec3 otherNormal) {
+    float off = dot(normal, apart) / footprint, facing = max(dot(normal, otherNormal), 0.0f);
+    float f2 = facing * facing, f8 = f2 * f2 * f2 * f2;
+    return f8 * f8 / (1.0f + off * off * off * off);
+}
+
+AG_END
+
+#endif

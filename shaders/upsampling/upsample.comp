@@ -1,0 +1,41 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
+// Of the four gathered pixels about each those on the same surface, bilinearly (Kopf et al. 2007). Where none is, the pixel
+// is listed to look farther.
+#include "upsampling/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 3, scalar) buffer Lacking { uint count; uint pixels[]; } lacking;
+layout(set = 0, binding = 4, scalar) buffer Groups { uvec3 count; } groups;
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D result;
+
+const float kLeastWeight = 0.1;
+
+// The order of the list varies, the picture does not.
+void listPixel(ivec2 pixel) {
+    uint at = atomicAdd(lacking.count, 1);
+    lacking.pixels[at] = uint(pixel.x) | uint(pixel.y) << 16;
+    atomicMax(groups.count.x, at / 64 + 1);
+}
+
+void main() {
+    ivec2 size = imageSize(result), pixel = min(ivec2(gl_GlobalInvocationID.xy), size - 1);
+    Surface s = surfaceAt(pixel);
+    vec2 at = cellsAt(pixel);
+    ivec2 low = ivec2(floor(at)), last = textureSize(light, 0) - 1;
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 cell = low + ivec2(i & 1, i >> 1);
+        vec2 share = 1.0 - abs(vec2(cell) - at);
+        float weight = share.x * share.y * likenessOf(s, cell);
+        sum += weight * texelFetch(light, clamp(cell, ivec2(0), last), 0).rgb;
+        total += weight;
+    }
+    if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), size))) return;
+    bool found = total >= kLeastWeight;
+    imageStore(result, pixel, vec4(found && s.depth > 0.0 ? sum / total : vec3(0.0), 1.0));
+    if (!found && s.depth > 0.0) listPixel(pixel);
+}

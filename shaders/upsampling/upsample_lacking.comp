@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Pixels that are like none of the four gathered ones about them: of those farther away what is most alike.
+#include "upsampling/surface.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 3, scalar) readonly buffer Lacking { uint count; uint pixels[]; } lacking;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D result;
+
+const int kReach = 3;             // gathered pixels
+const float kLeastLikeness = 1e-4;  // what is unlike still counts where nothing is alike
+
+void main() {
+    if (gl_GlobalInvocationID.x >= lacking.count) return;
+    uint packed = lacking.pixels[gl_GlobalInvocationID.x];
+    ivec2 pixel = ivec2(packed & 0xffffu, packed >> 16), last = textureSize(light, 0) - 1;
+    Surface s = surfaceAt(pixel);
+    vec2 at = cellsAt(pixel);
+    ivec2 nearest = ivec2(floor(at + 0.5));
+    vec3 sum = vec3(0.0);
+    float total = 0.0;
+    for (int i = 0; i < (2 * kReach + 1) * (2 * kReach + 1); ++i) {
+        ivec2 cell = nearest + ivec2(i % (2 * kReach + 1), i / (2 * kReach + 1)) - kReach;
+        vec2 apart = vec2(cell) - at;
+        float weight = (likenessOf(s, cell) + kLeastLikeness) / (1.0 + dot(apart, apart));
+        sum += weight * texelFetch(light, clamp(cell, ivec2(0), last), 0).rgb;
+        total += weight;
+    }
+    imageStore(result, pixel, vec4(sum / total, 1.0));
+}
