@@ -42,12 +42,10 @@ void addFilter(FrameGraph& graph, std::string_view name, const Images& images, I
 Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
                        const NoisyLight& noisy, const DenoiserSettings& s, DenoiserHistory& history) {
     if (!s.enabled || !noisy.irradiance.image) return noisy.irradiance;
-    const uint32_t step = noisy.irradiance.step;
-    const glm::uvec2 size = graph.info(noisy.irradiance.image).size;
-    const glm::uvec2 tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
+    const glm::uvec2 size = gbuffer.size, tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size};
     const ImageInfo tileInfo{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = tileCount};
-    const RenderCamera& camera = scene.scene->camera;
+    const RenderCamera& camera = gbuffer.view;
     const bool known = history.originVersion == scene.scene->originVersion;
     const RenderCamera before = known ? history.camera : camera;
     history = {camera, scene.scene->originVersion, noisy.lightVersion,
@@ -57,10 +55,10 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
     Images images{.light = graph.historyImage("denoiser.light", info),
                   .surface = graph.historyImage("denoiser.surface", info),
                   .tiles = graph.historyImage("denoiser.tiles", tileInfo)};
-    const io::PixelRays rays = pixelRays(camera, gbuffer.size, step);
+    const io::PixelRays rays = pixelRays(camera, size);
     const io::DenoiserCameras cameras{.previousClipFromWorld = before.clipFromWorld,
                                       .now = rays,
-                                      .before = pixelRays(before, gbuffer.size, step),
+                                      .before = pixelRays(before, size),
                                       .pixelSize = glm::length(rays.down)};
     images.cameras = graph.buffer("denoiser.cameras", {.sizeBytes = sizeof cameras});
     graph.upload("denoiser.cameras", images.cameras, std::as_bytes(std::span(&cameras, 1)));
@@ -76,7 +74,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         .write("history", reprojected)
         .sample("motionMap", gbuffer.motion ? gbuffer.motion : gbuffer.normal)
         .spec(0, bool(gbuffer.motion))
-        .push(io::ReprojectPush{camera.near, known && images.light.valid, noisy.step, step})
+        .push(io::ReprojectPush{camera.near, known && images.light.valid, noisy.step})
         .dispatchThreads(size.x, size.y);
     const ImageHandle excess = graph.image("denoiser.excess", tileInfo);
     graph.compute("denoiser.measure_tiles", "denoiser/measure_tiles.comp")
@@ -115,7 +113,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         }
         from = to;
     }
-    return {.image = from, .coat = noisy.irradiance.coat, .step = step};
+    return {from, noisy.irradiance.coat};
 }
 
 }  // namespace ag::gi

@@ -9,24 +9,23 @@ namespace {
 struct Row {
     std::string_view name;
     float scale;
-    uint32_t mapResolution, valCount, ismTile, pointsPerMap, interleave;
+    uint32_t mapResolution, valCount, ismTile, pointsPerMap, spacing;
     float nearReach;
     uint32_t taps;
     double relativeCost;
 };
-constexpr std::array kRows = {Row{"half", 0.5f, 64, 48, 32, 768, 4, 2, 4, 0.17},
-                              Row{"three quarters", 0.75f, 64, 48, 32, 768, 4, 2, 4, 0.25},
-                              Row{"below low", 1, 64, 48, 32, 768, 4, 2, 4, 0.36},
-                              Row{"low", 1, 0, 64, 32, 1024, 4, 2, 4, 0.5},
-                              Row{"low 80", 1, 0, 80, 32, 1536, 4, 2, 4, 0.58},
-                              Row{"low 96", 1, 0, 96, 32, 1536, 4, 2, 4, 0.64},
-                              Row{"low 112", 1, 0, 112, 32, 2048, 4, 2, 4, 0.7},
-                              Row{"medium 112", 1, 0, 112, 64, 2048, 3, 2, 4, 0.88},
-                              Row{"medium", 1, 0, 128, 64, 2048, 3, 2, 4, 1},
-                              Row{"medium 160", 1, 0, 160, 64, 2048, 3, 2, 4, 1.1},
-                              Row{"medium 176", 1, 0, 176, 64, 2560, 3, 2, 4, 1.35},
-                              Row{"medium 224", 1, 0, 224, 64, 3072, 3, 2, 4, 1.6},
-                              Row{"high 208, 3 x 3", 1, 512, 208, 64, 3072, 3, 2, 4, 2.05},
+constexpr std::array kRows = {Row{"half", 0.5f, 64, 48, 32, 768, 3, 2, 4, 0.17},
+                              Row{"three quarters", 0.75f, 64, 48, 32, 768, 3, 2, 4, 0.25},
+                              Row{"below low", 1, 64, 48, 32, 768, 3, 2, 4, 0.36},
+                              Row{"low", 1, 0, 64, 32, 1024, 3, 2, 4, 0.5},
+                              Row{"low 80", 1, 0, 80, 32, 1536, 3, 2, 4, 0.58},
+                              Row{"low 96", 1, 0, 96, 32, 1536, 3, 2, 4, 0.64},
+                              Row{"low 112", 1, 0, 112, 32, 2048, 3, 2, 4, 0.7},
+                              Row{"medium 112", 1, 0, 112, 64, 2048, 2, 2, 4, 0.88},
+                              Row{"medium", 1, 0, 128, 64, 2048, 2, 2, 4, 1},
+                              Row{"medium 160", 1, 0, 160, 64, 2048, 2, 2, 4, 1.1},
+                              Row{"medium 176", 1, 0, 176, 64, 2560, 2, 2, 4, 1.35},
+                              Row{"medium 224", 1, 0, 224, 64, 3072, 2, 2, 4, 1.6},
                               Row{"high 208", 1, 512, 208, 64, 3072, 2, 2, 4, 2.2},
                               Row{"high", 1, 512, 256, 64, 4096, 2, 2, 4, 2.35},
                               Row{"high 320", 1, 512, 320, 64, 4096, 2, 2, 4, 2.9},
@@ -44,8 +43,8 @@ constexpr uint32_t kFewFrames = 3;   // seen at a step before it is judged too s
 constexpr uint32_t kPatience = 12;   // frames before going up
 
 QualityStep stepOf(const Row& row) {
-    return {std::string(row.name), row.scale,      row.mapResolution, row.valCount, row.ismTile,
-            row.pointsPerMap,      row.interleave, row.nearReach,     row.taps,     row.relativeCost};
+    return {std::string(row.name), row.scale,   row.mapResolution, row.valCount, row.ismTile,
+            row.pointsPerMap,      row.spacing, row.nearReach,     row.taps,     row.relativeCost};
 }
 
 // Half way to the next row in what can be had in small amounts: steps are fine enough for any budget.
@@ -99,7 +98,7 @@ void applyQualityStep(const QualityStep& step, GiSettings& gi) {
     gi.valClustering.count = step.valCount;
     gi.ismAtlas.tileSize = step.ismTile;
     gi.ismAtlas.pointsPerMap = step.pointsPerMap;
-    gi.valShading.interleave = step.interleave;
+    gi.spacing = step.spacing;
     gi.valShading.nearReach = step.nearReach;
     gi.valShading.taps = step.taps;
 }

@@ -23,7 +23,7 @@ struct QualityStep {
     uint32_t mapResolution = 0;  // texels along a light map; 0: as each light says
     uint32_t valCount = 128;
     uint32_t ismTile = 64, pointsPerMap = 2048;
-    uint32_t interleave = 3;  // far lights are shared out over blocks of n x n pixels: resolution 1/n
+    uint32_t spacing = 2;  // pixels from one that is gathered to the next
     float nearReach = 2;
     uint32_t taps = 4;
     double relativeCost = 1;  // of a frame, beside "medium"; a first guess for each scene

@@ -14,6 +14,23 @@ std::string_view fillShader(const SceneView& scene) {
     return scene.hasEmissive ? "gbuffer/fill_emissive.frag" : "gbuffer/fill.frag";
 }
 
+// Of pixels c spacing + spacing / 2: their centres are those of an image of `size` / spacing pixels.
+RenderCamera thinned(const RenderCamera& camera, glm::uvec2 size, uint32_t spacing) {
+    const glm::vec2 all(size), thin(glm::max(size / spacing, 1u) * spacing);
+    const float aside =
+        spacing % 2 == 0 ? 0.5f : 0.0f;  // pixels, of the chosen ones from the squares' middles
+    const glm::vec2 scale = thin / all, shift = scale + 2 * aside / all - 1.0f;
+    glm::mat4 allFromThin(1), thinFromAll(1);
+    for (int i = 0; i < 2; ++i) {
+        allFromThin[i][i] = scale[i], allFromThin[3][i] = shift[i];
+        thinFromAll[i][i] = 1 / scale[i], thinFromAll[3][i] = -shift[i] / scale[i];
+    }
+    RenderCamera out = camera;
+    out.clipFromWorld = thinFromAll * camera.clipFromWorld;
+    out.worldFromClip = camera.worldFromClip * allFromThin;
+    return out;
+}
+
 }  // namespace
 
 GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
@@ -23,7 +40,9 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     GBuffer g{.depth = target("gbuffer.depth", VK_FORMAT_D32_SFLOAT),
               .normal = target("gbuffer.normal", VK_FORMAT_R16G16B16A16_SFLOAT),
               .albedo = target("gbuffer.albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
-              .size = scene.size};
+              .size = scene.size,
+              .view = scene.scene->camera,
+              .camera = scene.camera};
     if (scene.hasEmissive) g.emissive = target("gbuffer.emissive", VK_FORMAT_R16G16B16A16_SFLOAT);
     if (scene.hasGlossy) g.reflectance = target("gbuffer.reflectance", VK_FORMAT_R16G16B16A16_SFLOAT);
 
@@ -39,6 +58,38 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, Viewer::kCamera);
     g.draws = &draws;
     return g;
+}
+
+GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing) {
+    if (spacing == 1) return all;
+    const glm::uvec2 size = glm::max(all.size / spacing, 1u);
+    GBuffer g{
+        .depth = graph.image("gbuffer.thin_depth", {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
+        .normal = addThinImage(graph, "gbuffer.thin_normal", all.normal, spacing),
+        .draws = all.draws,
+        .size = size,
+        .spacing = spacing,
+        .view = thinned(all.view, all.size, spacing),
+    };
+    g.camera = addCamera(graph, "gbuffer.thin_camera", g.view, size);
+    graph.compute("gbuffer.thin_depth", "gbuffer/thin_depth.comp")
+        .sample("all", all.depth)
+        .write("thin", g.depth)
+        .push(int32_t(spacing))
+        .dispatchThreads(size.x, size.y);
+    return g;
+}
+
+ImageHandle addThinImage(FrameGraph& graph, std::string_view name, ImageHandle all, uint32_t spacing) {
+    if (!all || spacing == 1) return all;
+    const glm::uvec2 size = glm::max(graph.info(all).size / spacing, 1u);
+    const ImageHandle thin = graph.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size});
+    graph.compute(name, "gbuffer/thin_image.comp")
+        .sample("all", all)
+        .write("thin", thin)
+        .push(int32_t(spacing))
+        .dispatchThreads(size.x, size.y);
+    return thin;
 }
 
 ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {

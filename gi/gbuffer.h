@@ -16,9 +16,20 @@ struct GBuffer {
     ImageHandle motion;  // rgba16f: m to where the surface was a frame ago; invalid when nothing moved
     const ViewDraws* draws = nullptr;  // what the camera draws, for addMotion
     glm::uvec2 size{0};
+    uint32_t spacing = 1;  // of the camera's pixels from one of these to the next
+    RenderCamera view;     // of these pixels
+    BufferHandle camera;   // the same as io::CameraConstants
 };
 
 GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene);
+
+// Every spacing-th pixel of every spacing-th row, as if the camera had no others: from the middle of each
+// square of the image, what is left over at its right and lower border goes without. Depth and normal only;
+// itself with a spacing of 1.
+GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing);
+
+// The same of an image, rgba16f.
+ImageHandle addThinImage(FrameGraph& graph, std::string_view name, ImageHandle all, uint32_t spacing);
 
 // Where the surfaces that moved since the frame before were then; only what moved is drawn. None: invalid.
 ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer);

@@ -8,6 +8,15 @@
 
 namespace ag::gi {
 
+namespace {
+
+// Gloss is no light that neighbours share.
+uint32_t spacingOf(const GiSettings& s, const GBuffer& gbuffer) {
+    return s.firstBounce == FirstBounce::kAreaLights && shadesGloss(gbuffer, s.valShading) ? 1 : s.spacing;
+}
+
+}  // namespace
+
 GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& s, GiHistory& h) {
     GiFrame f;
     // Figures as they are bent now
@@ -39,31 +48,33 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
         if (s.ismAtlas.enabled) f.isms = propagated.maps;
     }
 
-    // Gather on screen
+    // Gather on screen, at some of the pixels
+    GBuffer thin = addThinned(graph, f.gbuffer, spacingOf(s, f.gbuffer));
     if (s.firstBounce == FirstBounce::kTexels)
-        f.bounce1 = addTexelShading(graph, scene, f.gbuffer, f.rsm);
+        f.bounce1 = addTexelShading(graph, thin, f.rsm);
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
-        f.bounce1 = addStochasticRsm(graph, scene, f.gbuffer, f.rsm, {f.clusters, f.vals, f.isms},
-                                     s.stochasticRsm, h.stochasticRsm);
+        f.bounce1 = addStochasticRsm(graph, scene, thin, f.rsm, {f.clusters, f.vals, f.isms}, s.stochasticRsm,
+                                     h.stochasticRsm);
     else if (s.firstBounce != FirstBounce::kNone)
-        f.bounce1 =
-            addValShading(graph, scene, f.gbuffer, firstVals(f.vals, f.firstCount), f.isms, s.valShading);
+        f.bounce1 = addValShading(graph, thin, firstVals(f.vals, f.firstCount), f.isms, s.valShading);
 
     // Light that goes on
     f.indirect = f.bounce1;
     addLaterIrradiance(graph, f.laterLight, f.vals, f.firstCount, f.isms, s.laterBounces);
     const bool goesOn = f.bounce1.image && f.vals.count > f.firstCount;
-    if (goesOn)
-        f.indirect = addValShading(graph, scene, f.gbuffer, f.vals, f.isms, s.valShading, kAllBouncesShading);
+    if (goesOn) f.indirect = addValShading(graph, thin, f.vals, f.isms, s.valShading, kAllBouncesShading);
 
     // Steady and smooth
-    if (s.denoiser.enabled && s.denoiser.motion && f.indirect.image)
+    if (s.denoiser.enabled && s.denoiser.motion && f.indirect.image) {
         f.gbuffer.motion = addMotion(graph, scene, f.gbuffer);
+        thin.motion = addThinImage(graph, "gbuffer.thin_motion", f.gbuffer.motion, thin.spacing);
+    }
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, scene.scene->instancesVersion);
-    f.indirect = addDenoiser(graph, scene, f.gbuffer, {f.indirect, light, steps}, s.denoiser, h.denoiser);
-    f.indirect = addUpsampling(graph, scene, f.gbuffer, f.indirect);
-    if (!goesOn) f.bounce1 = f.indirect;  // all there is
+    f.indirect = addDenoiser(graph, scene, thin, {f.indirect, light, steps}, s.denoiser, h.denoiser);
+    f.indirect = addUpsampling(graph, f.gbuffer, thin, f.indirect);
+    f.bounce1 =
+        goesOn ? addUpsampling(graph, f.gbuffer, thin, f.bounce1, kFirstBounceUpsampling) : f.indirect;
 
     // Direct light
     f.shadows = addSunShadows(graph, scene, s.shadowMaps);

@@ -13,17 +13,20 @@ void setNone(GiSettings& gi) {
 }
 
 void setRsmBrute(GiSettings& gi) {
+    gi.spacing = 1;
     gi.firstBounce = FirstBounce::kTexels;
     gi.rsm.resolution = 128;
 }
 
 void setRsm400(GiSettings& gi) {
+    gi.spacing = 1;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 400, .radius = 0.3f};
 }
 
 // Eight samples and the article's denoiser; ours.
 void setIrsm(GiSettings& gi) {
+    gi.spacing = 1;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 8, .radius = 0.3f, .random = true};
     gi.denoiser = {.enabled = true,
@@ -36,22 +39,25 @@ void setIrsm(GiSettings& gi) {
 
 void setStochastic(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kStochasticRsm;
-    gi.stochasticRsm = {.samples = 8, .spacing = 2, .random = true, .whole = true, .visible = true};
+    gi.stochasticRsm = {.samples = 8, .random = true, .whole = true, .visible = true};
     gi.denoiser = {.enabled = true, .rounds = 2};
 }
 
 // Point lights with hard shadows out of uniform points; distances in paraboloids of the atlas's full size.
 void setIsm(GiSettings& gi) {
+    gi.spacing = 1;
     gi.firstBounce = FirstBounce::kPointLights;
     gi.importance.viewWeight = 0;
     gi.valClustering.count = 1024;
     gi.ismAtlas = {.nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
-    gi.valShading = {.shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .taps = 1};
+    gi.valShading = {
+        .shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .interleave = 3, .taps = 1};
 }
 
 // 256 point lights and as many of the second bounce, 4x4 pixels share them; the edge-aware Gaussian is a
 // round of the denoiser's filter over one frame.
 void setSsvp(GiSettings& gi) {
+    gi.spacing = 1;
     gi.firstBounce = FirstBounce::kSsvp;
     gi.valClustering.count = 256;
     gi.valShading = {
@@ -67,8 +73,8 @@ void setSsvp(GiSettings& gi) {
 }
 
 void setRsmc(GiSettings& gi) {
+    gi.spacing = 1;
     gi.ismAtlas.enabled = false;
-    gi.valShading.interleave = 1;
     gi.valShading.farShape = ValShape::kDisk;
     gi.valShading.nearReach = 0;
     gi.valClustering.adaptive = false;
@@ -89,11 +95,11 @@ void setAcrsm(GiSettings& gi) {
     gi.valShading.taps = gi.valShading.farTaps = 16;
 }
 
-// Ours by budget: lights, points a shadow map is made of, and how far the gather is shared out.
+// Ours by budget: lights, points a shadow map is made of, and how many pixels are gathered.
 void setLow(GiSettings& gi) {
     gi.valClustering.count = 64;
     gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
-    gi.valShading.interleave = 4;
+    gi.spacing = 3;
 }
 
 void setAfterglow(GiSettings&) {}
@@ -107,14 +113,12 @@ void setHigh(GiSettings& gi) {
     gi.rsm.resolution = 512;
     gi.valClustering.count = 256;
     gi.ismAtlas.pointsPerMap = 4096;
-    gi.valShading.interleave = 2;
 }
 
 void setUltra(GiSettings& gi) {
     gi.rsm.resolution = 512;
     gi.valClustering.count = 512;
     gi.ismAtlas = {.tileSize = 128, .pointsPerMap = 8192};
-    gi.valShading.interleave = 2;
     gi.valShading.nearReach = 6;
     gi.valShading.taps = 16;
 }
@@ -192,6 +196,9 @@ void registerSettings(Settings& s, GiSettings& gi) {
            "where indirect light comes from",
            {"none", "area_lights", "point_lights", "texels", "stochastic_rsm", "ssvp"}},
           &gi.firstBounce);
+    s.add({"gi", "spacing", 1, 4, "pixels",
+           "from one that indirect light is gathered at to the next; 1 for gloss"},
+          &gi.spacing);
     s.add({"rsm", "resolution", 0, 1024, "texels",
            "side of a light map, rounded down to a power of two; 0: as each light says"},
           &gi.rsm.resolution);
@@ -285,8 +292,6 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"stochastic_rsm", "interpolate", 0, 0, "",
            "gather a 16th of the pixels, blend where surfaces are alike"},
           &gi.stochasticRsm.interpolate);
-    s.add({"stochastic_rsm", "spacing", 1, 4, "pixels", "from one gathered to the next, unless interpolated"},
-          &gi.stochasticRsm.spacing);
     s.add({"stochastic_rsm", "random", 0, 0, "", "other samples in each pixel and frame, for the denoiser"},
           &gi.stochasticRsm.random);
     s.add({"stochastic_rsm", "whole", 0, 0, "",

@@ -37,6 +37,7 @@ enum class FirstBounce : uint32_t {
 
 struct GiSettings {
     FirstBounce firstBounce = FirstBounce::kAreaLights;
+    uint32_t spacing = 2;  // pixels from one that indirect light is gathered at to the next; gloss: 1
     RsmSettings rsm;
     ImportanceSettings importance;
     ValClusteringSettings valClustering;

@@ -2,14 +2,14 @@
 
 namespace ag::gi {
 
-io::PixelRays pixelRays(const RenderCamera& camera, glm::uvec2 size, uint32_t step) {
-    const auto rayAt = [&](glm::uvec2 cell) {
-        const glm::vec2 pixel = glm::vec2(cell * step + step / 2) + 0.5f;
-        const glm::vec4 h = camera.worldFromClip * glm::vec4(pixel / glm::vec2(size) * 2.0f - 1.0f, 1, 1);
+io::PixelRays pixelRays(const RenderCamera& camera, glm::uvec2 size) {
+    const auto rayAt = [&](glm::uvec2 pixel) {
+        const glm::vec2 ndc = (glm::vec2(pixel) + 0.5f) / glm::vec2(size) * 2.0f - 1.0f;
+        const glm::vec4 h = camera.worldFromClip * glm::vec4(ndc, 1, 1);
         const glm::vec3 ray = glm::vec3(h) / h.w - camera.position;
         return ray / glm::dot(ray, camera.forward);
     };
-    const glm::uvec2 last = glm::max(size / step, 2u) - 1u;
+    const glm::uvec2 last = glm::max(size, 2u) - 1u;
     const glm::vec3 corner = rayAt({0, 0});
     return {.eye = camera.position,
             .corner = corner,

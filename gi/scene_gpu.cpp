@@ -97,6 +97,18 @@ void transferBarrier(VkCommandBuffer commands, Transfer when) {
 
 }  // namespace
 
+BufferHandle addCamera(FrameGraph& graph, std::string_view name, const RenderCamera& camera,
+                       glm::uvec2 size) {
+    const io::CameraConstants constants{.clipFromWorld = camera.clipFromWorld,
+                                        .worldFromClip = camera.worldFromClip,
+                                        .position = camera.position,
+                                        .near = camera.near,
+                                        .size = size};
+    const BufferHandle buffer = graph.buffer(name, {.sizeBytes = sizeof constants});
+    graph.upload(name, buffer, std::as_bytes(std::span(&constants, 1)));
+    return buffer;
+}
+
 SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device) {}
 SceneGpu::~SceneGpu() {
     device_.waitIdle();
@@ -244,14 +256,7 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
         view.stillSampleCount = stillSampleCount_;
         view.stillVersion = combineHash(combineHash(sampledSet_, stillVersion_), scene.originVersion);
     }
-    const RenderCamera& camera = scene.camera;
-    const io::CameraConstants constants{.clipFromWorld = camera.clipFromWorld,
-                                        .worldFromClip = camera.worldFromClip,
-                                        .position = camera.position,
-                                        .near = camera.near,
-                                        .size = size};
-    view.camera = graph.buffer("scene.camera", {.sizeBytes = sizeof constants});
-    graph.upload("scene.camera", view.camera, std::as_bytes(std::span(&constants, 1)));
+    view.camera = addCamera(graph, "scene.camera", scene.camera, size);
     return view;
 }
 

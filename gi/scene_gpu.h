@@ -50,6 +50,9 @@ struct SceneView {
     uint32_t claimView() const { return viewsClaimed++; }
 };
 
+// io::CameraConstants of an image of so many pixels.
+BufferHandle addCamera(FrameGraph& graph, std::string_view name, const RenderCamera& camera, glm::uvec2 size);
+
 class SceneGpu {
   public:
     explicit SceneGpu(gpu::Device& device);

@@ -69,7 +69,7 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
             .spec(3, isms.mapping == IsmMapping::kParaboloid);
     pass.sample("normalMap", in.gbuffer.normal)
         .sample("depthMap", in.gbuffer.depth)
-        .read("camera", in.scene.camera)
+        .read("camera", in.gbuffer.camera)
         .read("texels", in.rsm.texels)
         .read("faces", in.rsm.faces)
         .read("maps", in.rsm.maps)
@@ -105,7 +105,7 @@ BufferHandle addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle c
     graph.compute("stochastic_rsm.interpolate", "stochastic_rsm/interpolate_samples.comp")
         .sample("normalMap", in.gbuffer.normal)
         .sample("depthMap", in.gbuffer.depth)
-        .read("camera", in.scene.camera)
+        .read("camera", in.gbuffer.camera)
         .sample("coarse", coarse)
         .readWrite("list", in.list)
         .readWrite("groups", groups)
@@ -122,11 +122,8 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
                             const StochasticRsmSettings& settings, Settling& settling) {
     if (rsm.empty()) return {};
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
-    const uint32_t spacing = settings.interpolate ? 1 : settings.spacing;
-    const glm::uvec2 gathered = glm::max(gbuffer.size / spacing, 1u);
     const Irradiance result{
-        .image = graph.image("stochastic_rsm.irradiance", {.format = format, .size = gathered}),
-        .step = spacing};
+        graph.image("stochastic_rsm.irradiance", {.format = format, .size = gbuffer.size})};
     const uint64_t listed = settings.interpolate ? uint64_t(gbuffer.size.x) * gbuffer.size.y : 0;
     const BufferHandle list =
         graph.buffer("stochastic_rsm.list", {.sizeBytes = (1 + listed) * sizeof(uint32_t)});
@@ -146,8 +143,8 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
 
     if (!settings.interpolate) {
         for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
-            addGather(graph, kGatherNames[m], in, m, result.image, spacing, false, m > 0)
-                .dispatchThreads(gathered.x * gathered.y);
+            addGather(graph, kGatherNames[m], in, m, result.image, 1, false, m > 0)
+                .dispatchThreads(gbuffer.size.x * gbuffer.size.y);
         return result;
     }
     const glm::uvec2 coarseSize = (gbuffer.size + kCoarseStep - 1u) / kCoarseStep;

@@ -19,7 +19,6 @@ struct StochasticRsmSettings {
     uint32_t samples = 400;    // of each light map, a pixel
     float radius = 0.3f;       // of the disk they lie in, in widths of the map: light beyond it is lost
     bool interpolate = false;  // gather every fourth pixel both ways and blend where surfaces are alike
-    uint32_t spacing = 1;      // pixels from one gathered to the next, unless interpolated
     bool random = false;       // others in each pixel and frame
     bool whole = false;    // every other sample from all of the map, so that no light is lost; not of points
     bool visible = false;  // samples as far as their cluster's imperfect shadow map lets them be seen

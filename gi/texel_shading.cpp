@@ -28,8 +28,7 @@ std::string_view passName(uint32_t slice) {
 
 }  // namespace
 
-Irradiance addTexelShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                           const RsmSet& rsm) {
+Irradiance addTexelShading(FrameGraph& graph, const GBuffer& gbuffer, const RsmSet& rsm) {
     if (rsm.empty()) return {};
     const uint32_t count = rsm.tileCount * io::kRsmTileSize * io::kRsmTileSize;
     const Irradiance result{graph.image("texel_shading.irradiance",
@@ -38,7 +37,7 @@ Irradiance addTexelShading(FrameGraph& graph, const SceneView& scene, const GBuf
         PassBuilder pass = graph.compute(passName(slice), "texel_shading/gather_texels.comp");
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)
-            .read("camera", scene.camera)
+            .read("camera", gbuffer.camera)
             .read("texels", rsm.texels)
             .spec(0, slice == 0)
             .push(glm::uvec2(first, std::min(first + kSliceTexels, count)))

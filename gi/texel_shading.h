@@ -7,7 +7,6 @@
 
 namespace ag::gi {
 
-Irradiance addTexelShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
-                           const RsmSet& rsm);
+Irradiance addTexelShading(FrameGraph& graph, const GBuffer& gbuffer, const RsmSet& rsm);
 
 }  // namespace ag::gi

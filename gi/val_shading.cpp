@@ -7,14 +7,15 @@
 namespace ag::gi {
 namespace {
 
-// A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks.
-uint32_t tileSizeFor(uint32_t interleave) {
+// A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks. Where pixels are
+// left out tiles are smaller, so that no more lights are near to one.
+uint32_t tileSizeFor(uint32_t interleave, uint32_t spacing) {
+    if (interleave <= 2 && spacing > 1) return 16;
     return interleave == 3 ? 24 : 32;
 }
 
 struct Gather {
     FrameGraph& graph;
-    const SceneView& scene;
     const GBuffer& gbuffer;
     const Vals& vals;
     const IsmAtlas& isms;
@@ -26,7 +27,7 @@ struct Gather {
 void addClassification(const Gather& g, std::string_view name) {
     g.graph.compute(name, "val_shading/classify_lights.comp")
         .sample("depthMap", g.gbuffer.depth)
-        .read("camera", g.scene.camera)
+        .read("camera", g.gbuffer.camera)
         .read("vals", g.vals.vals)
         .read("shapes", g.vals.shapes)
         .write("lists", g.lists)
@@ -41,7 +42,7 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
     PassBuilder pass = g.graph.compute(name, shader);
     pass.sample("normalMap", g.gbuffer.normal)
         .sample("depthMap", g.gbuffer.depth)
-        .read("camera", g.scene.camera)
+        .read("camera", g.gbuffer.camera)
         .read("vals", g.vals.vals)
         .read("shapes", g.vals.shapes)
         .read("isms", g.isms.planes ? g.isms.planes : g.vals.vals)
@@ -62,18 +63,21 @@ PassBuilder& bindCoat(PassBuilder& pass, const GBuffer& gbuffer) {
 
 }  // namespace
 
-Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
-                         const IsmAtlas& isms, const ValShadingSettings& settings,
-                         const ValShadingNames& names) {
+bool shadesGloss(const GBuffer& gbuffer, const ValShadingSettings& settings) {
+    return settings.glossy && gbuffer.reflectance && settings.farShape != ValShape::kPoint;
+}
+
+Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+                         const ValShadingSettings& settings, const ValShadingNames& names) {
     if (vals.count == 0) return {};
-    const bool glossy = settings.glossy && gbuffer.reflectance && settings.farShape != ValShape::kPoint;
+    const bool glossy = shadesGloss(gbuffer, settings);
     // What a neighbour's coat reflects is no part of what this pixel's does: other normal, other material.
-    const uint32_t n = glossy ? 1 : std::clamp(settings.interleave, 1u, 4u), tileSize = tileSizeFor(n);
+    const uint32_t n = glossy ? 1 : std::clamp(settings.interleave, 1u, 4u),
+                   tileSize = tileSizeFor(n, gbuffer.spacing);
     const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
     const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
     const Gather g{
         .graph = graph,
-        .scene = scene,
         .gbuffer = gbuffer,
         .vals = vals,
         .isms = isms,

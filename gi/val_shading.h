@@ -1,6 +1,7 @@
 // Irradiance from virtual area lights, seen through imperfect shadow maps. Each tile of the screen sorts the
-// lights: near ones are met by every pixel in their exact shape, far ones as disks, shared out over blocks of
-// n x n pixels (interleaved, Wald et al. 2002) and gathered by a filter that keeps to the surface.
+// lights: near ones are met by every pixel in their exact shape, far ones as disks, if asked for shared out
+// over blocks of n x n pixels (interleaved, Wald et al. 2002) and gathered by a filter that keeps to the
+// surface.
 #pragma once
 
 #include "gi/gbuffer.h"
@@ -20,7 +21,7 @@ struct ValShadingSettings {
     ValShape shape = ValShape::kPolygon;  // of near lights
     ValShape farShape = ValShape::kVectorDisk;
     float nearReach = 2;      // lights nearer than this many of their half lengths are near; 0: none
-    uint32_t interleave = 3;  // n: each pixel meets one of n² parts of the far lights
+    uint32_t interleave = 1;  // n: each pixel meets one of n² parts of the far lights
     uint32_t taps = 4;        // of near lights' soft shadows; 1: hard ones, from the light's centre
     uint32_t farTaps = 1;     // of far lights'
     bool glossy = true;  // materials reflect by their roughness, where a scene has such and lights are areas
@@ -29,7 +30,6 @@ struct ValShadingSettings {
 struct Irradiance {
     ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add
     ImageHandle coat;   // rgba16f, W/(m² sr): what gloss adds to the Lambert part; invalid: nothing
-    uint32_t step = 1;  // pixels from one that `image` holds to the next
 };
 
 // Passes and resources of one gathering; literals, because the graph keeps views of them.
@@ -48,8 +48,11 @@ constexpr ValShadingNames kAllBouncesShading = {"val_shading.classify_all", "val
                                                 "val_shading.parts_all",    "val_shading.irradiance_all",
                                                 "val_shading.far_coat_all", "val_shading.coat_all"};
 
-Irradiance addValShading(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const Vals& vals,
-                         const IsmAtlas& isms, const ValShadingSettings& settings,
+// What gloss adds is summed as well, which asks for every pixel.
+bool shadesGloss(const GBuffer& gbuffer, const ValShadingSettings& settings);
+
+Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+                         const ValShadingSettings& settings,
                          const ValShadingNames& names = kFirstBounceShading);
 
 }  // namespace ag::gi

@@ -20,7 +20,6 @@ struct ReprojectPush {
     float near;  // m
     uint valid;  // 0: there is no frame before
     uint seed;   // another in each frame
-    uint step;   // pixels from one that has light to the next
 };
 
 struct AccumulatePush {

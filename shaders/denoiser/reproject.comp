@@ -22,18 +22,14 @@ layout(push_constant, scalar) uniform Push { ReprojectPush p; } push;
 
 void main() {
     ivec2 size = imageSize(surface), pixel = min(ivec2(gl_GlobalInvocationID.xy), size - 1);
-    ivec2 fullSize = textureSize(depthMap, 0);
-    int step = int(push.p.step);
-    ivec2 full = min(pixel * step + step / 2, fullSize - 1);
     DenoiserCameras c = cameras.c;
-    float reversed = texelFetch(depthMap, full, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
-    vec3 normal = texelFetch(normalMap, full, 0).xyz;
+    float reversed = texelFetch(depthMap, pixel, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
+    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
     vec3 place = placeOf(c.now, vec2(pixel), depth) + c.now.eye;
-    vec4 motion = kMotion ? texelFetch(motionMap, full, 0) : vec4(0.0);
+    vec4 motion = kMotion ? texelFetch(motionMap, pixel, 0) : vec4(0.0);
     place += motion.xyz;
     vec4 clip = c.previousClipFromWorld * vec4(place, 1.0);
-    vec2 before = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(fullSize) - 0.5;
-    vec2 at = (before - float(step / 2)) / float(step), nearest = floor(at + 0.5);
+    vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, nearest = floor(at + 0.5);
     float footprint = 2.0 * c.pixelSize * max(depth, 1e-3);
     bool known = push.p.valid == 1 && depth > 0.0 && clip.w > 0.0;
     vec4 close = vec4(0.0), wide = vec4(0.0);

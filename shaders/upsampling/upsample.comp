@@ -2,14 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-// Of the four gathered pixels about each those on the same surface, bilinearly (Kopf et al. 2007). Where none is, the pixel
-// is listed to look farther.
+// Of the four cells about each pixel those on the same surface, bilinearly (Kopf et al. 2007). Where none is, the pixel is
+// listed to look farther.
 #include "upsampling/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 3, scalar) buffer Lacking { uint count; uint pixels[]; } lacking;
-layout(set = 0, binding = 4, scalar) buffer Groups { uvec3 count; } groups;
-layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D result;
+layout(set = 0, binding = 5, scalar) buffer Lacking { uint count; uint pixels[]; } lacking;
+layout(set = 0, binding = 6, scalar) buffer Groups { uvec3 count; } groups;
+layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D result;
 
 const float kLeastWeight = 0.1;
 

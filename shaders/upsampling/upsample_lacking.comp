@@ -1,14 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Pixels that are like none of the four gathered ones about them: of those farther away what is most alike.
+// Pixels that are like none of the four cells about them: of those farther away what is most alike.
 #include "upsampling/surface.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 3, scalar) readonly buffer Lacking { uint count; uint pixels[]; } lacking;
-layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D result;
+layout(set = 0, binding = 5, scalar) readonly buffer Lacking { uint count; uint pixels[]; } lacking;
+layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D result;
 
-const int kReach = 3;             // gathered pixels
+const int kReach = 3;               // cells
 const float kLeastLikeness = 1e-4;  // what is unlike still counts where nothing is alike
 
 void main() {

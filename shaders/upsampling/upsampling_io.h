@@ -8,9 +8,9 @@ AG_BEGIN
 
 struct UpsamplingPush {
     PixelRays rays;   // of all pixels
-    float footprint;  // m between neighbours that have light, at 1 m depth, twice
+    float footprint;  // m that two gathered pixels cover at 1 m depth
     float near;       // m
-    uint step;        // pixels from one that has light to the next
+    uint spacing;     // pixels from one that was gathered to the next
 };
 
 AG_END

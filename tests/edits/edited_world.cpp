@@ -46,7 +46,6 @@ gi::GiSettings smallSettings() {
     gi.ismAtlas.pointsPerMap = 128;
     gi.laterBounces.settleFrames = 2;
     gi.stochasticRsm.samples = 4;
-    gi.stochasticRsm.spacing = 2;
     gi.stochasticRsm.settleFrames = 2;
     gi.shadowMaps.resolution = 64;
     gi.shadowMaps.cascades = 2;
@@ -258,10 +257,11 @@ std::string EditedWorld::changeSetting() {
 std::string EditedWorld::resetSettings() {
     settings_ = smallSettings();
     if (below(2)) settings_.firstBounce = gi::FirstBounce(below(5));
+    settings_.spacing = 1 + below(3);
     settings_.laterBounces.enabled = below(3) == 0;
     settings_.denoiser.enabled = below(3) == 0;
-    return fmt::format("settings anew: first bounce {}, later bounces {}, denoiser {}",
-                       uint32_t(settings_.firstBounce), settings_.laterBounces.enabled,
+    return fmt::format("settings anew: first bounce {}, spacing {}, later bounces {}, denoiser {}",
+                       uint32_t(settings_.firstBounce), settings_.spacing, settings_.laterBounces.enabled,
                        settings_.denoiser.enabled);
 }
 

@@ -102,7 +102,7 @@ TEST(FrameBudget, StepsOfThePresetsAreThePresets) {
         EXPECT_EQ(chosen.valClustering.count, preset.valClustering.count) << name;
         EXPECT_EQ(chosen.ismAtlas.tileSize, preset.ismAtlas.tileSize) << name;
         EXPECT_EQ(chosen.ismAtlas.pointsPerMap, preset.ismAtlas.pointsPerMap) << name;
-        EXPECT_EQ(chosen.valShading.interleave, preset.valShading.interleave) << name;
+        EXPECT_EQ(chosen.spacing, preset.spacing) << name;
         EXPECT_EQ(chosen.valShading.nearReach, preset.valShading.nearReach) << name;
         EXPECT_EQ(chosen.valShading.taps, preset.valShading.taps) << name;
     }

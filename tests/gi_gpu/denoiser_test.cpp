@@ -47,42 +47,29 @@ double meanOverFrames(Bench& b, int frames) {
     return sum;
 }
 
-// Of every step-th pixel.
-Irradiance everyStep(FrameGraph& graph, ImageHandle source, glm::uvec2 size, uint32_t step) {
-    const Irradiance result{
-        .image = graph.image("test.every", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size / step}),
-        .step = step};
-    graph.compute("test.take_every", "test/take_every.comp")
-        .sample("source", source)
-        .write("result", result.image)
-        .push(int32_t(step))
-        .dispatchThreads(size.x / step, size.y / step);
-    return result;
-}
-
 // What a surface's own constant light is, the denoiser gives back: nothing crosses edges, and pixels left out
-// get what is theirs. The normals stand for it. Sides that no step divides.
+// get what is theirs. The normals stand for it. Sides that no spacing divides.
 TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
     Bench b(*scenegen::buildScene("cornell", 0), {163, 97});
     b.settings.firstBounce = FirstBounce::kNone;
     DenoiserSettings s{.enabled = true};
     CameraPose pose = cameraOf(b.asset, 0);
-    for (const uint32_t step : {1u, 2u, 3u})
+    for (const uint32_t spacing : {1u, 2u, 3u})
         for (const bool separable : {true, false}) {
             DenoiserHistory history;
             s.separable = separable;
             Image normals, result;
             for (uint32_t frame = 0; frame < 12; ++frame) {
-                pose.position.x += step == 2 ? -0.02 : 0.02;
+                pose.position.x += spacing == 2 ? -0.02 : 0.02;
                 setCamera(b.scene, pose, b.size);
                 ImageHandle normal, out;
                 b.renderer.render(b.scene, b.size, b.settings, b.options,
                                   [&](FrameGraph& graph, const SceneView& view, const GiFrame& f) {
                                       normal = f.gbuffer.normal;
-                                      const Irradiance taken = everyStep(graph, normal, b.size, step);
-                                      const Irradiance steady =
-                                          addDenoiser(graph, view, f.gbuffer, {taken, 1, frame}, s, history);
-                                      out = addUpsampling(graph, view, f.gbuffer, steady).image;
+                                      const GBuffer thin = addThinned(graph, f.gbuffer, spacing);
+                                      const Irradiance steady = addDenoiser(
+                                          graph, view, thin, {{thin.normal}, 1, frame}, s, history);
+                                      out = addUpsampling(graph, f.gbuffer, thin, steady).image;
                                       graph.output(normal);
                                       graph.output(out);
                                   });
@@ -94,9 +81,9 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
                 const glm::vec3 in = glm::max(normals.pixels[i], glm::vec3(0));
                 off += glm::length(result.pixels[i] - in) > 0.02f;
             }
-            std::printf("every %u. pixel, separable %d: %zu of %zu pixels are off\n", step, separable, off,
+            std::printf("every %u. pixel, separable %d: %zu of %zu pixels are off\n", spacing, separable, off,
                         result.pixels.size());
-            EXPECT_LT(off, result.pixels.size() * step / 1000);
+            EXPECT_LT(off, result.pixels.size() * spacing / 1000);
         }
 }
 
@@ -105,14 +92,15 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
 TEST(Upsampling, IsWhatAllPixelsWouldHave) {
     Bench b(*scenegen::buildScene("occluder", 0), {320, 180});
     b.settings.valShading.interleave = 1;
-    for (const uint32_t step : {2u, 3u}) {
+    for (const uint32_t spacing : {2u, 3u}) {
         ImageHandle all, spread;
         for (int frame = 0; frame < 8; ++frame)  // clusters settle
             b.renderer.render(b.scene, b.size, b.settings, b.options,
-                              [&](FrameGraph& graph, const SceneView& view, const GiFrame& f) {
+                              [&](FrameGraph& graph, const SceneView&, const GiFrame& f) {
                                   all = f.bounce1.image;
-                                  const Irradiance taken = everyStep(graph, all, b.size, step);
-                                  spread = addUpsampling(graph, view, f.gbuffer, taken).image;
+                                  const GBuffer thin = addThinned(graph, f.gbuffer, spacing);
+                                  const Irradiance taken{addThinImage(graph, "test.thin", all, spacing)};
+                                  spread = addUpsampling(graph, f.gbuffer, thin, taken).image;
                                   graph.output(all);
                                   graph.output(spread);
                               });
@@ -123,8 +111,8 @@ TEST(Upsampling, IsWhatAllPixelsWouldHave) {
             off += std::abs(luminanceOf(image.pixels[i] - truth.pixels[i])) > 0.05 * mean;
         const double share = double(off) / double(truth.pixels.size());
         std::printf("every %u. pixel: %.2f %% of the pixels are off by 5 %% of the mean, mean ratio %.4f\n",
-                    step, 100 * share, meanOf(image) / mean);
-        EXPECT_LT(share, step == 2 ? 0.02 : 0.04);
+                    spacing, 100 * share, meanOf(image) / mean);
+        EXPECT_LT(share, spacing == 2 ? 0.02 : 0.04);
         EXPECT_NEAR(meanOf(image) / mean, 1, 0.002);
     }
 }

@@ -73,7 +73,7 @@ gi::GiSettings settingsOf(size_t variant, uint32_t clusters) {
     gi::GiSettings gi;
     gi.rsm.resolution = kMap;
     gi.ismAtlas.enabled = false;
-    gi.valShading.interleave = 1;
+    gi.spacing = 1;
     gi.valClustering.count = clusters;
     gi.valClustering.adaptive = variant > 0;
     if (variant < 2) gi.importance.viewWeight = 0;

@@ -58,14 +58,14 @@ std::vector<Variant> paraboloids() {
 std::vector<Variant> qualityLadder() {
     std::vector<Variant> variants;
     for (const gi::QualityStep& s : gi::qualitySteps().subspan(gi::firstFullSizeStep()))
-        variants.push_back({s.name,
-                            {fmt::format("rsm.resolution={}", s.mapResolution),
-                             fmt::format("val_clustering.count={}", s.valCount),
-                             fmt::format("ism_atlas.tile_size={}", s.ismTile),
-                             fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
-                             fmt::format("val_shading.interleave={}", s.interleave),
-                             fmt::format("val_shading.near_reach={}", s.nearReach),
-                             fmt::format("val_shading.taps={}", s.taps)}});
+        variants.push_back(
+            {s.name,
+             {fmt::format("rsm.resolution={}", s.mapResolution),
+              fmt::format("val_clustering.count={}", s.valCount),
+              fmt::format("ism_atlas.tile_size={}", s.ismTile),
+              fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
+              fmt::format("gi.spacing={}", s.spacing), fmt::format("val_shading.near_reach={}", s.nearReach),
+              fmt::format("val_shading.taps={}", s.taps)}});
     return variants;
 }
 
@@ -102,7 +102,7 @@ std::vector<Technique> makeTechniques() {
          .variants = {{"4 samples", {"stochastic_rsm.samples=4"}},
                       {"8 samples", {}},
                       {"8 samples, unshadowed", {"stochastic_rsm.visible=off"}},
-                      {"8 samples, all pixels", {"stochastic_rsm.spacing=1"}}}},
+                      {"8 samples, all pixels", {"gi.spacing=1", "denoiser.rounds=3"}}}},
         {.name = "ism",
          .description = "virtual point lights with imperfect shadow maps (Ritschel et al. 2008)",
          .variants = clusterBudgets({512, 1024})},
