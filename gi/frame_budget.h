@@ -22,7 +22,7 @@ struct QualityStep {
     float scale = 1;             // of a window's sides that is rendered
     uint32_t mapResolution = 0;  // texels along a light map; 0: as each light says
     uint32_t valCount = 128;
-    uint32_t ismTile = 64, pointsPerMap = 2048;
+    uint32_t ismTile = 64, pointsPerMap = 1536;
     uint32_t spacing = 2;  // pixels from one that is gathered to the next
     float nearReach = 2;
     uint32_t taps = 4;

@@ -49,7 +49,8 @@ void setIsm(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kPointLights;
     gi.importance.viewWeight = 0;
     gi.valClustering.count = 1024;
-    gi.ismAtlas = {.nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
+    gi.ismAtlas = {
+        .pointsPerMap = 2048, .nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
     gi.valShading = {
         .shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .interleave = 3, .taps = 1};
 }
@@ -89,7 +90,11 @@ void setAcrsm(GiSettings& gi) {
     gi.importance.viewWeight = 0.5f;
     gi.valClustering.adaptive = true;
     gi.valClustering.count = 512;
-    gi.ismAtlas = {.tileSize = 128, .nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
+    gi.ismAtlas = {.tileSize = 128,
+                   .pointsPerMap = 2048,
+                   .nearMore = false,
+                   .mapping = IsmMapping::kParaboloid,
+                   .planes = false};
     gi.valShading.shape = ValShape::kDisk;
     gi.valShading.interleave = 3;
     gi.valShading.taps = gi.valShading.farTaps = 16;

@@ -52,6 +52,7 @@ double meanOverFrames(Bench& b, int frames) {
 TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
     Bench b(*scenegen::buildScene("cornell", 0), {163, 97});
     b.settings.firstBounce = FirstBounce::kNone;
+    b.settings.spacing = 1;  // it is thinned below
     DenoiserSettings s{.enabled = true};
     CameraPose pose = cameraOf(b.asset, 0);
     for (const uint32_t spacing : {1u, 2u, 3u})
@@ -91,7 +92,7 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
 // varies within few pixels.
 TEST(Upsampling, IsWhatAllPixelsWouldHave) {
     Bench b(*scenegen::buildScene("occluder", 0), {320, 180});
-    b.settings.valShading.interleave = 1;
+    b.settings.spacing = 1;
     for (const uint32_t spacing : {2u, 3u}) {
         ImageHandle all, spread;
         for (int frame = 0; frame < 8; ++frame)  // clusters settle

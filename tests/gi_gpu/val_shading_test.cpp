@@ -15,12 +15,14 @@ namespace {
 TEST(ValShading, NotesEachPixelThatLacksLightOnce) {
     for (const glm::uvec2 size : {glm::uvec2(65, 17), glm::uvec2(1, 1), glm::uvec2(72, 48)}) {
         Bench b(*scenegen::buildScene("cornell", 0), size);
+        b.settings.spacing = 1;
+        b.settings.valShading.interleave = 3;
         for (int i = 0; i < 3; ++i)
             b.frame();
         const FrameGraph& graph = b.renderer.graph();
         const auto counts = b.read<uint32_t>(graph.findBuffer("val_shading.lacking_counts"));
         const auto words = b.read<uint32_t>(graph.findBuffer("val_shading.lacking"));
-        constexpr uint32_t kSide = 24, kPerTile = kSide * kSide;  // 3 x 3 interleaving, by default
+        constexpr uint32_t kSide = 24, kPerTile = kSide * kSide;
         const uint32_t tilesAcross = (size.x + kSide - 1) / kSide;
         std::set<std::pair<uint32_t, uint32_t>> noted;
         uint32_t notes = 0;

@@ -131,7 +131,7 @@ void runRandomMotion(const Bench& bench) {
         bench.report({name, "MiB grown in its second half",
                       std::max(m.residentAfter - m.residentBefore,
                                (double(m.deviceAfter) - double(m.deviceBefore)) / 1048576.0),
-                      8, m.fault,
+                      bench.options.mostGrowth, m.fault,
                       fmt::format("frame median {:.1f} ms, p99 {:.1f} ms", quantile(m.frameMs, 0.5),
                                   quantile(m.frameMs, 0.99))});
     }
