@@ -12,12 +12,13 @@ layout(set = 0, binding = 6, scalar) buffer Groups { uvec3 count; } groups;
 layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D result;
 
 const float kLeastWeight = 0.1;
+const uint kMostGroups = 65535;  // that every device dispatches: four million pixels
 
 // The order of the list varies, the picture does not.
 void listPixel(ivec2 pixel) {
     uint at = atomicAdd(lacking.count, 1);
     lacking.pixels[at] = uint(pixel.x) | uint(pixel.y) << 16;
-    atomicMax(groups.count.x, at / 64 + 1);
+    atomicMax(groups.count.x, min(at / 64 + 1, kMostGroups));
 }
 
 void main() {
