@@ -66,7 +66,6 @@ GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing) {
     GBuffer g{
         .depth = graph.image("gbuffer.thin_depth", {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
         .normal = addThinImage(graph, "gbuffer.thin_normal", all.normal, spacing),
-        .draws = all.draws,
         .size = size,
         .spacing = spacing,
         .view = thinned(all.view, all.size, spacing),

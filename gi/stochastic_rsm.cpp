@@ -7,6 +7,7 @@
 #include "common/sampling.h"
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
+#include "gi/pixel_list.h"
 
 namespace ag::gi {
 namespace {
@@ -21,6 +22,9 @@ constexpr std::array<std::string_view, io::kMaxBounceLights> kGatherNames = {
 constexpr std::array<std::string_view, io::kMaxBounceLights> kListedNames = {
     "stochastic_rsm.listed0", "stochastic_rsm.listed1", "stochastic_rsm.listed2", "stochastic_rsm.listed3",
     "stochastic_rsm.listed4", "stochastic_rsm.listed5", "stochastic_rsm.listed6", "stochastic_rsm.listed7"};
+
+constexpr PixelListNames kList = {"stochastic_rsm.list", "stochastic_rsm.empty_list", "stochastic_rsm.groups",
+                                  "stochastic_rsm.no_groups"};
 
 // Directions and radii in the unit disk, dense in its middle. Samples that take turns between disk and whole
 // map are two patterns.
@@ -45,11 +49,11 @@ glm::vec2 shiftOf(uint32_t step) {
 }
 
 struct Inputs {
-    const SceneView& scene;
     const GBuffer& gbuffer;
     const RsmSet& rsm;
     const SampleVisibility& visibility;
-    BufferHandle pattern, list, noise;
+    BufferHandle pattern, noise;
+    PixelList list;
     glm::vec2 shift{0};
     const StochasticRsmSettings& settings;
 };
@@ -74,7 +78,7 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
         .read("faces", in.rsm.faces)
         .read("maps", in.rsm.maps)
         .read("pattern", in.pattern)
-        .read("list", in.list)
+        .read("list", in.list.pixels)
         .read("noise", in.noise)
         .spec(4, in.settings.random)
         .spec(5, in.settings.whole)
@@ -95,24 +99,18 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
     return pass;
 }
 
-// Blends the coarse image into `image` and lists the pixels that must be gathered. Returns the list's
-// dispatch arguments.
-BufferHandle addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle coarse, ImageHandle image) {
-    const BufferHandle groups =
-        graph.buffer("stochastic_rsm.groups", {.sizeBytes = sizeof(glm::uvec3), .indirect = true});
-    const glm::uvec3 none(0, 1, 1);
-    graph.upload("stochastic_rsm.no_groups", groups, std::as_bytes(std::span(&none, 1)));
+// Blends the coarse image into `image` and lists the pixels that must be gathered.
+void addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle coarse, ImageHandle image) {
     graph.compute("stochastic_rsm.interpolate", "stochastic_rsm/interpolate_samples.comp")
         .sample("normalMap", in.gbuffer.normal)
         .sample("depthMap", in.gbuffer.depth)
         .read("camera", in.gbuffer.camera)
         .sample("coarse", coarse)
-        .readWrite("list", in.list)
-        .readWrite("groups", groups)
+        .readWrite("listed", in.list.pixels)
+        .readWrite("listedGroups", in.list.groups)
         .write("irradiance", image)
         .push(io::RsmInterpolationPush{.step = kCoarseStep, .leastCosine = 0.95f, .mostPlaneShare = 0.01f})
         .dispatchThreads(in.gbuffer.size.x, in.gbuffer.size.y);
-    return groups;
 }
 
 }  // namespace
@@ -124,20 +122,15 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
     const Irradiance result{
         graph.image("stochastic_rsm.irradiance", {.format = format, .size = gbuffer.size})};
-    const uint64_t listed = settings.interpolate ? uint64_t(gbuffer.size.x) * gbuffer.size.y : 0;
-    const BufferHandle list =
-        graph.buffer("stochastic_rsm.list", {.sizeBytes = (1 + listed) * sizeof(uint32_t)});
-    graph.fill("stochastic_rsm.empty_list", list, 0);
     const uint64_t seen = combineHash(rsm.inputsVersion,
                                       combineHash(scene.scene->cameraVersion, scene.scene->instancesVersion));
     const uint32_t step = settings.random ? settling.advance(seen, settings.settleFrames) : 0;
-    const Inputs in{.scene = scene,
-                    .gbuffer = gbuffer,
+    const Inputs in{.gbuffer = gbuffer,
                     .rsm = rsm,
                     .visibility = visibility,
                     .pattern = addPattern(graph, settings.samples, settings.whole),
-                    .list = list,
                     .noise = addBlueNoise(graph),
+                    .list = addPixelList(graph, kList, settings.interpolate ? gbuffer.size : glm::uvec2(0)),
                     .shift = shiftOf(step),
                     .settings = settings};
 
@@ -152,9 +145,10 @@ Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBu
     for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
         addGather(graph, kGatherNames[m], in, m, coarse, kCoarseStep, false, m > 0)
             .dispatchThreads(coarseSize.x * coarseSize.y);
-    const BufferHandle groups = addInterpolation(graph, in, coarse, result.image);
+    addInterpolation(graph, in, coarse, result.image);
     for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
-        addGather(graph, kListedNames[m], in, m, result.image, 1, true, true).dispatchIndirect(groups);
+        addGather(graph, kListedNames[m], in, m, result.image, 1, true, true)
+            .dispatchIndirect(in.list.groups);
     return result;
 }
 

@@ -15,13 +15,7 @@ Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& t
                                   .spacing = thin.spacing};
     const ImageHandle result =
         graph.image(names.irradiance, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size});
-    const uint64_t pixels = uint64_t(all.size.x) * all.size.y;
-    const BufferHandle lacking = graph.buffer(names.lacking, {.sizeBytes = (1 + pixels) * sizeof(uint32_t)});
-    graph.fill(names.noneLacking, lacking, 0);
-    const BufferHandle groups =
-        graph.buffer(names.groups, {.sizeBytes = sizeof(glm::uvec3), .indirect = true});
-    const glm::uvec3 none(0, 1, 1);
-    graph.upload(names.noGroups, groups, std::as_bytes(std::span(&none, 1)));
+    const PixelList lacking = addPixelList(graph, names.lacking, all.size);
     const auto addPass = [&](std::string_view name, const char* shader) {
         PassBuilder pass = graph.compute(name, shader);
         pass.sample("normalMap", all.normal)
@@ -33,14 +27,14 @@ Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& t
         return pass;
     };
     addPass(names.near, "upsampling/upsample.comp")
-        .readWrite("lacking", lacking)
-        .readWrite("groups", groups)
+        .readWrite("listed", lacking.pixels)
+        .readWrite("listedGroups", lacking.groups)
         .write("result", result)
         .dispatchThreads(all.size.x, all.size.y);
     addPass(names.far, "upsampling/upsample_lacking.comp")
-        .read("lacking", lacking)
+        .read("lacking", lacking.pixels)
         .readWrite("result", result)
-        .dispatchIndirect(groups);
+        .dispatchIndirect(lacking.groups);
     return {result, gathered.coat};
 }
 

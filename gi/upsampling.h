@@ -3,21 +3,27 @@
 #pragma once
 
 #include "gi/gbuffer.h"
+#include "gi/pixel_list.h"
 #include "gi/val_shading.h"
 
 namespace ag::gi {
 
 // Passes and resources; literals, because the graph keeps views of them.
 struct UpsamplingNames {
-    std::string_view near, far, irradiance, lacking, noneLacking, groups, noGroups;
+    std::string_view near, far, irradiance;
+    PixelListNames lacking;
 };
 constexpr UpsamplingNames kUpsampling = {
-    "upsampling.near",         "upsampling.far",    "upsampling.irradiance", "upsampling.lacking",
-    "upsampling.none_lacking", "upsampling.groups", "upsampling.no_groups"};
+    "upsampling.near",
+    "upsampling.far",
+    "upsampling.irradiance",
+    {"upsampling.lacking", "upsampling.none_lacking", "upsampling.groups", "upsampling.no_groups"}};
 constexpr UpsamplingNames kFirstBounceUpsampling = {
-    "upsampling.near_first",     "upsampling.far_first",          "upsampling.irradiance_first",
-    "upsampling.lacking_first",  "upsampling.none_lacking_first", "upsampling.groups_first",
-    "upsampling.no_groups_first"};
+    "upsampling.near_first",
+    "upsampling.far_first",
+    "upsampling.irradiance_first",
+    {"upsampling.lacking_first", "upsampling.none_lacking_first", "upsampling.groups_first",
+     "upsampling.no_groups_first"}};
 
 // What was gathered at the pixels of `thin` = addThinned(`all`); comes back as it is if those are all.
 Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& thin,

@@ -1,12 +1,4 @@
 #version 460
-// Every spacing-th pixel of every spacing-th row, from the middle of each square.
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(push_constant) uniform Push { int spacing; } push;
-layout(set = 0, binding = 0) uniform sampler2D all;
-layout(set = 0, binding = 1, rgba16f) writeonly uniform image2D thin;
-
-void main() {
-    ivec2 cell = ivec2(gl_GlobalInvocationID.xy), last = textureSize(all, 0) - 1;
-    if (any(greaterThanEqual(cell, imageSize(thin)))) return;
-    imageStore(thin, cell, texelFetch(all, min(cell * push.spacing + push.spacing / 2, last), 0));
-}
+#extension GL_GOOGLE_include_directive : require
+#define THIN_FORMAT rgba16f
+#include "gbuffer/thin.glsl"

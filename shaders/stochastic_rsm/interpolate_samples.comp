@@ -5,6 +5,8 @@
 // gathered themselves (Dachsbacher & Stamminger 2005, section 4).
 #include "gbuffer/gbuffer.glsl"
 #include "stochastic_rsm/stochastic_rsm_io.h"
+#define PIXEL_LIST_BINDING 4
+#include "common/pixel_list.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, scalar) uniform Push { RsmInterpolationPush p; } push;
@@ -13,16 +15,7 @@ layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 3) uniform sampler2D coarse;
-layout(set = 0, binding = 4, scalar) buffer List { uint count; uint pixels[]; } list;
-layout(set = 0, binding = 5, scalar) buffer Groups { uvec3 count; } groups;
 layout(set = 0, binding = 6, rgba16f) writeonly uniform image2D irradiance;
-
-// A pixel's own gather: the order of the list varies, the picture does not.
-void listPixel(ivec2 pixel) {
-    uint at = atomicAdd(list.count, 1);
-    list.pixels[at] = uint(pixel.x) | uint(pixel.y) << 16;
-    atomicMax(groups.count.x, at / 64 + 1);
-}
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = ivec2(camera.camera.size);

@@ -5,21 +5,13 @@
 // Of the four cells about each pixel those on the same surface, bilinearly (Kopf et al. 2007). Where none is, the pixel is
 // listed to look farther.
 #include "upsampling/surface.glsl"
+#define PIXEL_LIST_BINDING 5
+#include "common/pixel_list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 5, scalar) buffer Lacking { uint count; uint pixels[]; } lacking;
-layout(set = 0, binding = 6, scalar) buffer Groups { uvec3 count; } groups;
 layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D result;
 
 const float kLeastWeight = 0.1;
-const uint kMostGroups = 65535;  // that every device dispatches: four million pixels
-
-// The order of the list varies, the picture does not.
-void listPixel(ivec2 pixel) {
-    uint at = atomicAdd(lacking.count, 1);
-    lacking.pixels[at] = uint(pixel.x) | uint(pixel.y) << 16;
-    atomicMax(groups.count.x, min(at / 64 + 1, kMostGroups));
-}
 
 void main() {
     ivec2 size = imageSize(result), pixel = min(ivec2(gl_GlobalInvocationID.xy), size - 1);
