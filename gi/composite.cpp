@@ -5,7 +5,7 @@
 namespace ag::gi {
 
 GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct,
-                       const Irradiance& indirect, const CompositeSettings& settings) {
+                       const Irradiance& indirect, ImageHandle coat, const CompositeSettings& settings) {
     GiOutputs out;
     out.radiance =
         graph.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
@@ -19,12 +19,12 @@ GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradian
         .sample("directMap", orAlbedo(direct.image))
         .sample("indirectMap", orAlbedo(indirect.image))
         .sample("emissiveMap", orAlbedo(gbuffer.emissive))
-        .sample("coatMap", orAlbedo(indirect.coat))
+        .sample("coatMap", orAlbedo(coat))
         .sample("depthMap", gbuffer.depth)
         .spec(0, bool(direct.image))
         .spec(1, bool(indirect.image))
         .spec(2, bool(gbuffer.emissive))
-        .spec(3, bool(indirect.coat))
+        .spec(3, bool(coat))
         .colorClear(out.radiance, glm::vec4(0));
 
     struct Push {

@@ -18,7 +18,8 @@ struct GiOutputs {
     ImageHandle display;   // rgba8, sRGB-encoded
 };
 
+// `coat`: radiance that gloss adds.
 GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct,
-                       const Irradiance& indirect, const CompositeSettings& settings);
+                       const Irradiance& indirect, ImageHandle coat, const CompositeSettings& settings);
 
 }  // namespace ag::gi

@@ -113,7 +113,7 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         }
         from = to;
     }
-    return {from, noisy.irradiance.coat};
+    return {from};
 }
 
 }  // namespace ag::gi

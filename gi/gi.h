@@ -46,6 +46,7 @@ struct GiFrame {
     LampLists lampLists;
     Irradiance direct, bounce1;
     Irradiance indirect;  // of all bounces
+    ImageHandle coat;     // what gloss adds to its reflection
     GiOutputs outputs;
 };
 

@@ -8,15 +8,6 @@
 
 namespace ag::gi {
 
-namespace {
-
-// Gloss is no light that neighbours share.
-uint32_t spacingOf(const GiSettings& s, const GBuffer& gbuffer) {
-    return s.firstBounce == FirstBounce::kAreaLights && shadesGloss(gbuffer, s.valShading) ? 1 : s.spacing;
-}
-
-}  // namespace
-
 GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& s, GiHistory& h) {
     GiFrame f;
     // Figures as they are bent now
@@ -49,7 +40,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     }
 
     // Gather on screen, at some of the pixels
-    GBuffer thin = addThinned(graph, f.gbuffer, spacingOf(s, f.gbuffer));
+    GBuffer thin = addThinned(graph, f.gbuffer, s.spacing);
     if (s.firstBounce == FirstBounce::kTexels)
         f.bounce1 = addTexelShading(graph, thin, f.rsm);
     else if (s.firstBounce == FirstBounce::kStochasticRsm)
@@ -57,6 +48,8 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
                                      h.stochasticRsm);
     else if (s.firstBounce != FirstBounce::kNone)
         f.bounce1 = addValShading(graph, thin, firstVals(f.vals, f.firstCount), f.isms, s.valShading);
+    if (s.firstBounce == FirstBounce::kAreaLights)
+        f.coat = addValGloss(graph, f.gbuffer, f.vals, f.isms, s.valShading);  // at all that have it
 
     // Light that goes on
     f.indirect = f.bounce1;
@@ -90,7 +83,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     addProbes(graph, scene, f.rsm, f.vals, f.isms, s.probes, h.probes);
 
     // To the eye
-    f.outputs = addComposite(graph, f.gbuffer, f.direct, f.indirect, s.composite);
+    f.outputs = addComposite(graph, f.gbuffer, f.direct, f.indirect, f.coat, s.composite);
     return f;
 }
 

@@ -201,8 +201,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
            "where indirect light comes from",
            {"none", "area_lights", "point_lights", "texels", "stochastic_rsm", "ssvp"}},
           &gi.firstBounce);
-    s.add({"gi", "spacing", 1, 4, "pixels",
-           "from one that indirect light is gathered at to the next; 1 for gloss"},
+    s.add({"gi", "spacing", 1, 4, "pixels", "from one that indirect light is gathered at to the next"},
           &gi.spacing);
     s.add({"rsm", "resolution", 0, 1024, "texels",
            "side of a light map, rounded down to a power of two; 0: as each light says"},

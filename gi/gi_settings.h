@@ -37,7 +37,7 @@ enum class FirstBounce : uint32_t {
 
 struct GiSettings {
     FirstBounce firstBounce = FirstBounce::kAreaLights;
-    uint32_t spacing = 2;  // pixels from one that indirect light is gathered at to the next; gloss: 1
+    uint32_t spacing = 2;  // pixels from one that indirect light is gathered at to the next
     RsmSettings rsm;
     ImportanceSettings importance;
     ValClusteringSettings valClustering;

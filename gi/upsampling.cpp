@@ -35,7 +35,7 @@ Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& t
         .read("lacking", lacking.pixels)
         .readWrite("result", result)
         .dispatchIndirect(lacking.groups);
-    return {result, gathered.coat};
+    return {result};
 }
 
 }  // namespace ag::gi

@@ -7,6 +7,9 @@
 namespace ag::gi {
 namespace {
 
+constexpr ValTileNames kGlossTiles = {"val_gloss.classify", "val_gloss.lists", "val_gloss.counts",
+                                      "val_gloss.lacking", "val_gloss.lacking_counts"};
+
 // A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks. Where pixels are
 // left out tiles are smaller, so that no more lights are near to one.
 uint32_t tileSizeFor(uint32_t interleave, uint32_t spacing) {
@@ -21,6 +24,7 @@ struct Gather {
     const IsmAtlas& isms;
     io::ValShadingPush push;
     BufferHandle lists, counts, lackingCounts, lacking;
+    uint32_t tileCount, blocks;  // blocks of 2 x 2 pixels
     uint32_t interleave;
 };
 
@@ -57,25 +61,13 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
     return pass;
 }
 
-PassBuilder& bindCoat(PassBuilder& pass, const GBuffer& gbuffer) {
-    return pass.sample("albedoMap", gbuffer.albedo).sample("reflectanceMap", gbuffer.reflectance);
-}
-
-}  // namespace
-
-bool shadesGloss(const GBuffer& gbuffer, const ValShadingSettings& settings) {
-    return settings.glossy && gbuffer.reflectance && settings.farShape != ValShape::kPoint;
-}
-
-Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
-                         const ValShadingSettings& settings, const ValShadingNames& names) {
-    if (vals.count == 0) return {};
-    const bool glossy = shadesGloss(gbuffer, settings);
-    // What a neighbour's coat reflects is no part of what this pixel's does: other normal, other material.
-    const uint32_t n = glossy ? 1 : std::clamp(settings.interleave, 1u, 4u),
-                   tileSize = tileSizeFor(n, gbuffer.spacing);
+// With every tile's lights sorted into near and far ones.
+Gather addTiles(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+                float nearReach, uint32_t interleave, const ValTileNames& names) {
+    const uint32_t tileSize = tileSizeFor(interleave, gbuffer.spacing);
     const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
     const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
+    const uint64_t lackingCount = interleave > 1 ? tileCount * tileSize * tileSize : 1;
     const Gather g{
         .graph = graph,
         .gbuffer = gbuffer,
@@ -84,42 +76,68 @@ Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& 
         .push = {.valCount = vals.count,
                  .tileSize = tileSize,
                  .tiles = tiles,
-                 .nearReach = settings.nearReach,
+                 .nearReach = nearReach,
                  .ismTileSize = isms.tileSize},
         .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * vals.count * 4,
                                             .texelFormat = VK_FORMAT_R32_UINT}),
         .counts = graph.buffer(names.counts, {.sizeBytes = tileCount * 8}),
         .lackingCounts = graph.buffer(names.lackingCounts, {.sizeBytes = tileCount * 4}),
-        .lacking = graph.buffer(names.lacking,
-                                {.sizeBytes = n > 1 ? uint64_t(tileCount) * tileSize * tileSize * 4 : 4}),
-        .interleave = n};
+        .lacking = graph.buffer(names.lacking, {.sizeBytes = lackingCount * 4}),
+        .tileCount = uint32_t(tileCount),
+        .blocks = uint32_t(tileCount) * tileSize * tileSize / 4,
+        .interleave = interleave};
+    addClassification(g, names.classify);
+    return g;
+}
+
+PassBuilder addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps) {
+    PassBuilder pass = addGather(g, name, "val_shading/gather_gloss.comp", shape, taps);
+    pass.sample("albedoMap", g.gbuffer.albedo)
+        .sample("reflectanceMap", g.gbuffer.reflectance)
+        .spec(5, list)
+        .dispatchThreads(g.blocks);
+    return pass;
+}
+
+}  // namespace
+
+Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+                         const ValShadingSettings& settings, const ValShadingNames& names) {
+    if (vals.count == 0) return {};
+    const uint32_t n = std::clamp(settings.interleave, 1u, 4u);
+    const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, n, names.tiles);
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle parts = graph.image(names.parts, info);
-    Irradiance result{graph.image(names.irradiance, info)};
-    addClassification(g, names.classify);
-    const uint32_t blocks = uint32_t(tileCount) * tileSize * tileSize / 4;
-    const ImageHandle farCoat = glossy ? graph.image(names.farCoat, info) : ImageHandle{};
-    if (glossy) result.coat = graph.image(names.coat, info);
-    PassBuilder far =
-        addGather(g, names.far, glossy ? "val_shading/gather_far_glossy.comp" : "val_shading/gather_far.comp",
-                  settings.farShape, settings.farTaps);
-    far.write("parts", parts).dispatchThreads(blocks);
-    if (glossy) bindCoat(far, gbuffer).write("farCoat", farCoat);
-    PassBuilder near = addGather(
-        g, names.near, glossy ? "val_shading/gather_near_glossy.comp" : "val_shading/gather_near.comp",
-        settings.shape, settings.taps);
-    near.sample("parts", parts).write("irradiance", result.image).dispatchThreads(blocks);
-    if (glossy)
-        bindCoat(near, gbuffer).sample("farCoat", farCoat).write("coat", result.coat);
-    else
-        near.readWrite("lackingCounts", g.lackingCounts).write("lacking", g.lacking);
+    const Irradiance result{graph.image(names.irradiance, info)};
+    addGather(g, names.far, "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
+        .write("parts", parts)
+        .dispatchThreads(g.blocks);
+    addGather(g, names.near, "val_shading/gather_near.comp", settings.shape, settings.taps)
+        .sample("parts", parts)
+        .readWrite("lackingCounts", g.lackingCounts)
+        .write("lacking", g.lacking)
+        .write("irradiance", result.image)
+        .dispatchThreads(g.blocks);
     if (n > 1)
         addGather(g, names.fill, "val_shading/gather_lacking.comp", settings.farShape, settings.farTaps)
             .read("lackingCounts", g.lackingCounts)
             .read("lacking", g.lacking)
             .readWrite("irradiance", result.image)
-            .dispatchGroups(uint32_t(tileCount));
+            .dispatchGroups(g.tileCount);
     return result;
+}
+
+ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+                        const ValShadingSettings& settings) {
+    const bool lightsHaveArea = settings.farShape != ValShape::kPoint;
+    if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};
+    const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
+    const ImageHandle coat = graph.image("val_gloss.coat", graph.info(gbuffer.reflectance));
+    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps).write("coat", coat);
+    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps)
+        .spec(6, true)
+        .readWrite("coat", coat);
+    return coat;
 }
 
 }  // namespace ag::gi

@@ -29,30 +29,40 @@ struct ValShadingSettings {
 
 struct Irradiance {
     ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add
-    ImageHandle coat;   // rgba16f, W/(m² sr): what gloss adds to the Lambert part; invalid: nothing
 };
 
 // Passes and resources of one gathering; literals, because the graph keeps views of them.
+struct ValTileNames {
+    std::string_view classify, lists, counts, lacking, lackingCounts;
+};
 struct ValShadingNames {
-    std::string_view classify, far, near, fill, lists, counts, lacking, lackingCounts, parts, irradiance,
-        farCoat, coat;
+    ValTileNames tiles;
+    std::string_view far, near, fill, parts, irradiance;
 };
 constexpr ValShadingNames kFirstBounceShading = {
-    "val_shading.classify", "val_shading.far",        "val_shading.near",     "val_shading.fill",
-    "val_shading.lists",    "val_shading.counts",     "val_shading.lacking",  "val_shading.lacking_counts",
-    "val_shading.parts",    "val_shading.irradiance", "val_shading.far_coat", "val_shading.coat"};
-constexpr ValShadingNames kAllBouncesShading = {"val_shading.classify_all", "val_shading.far_all",
-                                                "val_shading.near_all",     "val_shading.fill_all",
-                                                "val_shading.lists_all",    "val_shading.counts_all",
-                                                "val_shading.lacking_all",  "val_shading.lacking_counts_all",
-                                                "val_shading.parts_all",    "val_shading.irradiance_all",
-                                                "val_shading.far_coat_all", "val_shading.coat_all"};
-
-// What gloss adds is summed as well, which asks for every pixel.
-bool shadesGloss(const GBuffer& gbuffer, const ValShadingSettings& settings);
+    {"val_shading.classify", "val_shading.lists", "val_shading.counts", "val_shading.lacking",
+     "val_shading.lacking_counts"},
+    "val_shading.far",
+    "val_shading.near",
+    "val_shading.fill",
+    "val_shading.parts",
+    "val_shading.irradiance"};
+constexpr ValShadingNames kAllBouncesShading = {
+    {"val_shading.classify_all", "val_shading.lists_all", "val_shading.counts_all", "val_shading.lacking_all",
+     "val_shading.lacking_counts_all"},
+    "val_shading.far_all",
+    "val_shading.near_all",
+    "val_shading.fill_all",
+    "val_shading.parts_all",
+    "val_shading.irradiance_all"};
 
 Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
                          const ValShadingSettings& settings,
                          const ValShadingNames& names = kFirstBounceShading);
+
+// What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels of the
+// G-buffer; those without a coat cost nothing. Invalid: no gloss.
+ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+                        const ValShadingSettings& settings);
 
 }  // namespace ag::gi

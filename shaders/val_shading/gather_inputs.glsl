@@ -16,4 +16,12 @@ layout(set = 0, binding = 6) uniform usamplerBuffer lists;
 layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
+
+// m, of a pixel's surface that faces the camera.
+float widthOf(ivec2 pixel, float depth) {
+    mat4 worldFromClip = camera.camera.worldFromClip;
+    uvec2 size = camera.camera.size;
+    vec3 here = worldFromPixel(worldFromClip, size, pixel, 1.0), next = worldFromPixel(worldFromClip, size, pixel + ivec2(1, 0), 1.0);
+    return distance(here, next) / max(depth, 1e-9);
+}
 #endif

@@ -752,10 +752,10 @@ TEST(Glossy, RunsOnlyWhereAMaterialIs) {
         b.frame();
         const bool glossy = std::string_view(name) == "glossy";
         EXPECT_EQ(bool(b.last.gbuffer.reflectance), glossy);
-        EXPECT_EQ(bool(b.last.indirect.coat), glossy);
+        EXPECT_EQ(bool(b.last.coat), glossy);
         b.settings.valShading.glossy = false;
         b.frame();
-        EXPECT_FALSE(b.last.indirect.coat);
+        EXPECT_FALSE(b.last.coat);
     }
 }
 

@@ -145,7 +145,6 @@ GlossErrors glossErrors(uint32_t percent, bool visibility) {
             .radiance;
     GiSettings settings;
     settings.ismAtlas.enabled = visibility;
-    settings.spacing = 1;  // as with gloss: then only glossy pixels differ
     Image with = p.render(Layer::kRadiance, settings, 32);
     settings.valShading.glossy = false;
     Image without = p.render(Layer::kRadiance, settings, 32);

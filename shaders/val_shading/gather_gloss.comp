@@ -1,0 +1,83 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_ballot : require
+// What gloss adds to the light of one of a tile's lists, at every pixel: where neighbours share light they do not share
+// what it is reflected by. Subgroups without a glossy pixel look at no light.
+#define AG_GLOSSY
+layout(constant_id = 0) const uint kShape = 4;
+layout(constant_id = 2) const uint kInterleave = 1;
+layout(constant_id = 5) const uint kList = 0;
+layout(constant_id = 6) const bool kAdd = false;  // to what the other list's light made
+#include "val_shading/gather_inputs.glsl"
+#include "val_shading/gloss.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 8) uniform sampler2D albedoMap;
+layout(set = 0, binding = 9) uniform sampler2D reflectanceMap;
+layout(set = 0, binding = 10, rgba16f) uniform image2D coat;
+
+struct GlossyPixel {
+    Receiver receiver;
+    Coat coat;
+    bool glossy;
+    vec3 radiance;  // sum, W/(m² sr)
+};
+
+GlossyPixel glossyPixelAt(ivec2 pixel) {
+    float depth = texelFetch(depthMap, pixel, 0).x;
+    vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0), reflectance = texelFetch(reflectanceMap, pixel, 0);
+    vec3 x = worldFromPixel(camera.camera.worldFromClip, camera.camera.size, pixel, depth);
+    GlossyPixel g;
+    g.receiver = Receiver(x, normalAndRoughness.xyz, kList == kNearList ? widthOf(pixel, depth) : 0.0, vec3(0.0));
+    g.coat = coatOf(normalize(camera.camera.position - x), normalAndRoughness.w, reflectance, texelFetch(albedoMap, pixel, 0).rgb);
+    g.glossy = depth > 0.0 && any(greaterThan(reflectance, vec4(0.0)));
+    g.radiance = vec3(0.0);
+    return g;
+}
+
+void addGloss(AreaLight l, inout GlossyPixel g) {
+    Receiver r = g.receiver;
+    vec3 e = irradianceFrom(l, r.position, r.normal, r.width, push.p.ismTileSize);
+    g.radiance += coatRadiance(g.coat, r.position, r.normal, l, e);
+}
+
+void addLights(TileBlock block, inout GlossyPixel g[kPixels]) {
+    uint start = listStart(block.tile, kList, push.p.valCount), count = counts.items[block.tile][kList];
+    if (!kLaneParallel) {
+        for (uint i = 0; i < count; ++i) {
+            AreaLight l = loadLight(texelFetch(lists, int(start + i)).x);
+            [[unroll]] for (int p = 0; p < kPixels; ++p) addGloss(l, g[p]);
+        }
+        return;
+    }
+    for (uint base = 0; base < count; base += kSubgroupSize) {
+        AreaLight mine = loadLight(texelFetch(lists, int(start + min(base + gl_SubgroupInvocationID, count - 1))).x);
+        uint here = min(kSubgroupSize, count - base);
+        [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {
+            AreaLight l = lightOfLane(mine, lane);
+            [[unroll]] for (int p = 0; p < kPixels; ++p) addGloss(l, g[p]);
+        }
+    }
+}
+
+void main() {
+    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    ivec2 size = ivec2(camera.camera.size);
+    GlossyPixel g[kPixels];
+    bool glossy = false;
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        g[p] = glossyPixelAt(min(pixelOf(block, p), size - 1));
+        glossy = glossy || g[p].glossy;
+    }
+    bool anyGlossy = subgroupBallot(glossy) != uvec4(0);
+    if (anyGlossy) addLights(block, g);
+    else if (kAdd) return;
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = pixelOf(block, p);
+        if (block.spare || any(greaterThanEqual(pixel, size))) continue;
+        vec3 radiance = g[p].radiance;
+        if (kAdd) radiance += imageLoad(coat, pixel).rgb;
+        imageStore(coat, pixel, vec4(g[p].glossy ? min(radiance, vec3(kMostHalf)) : vec3(0.0), 1.0));
+    }
+}
