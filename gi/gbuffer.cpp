@@ -41,6 +41,7 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
               .normal = target("gbuffer.normal", VK_FORMAT_R16G16B16A16_SFLOAT),
               .albedo = target("gbuffer.albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
               .size = scene.size,
+              .bent = scene.hasNormalMaps,
               .view = scene.scene->camera,
               .camera = scene.camera};
     if (scene.hasEmissive) g.emissive = target("gbuffer.emissive", VK_FORMAT_R16G16B16A16_SFLOAT);
@@ -67,6 +68,7 @@ GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing) {
         .depth = graph.image("gbuffer.thin_depth", {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
         .normal = addThinImage(graph, "gbuffer.thin_normal", all.normal, spacing),
         .size = size,
+        .bent = all.bent,
         .spacing = spacing,
         .view = thinned(all.view, all.size, spacing),
     };

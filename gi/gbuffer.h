@@ -16,6 +16,7 @@ struct GBuffer {
     ImageHandle motion;  // rgba16f: m to where the surface was a frame ago; invalid when nothing moved
     const ViewDraws* draws = nullptr;  // what the camera draws, for addMotion
     glm::uvec2 size{0};
+    bool bent = false;     // normals of a surface differ from pixel to pixel: it has a normal map
     uint32_t spacing = 1;  // of the camera's pixels from one of these to the next
     RenderCamera view;     // of these pixels
     BufferHandle camera;   // the same as io::CameraConstants

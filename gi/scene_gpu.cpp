@@ -136,11 +136,12 @@ void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
 void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) {
     std::vector<io::Material> rows;
     strongestEmission_ = 0;
-    hasGlossy_ = false;
+    hasGlossy_ = hasNormalMaps_ = false;
     for (const Material& m : geometry.materials) {
         rows.push_back(materialRow(m, units));
         strongestEmission_ = std::max({strongestEmission_, m.emissive.x, m.emissive.y, m.emissive.z});
         hasGlossy_ = hasGlossy_ || m.metallic > 0 || m.specular > 0;
+        hasNormalMaps_ = hasNormalMaps_ || m.normalLayer >= 0;
     }
     materials_ = gpu::loadBuffer(device_, {.name = "scene.materials", .texelFormat = kVec4Texels}, rows);
     materialsVersion_ = combineHash(geometry.version, hashValue(units.light));
@@ -226,7 +227,8 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
                    .draws = &draws_,
                    .size = size,
                    .hasEmissive = strongestEmission_ > 0,
-                   .hasGlossy = hasGlossy_};
+                   .hasGlossy = hasGlossy_,
+                   .hasNormalMaps = hasNormalMaps_};
     view.skin = skin_.import(graph, scene, *positions_, *attributes_);
     view.loadedVersion = combineHash(geometryVersion_, loads_);
     view.geometry = {positions_.get(), attributes_.get(),           indices_.get(),

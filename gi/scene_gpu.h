@@ -36,7 +36,8 @@ struct SceneView {
     RenderUnits units;                                        // of everything above
     float extent = 0;                                         // see steadyExtent()
     bool hasEmissive = false;
-    bool hasGlossy = false;       // a material that is not Lambert
+    bool hasGlossy = false;  // a material that is not Lambert
+    bool hasNormalMaps = false;
     BufferHandle surfaceSamples;  // io::SurfaceSample; also a texel buffer of vec4
     BufferHandle pointAreas;      // m² that a sample of each instance stands for: a texel buffer of float
     uint32_t surfaceSampleCount = 0;  // 0: no surface
@@ -99,7 +100,7 @@ class SceneGpu {
     uint64_t geometryVersion_ = 0, loads_ = 0;
     float strongestEmission_ = 0;
     uint64_t materialsVersion_ = 0;
-    bool hasGlossy_ = false;
+    bool hasGlossy_ = false, hasNormalMaps_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;

@@ -23,6 +23,8 @@ Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& t
             .sample("cellNormals", thin.normal)
             .sample("cellDepths", thin.depth)
             .sample("light", gathered.image)
+            .sample("toward", gathered.toward ? gathered.toward : gathered.image)
+            .spec(0, bool(gathered.toward))
             .push(push);
         return pass;
     };

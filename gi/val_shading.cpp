@@ -108,12 +108,23 @@ Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& 
     const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, n, names.tiles);
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle parts = graph.image(names.parts, info);
-    const Irradiance result{graph.image(names.irradiance, info)};
+    // Pixels that take another's light want to know where it comes from if they are turned otherwise.
+    const bool directed = gbuffer.spacing > 1 && gbuffer.bent && n == 1;
+    ImageInfo directions = info;
+    if (!directed) directions.size = glm::uvec2(1);
+    const ImageHandle partsToward = graph.image(names.partsToward, directions);
+    const ImageHandle toward = graph.image(names.toward, directions);
+    const Irradiance result{graph.image(names.irradiance, info), directed ? toward : ImageHandle{}};
     addGather(g, names.far, "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
         .write("parts", parts)
+        .write("partsToward", partsToward)
+        .spec(7, directed)
         .dispatchThreads(g.blocks);
     addGather(g, names.near, "val_shading/gather_near.comp", settings.shape, settings.taps)
         .sample("parts", parts)
+        .sample("partsToward", partsToward)
+        .write("toward", toward)
+        .spec(7, directed)
         .readWrite("lackingCounts", g.lackingCounts)
         .write("lacking", g.lacking)
         .write("irradiance", result.image)

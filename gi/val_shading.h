@@ -28,7 +28,8 @@ struct ValShadingSettings {
 };
 
 struct Irradiance {
-    ImageHandle image;  // rgba16f, W/m²; invalid: no light, nothing to add
+    ImageHandle image;   // rgba16f, W/m²; invalid: no light, nothing to add
+    ImageHandle toward;  // rgba16f: vector irradiance over that along the normal; invalid: not known
 };
 
 // Passes and resources of one gathering; literals, because the graph keeps views of them.
@@ -37,7 +38,7 @@ struct ValTileNames {
 };
 struct ValShadingNames {
     ValTileNames tiles;
-    std::string_view far, near, fill, parts, irradiance;
+    std::string_view far, near, fill, parts, irradiance, partsToward, toward;
 };
 constexpr ValShadingNames kFirstBounceShading = {
     {"val_shading.classify", "val_shading.lists", "val_shading.counts", "val_shading.lacking",
@@ -46,7 +47,9 @@ constexpr ValShadingNames kFirstBounceShading = {
     "val_shading.near",
     "val_shading.fill",
     "val_shading.parts",
-    "val_shading.irradiance"};
+    "val_shading.irradiance",
+    "val_shading.parts_toward",
+    "val_shading.toward"};
 constexpr ValShadingNames kAllBouncesShading = {
     {"val_shading.classify_all", "val_shading.lists_all", "val_shading.counts_all", "val_shading.lacking_all",
      "val_shading.lacking_counts_all"},
@@ -54,7 +57,9 @@ constexpr ValShadingNames kAllBouncesShading = {
     "val_shading.near_all",
     "val_shading.fill_all",
     "val_shading.parts_all",
-    "val_shading.irradiance_all"};
+    "val_shading.irradiance_all",
+    "val_shading.parts_toward_all",
+    "val_shading.toward_all"};
 
 Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
                          const ValShadingSettings& settings,

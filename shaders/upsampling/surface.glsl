@@ -6,6 +6,8 @@ layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2) uniform sampler2D cellNormals;
 layout(set = 0, binding = 3) uniform sampler2D cellDepths;
 layout(set = 0, binding = 4) uniform sampler2D light;  // of cells
+layout(set = 0, binding = 8) uniform sampler2D toward;  // of cells: relative vector irradiance
+layout(constant_id = 0) const bool kDirected = false;
 layout(push_constant, scalar) uniform Push { UpsamplingPush p; } push;
 
 struct Surface {
@@ -35,3 +37,14 @@ float likenessOf(Surface s, ivec2 cell) {
 
 // In cells.
 vec2 cellsAt(ivec2 pixel) { return (vec2(pixel) - float(push.p.spacing / 2)) / float(push.p.spacing); }
+
+// A cell's light as a surface that is turned otherwise takes it.
+vec3 lightFor(Surface s, ivec2 cell) {
+    const float kLeast = 0.5, kMost = 1.5;  // light that comes over the horizon, or no longer does, is not known
+    ivec2 there = clamp(cell, ivec2(0), textureSize(light, 0) - 1);
+    vec3 e = texelFetch(light, there, 0).rgb;
+    if (!kDirected) return e;
+    vec3 from = texelFetch(toward, there, 0).xyz;
+    float own = dot(from, texelFetch(cellNormals, there, 0).xyz);
+    return own > 0.0 ? e * clamp(dot(from, s.normal) / own, kLeast, kMost) : e;
+}

@@ -17,14 +17,14 @@ void main() {
     ivec2 size = imageSize(result), pixel = min(ivec2(gl_GlobalInvocationID.xy), size - 1);
     Surface s = surfaceAt(pixel);
     vec2 at = cellsAt(pixel);
-    ivec2 low = ivec2(floor(at)), last = textureSize(light, 0) - 1;
+    ivec2 low = ivec2(floor(at));
     vec3 sum = vec3(0.0);
     float total = 0.0;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 cell = low + ivec2(i & 1, i >> 1);
         vec2 share = 1.0 - abs(vec2(cell) - at);
         float weight = share.x * share.y * likenessOf(s, cell);
-        sum += weight * texelFetch(light, clamp(cell, ivec2(0), last), 0).rgb;
+        sum += weight * lightFor(s, cell);
         total += weight;
     }
     if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), size))) return;

@@ -14,7 +14,7 @@ const float kLeastLikeness = 1e-4;  // what is unlike still counts where nothing
 void main() {
     if (gl_GlobalInvocationID.x >= lacking.count) return;
     uint packed = lacking.pixels[gl_GlobalInvocationID.x];
-    ivec2 pixel = ivec2(packed & 0xffffu, packed >> 16), last = textureSize(light, 0) - 1;
+    ivec2 pixel = ivec2(packed & 0xffffu, packed >> 16);
     Surface s = surfaceAt(pixel);
     vec2 at = cellsAt(pixel);
     ivec2 nearest = ivec2(floor(at + 0.5));
@@ -24,7 +24,7 @@ void main() {
         ivec2 cell = nearest + ivec2(i % (2 * kReach + 1), i / (2 * kReach + 1)) - kReach;
         vec2 apart = vec2(cell) - at;
         float weight = (likenessOf(s, cell) + kLeastLikeness) / (1.0 + dot(apart, apart));
-        sum += weight * texelFetch(light, clamp(cell, ivec2(0), last), 0).rgb;
+        sum += weight * lightFor(s, cell);
         total += weight;
     }
     imageStore(result, pixel, vec4(sum / total, 1.0));

@@ -9,6 +9,7 @@ layout(constant_id = 2) const uint kInterleave = 1;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
+layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D partsToward;
 
 void main() {
     TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
@@ -20,7 +21,7 @@ void main() {
         float depth = texelFetch(depthMap, pixel, 0).x;
         distance_[p] = depth > 0.0 ? camera.camera.near / depth : 0.0;
         r[p] = Receiver(worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0).xyz, 0.0,
-                        vec3(0.0));
+                        vec3(0.0), vec3(0.0));
     }
     const uint kParts = kInterleave * kInterleave;
     uint start = listStart(block.tile, kFarList, push.p.valCount), count = counts.items[block.tile].y;
@@ -44,5 +45,6 @@ void main() {
         ivec2 pixel = pixelOf(block, p);
         if (any(greaterThanEqual(pixel, ivec2(size)))) continue;
         imageStore(parts, pixel, vec4(min(r[p].irradiance, vec3(kMostHalf)), distance_[p]));
+        if (kDirected) imageStore(partsToward, pixel, vec4(clamp(r[p].toward, vec3(-kMostHalf), vec3(kMostHalf)), 0.0));
     }
 }

@@ -29,7 +29,7 @@ GlossyPixel glossyPixelAt(ivec2 pixel) {
     vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0), reflectance = texelFetch(reflectanceMap, pixel, 0);
     vec3 x = worldFromPixel(camera.camera.worldFromClip, camera.camera.size, pixel, depth);
     GlossyPixel g;
-    g.receiver = Receiver(x, normalAndRoughness.xyz, kList == kNearList ? widthOf(pixel, depth) : 0.0, vec3(0.0));
+    g.receiver = Receiver(x, normalAndRoughness.xyz, kList == kNearList ? widthOf(pixel, depth) : 0.0, vec3(0.0), vec3(0.0));
     g.coat = coatOf(normalize(camera.camera.position - x), normalAndRoughness.w, reflectance, texelFetch(albedoMap, pixel, 0).rgb);
     g.glossy = depth > 0.0 && any(greaterThan(reflectance, vec4(0.0)));
     g.radiance = vec3(0.0);

@@ -3,6 +3,7 @@
 #define AG_GATHER_INPUTS_GLSL
 
 layout(constant_id = 1) const int kVisibilityTaps = 0;
+layout(constant_id = 7) const bool kDirected = false;  // also where the light comes from
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;

@@ -14,7 +14,7 @@ layout(set = 0, binding = 10, rgba16f) uniform image2D irradiance;
 Receiver receiverOf(ivec2 pixel) {
     mat4 worldFromClip = camera.camera.worldFromClip;
     vec3 position = worldFromPixel(worldFromClip, camera.camera.size, pixel, texelFetch(depthMap, pixel, 0).x);
-    return Receiver(position, texelFetch(normalMap, pixel, 0).xyz, 0.0, vec3(0.0));
+    return Receiver(position, texelFetch(normalMap, pixel, 0).xyz, 0.0, vec3(0.0), vec3(0.0));
 }
 
 // Of the light that stands i-th in the tile's list.

@@ -10,6 +10,8 @@ layout(constant_id = 2) const int kInterleave = 1;
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 8) uniform sampler2D parts;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D irradiance;
+layout(set = 0, binding = 12) uniform sampler2D partsToward;
+layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D toward;
 layout(set = 0, binding = 10, scalar) buffer LackingCounts { uint items[]; } lackingCounts;
 layout(set = 0, binding = 11, scalar) writeonly buffer Lacking { uint items[]; } lacking;
 
@@ -109,7 +111,7 @@ void main() {
         ivec2 pixel = min(pixelOf(block, p), size - 1);
         s[p] = surfaceAt(pixel);
         vec3 far = kInterleave == 1 ? texelFetch(parts, pixel, 0).rgb : vec3(0.0);
-        r[p] = Receiver(s[p].position, s[p].normal, s[p].width, far);
+        r[p] = Receiver(s[p].position, s[p].normal, s[p].width, far, kDirected ? texelFetch(partsToward, pixel, 0).xyz : vec3(0.0));
     }
     if (kInterleave > 1) {
         uint lackingParts[kPixels];
@@ -137,5 +139,8 @@ void main() {
         if (any(greaterThanEqual(pixel, size))) continue;
         bool seen = s[p].depth > 0.0;
         imageStore(irradiance, pixel, vec4(seen ? min(r[p].irradiance, vec3(kMostHalf)) : vec3(0.0), 1.0));
+        // Relative: along the pixel's own normal it is about one.
+        float all = r[p].irradiance.x + r[p].irradiance.y + r[p].irradiance.z;
+        if (kDirected) imageStore(toward, pixel, vec4(r[p].toward / max(all, 1e-20), 0.0));
     }
 }
