@@ -110,20 +110,20 @@ Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& 
     const ImageHandle parts = graph.image(names.parts, info);
     // Pixels that take another's light want to know where it comes from if they are turned otherwise.
     const bool directed = gbuffer.spacing > 1 && gbuffer.bent && n == 1;
-    ImageInfo directions = info;
-    if (!directed) directions.size = glm::uvec2(1);
-    const ImageHandle partsToward = graph.image(names.partsToward, directions);
-    const ImageHandle toward = graph.image(names.toward, directions);
-    const Irradiance result{graph.image(names.irradiance, info), directed ? toward : ImageHandle{}};
+    const ImageHandle partsToward = directed ? graph.image(names.partsToward, info) : ImageHandle{};
+    const Irradiance result{graph.image(names.irradiance, info),
+                            directed ? graph.image(names.toward, info) : ImageHandle{}};
+    // Compiled out, a binding takes any image of the same class.
+    const auto orOther = [&](ImageHandle image, ImageHandle other) { return directed ? image : other; };
     addGather(g, names.far, "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
         .write("parts", parts)
-        .write("partsToward", partsToward)
+        .write("partsToward", orOther(partsToward, parts))
         .spec(7, directed)
         .dispatchThreads(g.blocks);
     addGather(g, names.near, "val_shading/gather_near.comp", settings.shape, settings.taps)
         .sample("parts", parts)
-        .sample("partsToward", partsToward)
-        .write("toward", toward)
+        .sample("partsToward", orOther(partsToward, parts))
+        .write("toward", orOther(result.toward, result.image))
         .spec(7, directed)
         .readWrite("lackingCounts", g.lackingCounts)
         .write("lacking", g.lacking)
