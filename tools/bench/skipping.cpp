@@ -88,13 +88,16 @@ class Walkthrough {
             for (const PassReport& pass : renderer_.graph().report()) {
                 if (pass.outcome != PassOutcome::kRan) continue;
                 cost.gpuMs += pass.gpuMs * kShare;
-                cost.ranIn[std::string(pass.name)] += kShare;
+                cost.passes[std::string(pass.name)].ranIn += kShare;
             }
         }
         for (uint32_t i = 0; i < kCpuFrames; ++i) {
             frame(change, {.skip = change != Change::kEverything, .timing = TimingMode::kProcessCpu});
-            for (const PassReport& pass : renderer_.graph().report())
-                if (pass.outcome == PassOutcome::kRan) cost.cpuMs += pass.cpuMs / kCpuFrames;
+            for (const PassReport& pass : renderer_.graph().report()) {
+                if (pass.outcome != PassOutcome::kRan) continue;
+                cost.cpuMs += pass.cpuMs / kCpuFrames;
+                cost.passes[std::string(pass.name)].cpuMs += pass.cpuMs / kCpuFrames;
+            }
         }
         return cost;
     }
@@ -181,9 +184,9 @@ double share(double part, double whole) {
 // "rsm.render, rsm.build_texels, ..." as "rsm", once each.
 std::string techniquesOf(const ChangeCost& cost, double atLeast) {
     std::vector<std::string> names;
-    for (const auto& [pass, ranIn] : cost.ranIn) {
+    for (const auto& [pass, of] : cost.passes) {
         const std::string technique = pass.substr(0, pass.find('.'));
-        if (ranIn >= atLeast && std::ranges::find(names, technique) == names.end())
+        if (of.ranIn >= atLeast && std::ranges::find(names, technique) == names.end())
             names.push_back(technique);
     }
     std::string out;

@@ -27,10 +27,14 @@ enum class Change : uint32_t {
 };
 std::string_view changeName(Change change);
 
+struct PassCost {
+    double ranIn = 0;  // share of the frames
+    double cpuMs = 0;  // process CPU time, mean of all frames
+};
 struct ChangeCost {
-    double gpuMs = 0;                     // a frame, by timestamps, mean
-    double cpuMs = 0;                     // process CPU time of a frame's passes, mean
-    std::map<std::string, double> ranIn;  // share of the frames each pass ran in
+    double gpuMs = 0;                        // a frame, by timestamps, mean
+    double cpuMs = 0;                        // process CPU time of a frame's passes, mean
+    std::map<std::string, PassCost> passes;  // that ran
 };
 
 struct SceneCosts {

@@ -19,11 +19,10 @@ struct SkippingArguments {
 
 void printPasses(const bench::SceneCosts& costs) {
     for (size_t i = 0; i < costs.changes.size(); ++i) {
-        std::cout << fmt::format("  {}:", bench::changeName(bench::Change(i)));
-        for (const auto& [pass, ranIn] : costs.changes[i].ranIn)
-            std::cout << fmt::format(" {}{}", pass,
-                                     ranIn < 0.99 ? fmt::format(" ({:.0f} %)", 100 * ranIn) : "");
-        std::cout << '\n';
+        std::cout << fmt::format("  {}:\n", bench::changeName(bench::Change(i)));
+        for (const auto& [pass, cost] : costs.changes[i].passes)
+            std::cout << fmt::format("    {:<32} {:8.2f} CPU ms   {:3.0f} % of frames\n", pass, cost.cpuMs,
+                                     100 * cost.ranIn);
     }
 }
 
@@ -67,7 +66,7 @@ void addSkippingCommand(CLI::App& program, int& exitCode) {
     command->add_option("--preset", o->preset, "as render's")->capture_default_str();
     command->add_option("--plot", o->plot, "FILE.svg");
     command->add_option("--markdown", o->markdown, "FILE.md");
-    command->add_flag("--passes", o->passes, "name the passes that ran");
+    command->add_flag("--passes", o->passes, "the passes that ran and what each took");
     command->callback([o, &exitCode] { exitCode = runSkipping(*o); });
 }
 
