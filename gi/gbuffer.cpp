@@ -61,19 +61,19 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     return g;
 }
 
-GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing) {
+GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing, const ThinningNames& names) {
     if (spacing == 1) return all;
     const glm::uvec2 size = glm::max(all.size / spacing, 1u);
     GBuffer g{
-        .depth = graph.image("gbuffer.thin_depth", {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
-        .normal = addThinImage(graph, "gbuffer.thin_normal", all.normal, spacing),
+        .depth = graph.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
+        .normal = addThinImage(graph, names.normal, all.normal, spacing),
         .size = size,
         .bent = all.bent,
-        .spacing = spacing,
+        .spacing = all.spacing * spacing,
         .view = thinned(all.view, all.size, spacing),
     };
-    g.camera = addCamera(graph, "gbuffer.thin_camera", g.view, size);
-    graph.compute("gbuffer.thin_depth", "gbuffer/thin_depth.comp")
+    g.camera = addCamera(graph, names.camera, g.view, size);
+    graph.compute(names.depth, "gbuffer/thin_depth.comp")
         .sample("all", all.depth)
         .write("thin", g.depth)
         .push(int32_t(spacing))

@@ -24,10 +24,19 @@ struct GBuffer {
 
 GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene);
 
+// Passes and resources; literals, because the graph keeps views of them.
+struct ThinningNames {
+    std::string_view depth, normal, camera;
+};
+constexpr ThinningNames kThinning = {"gbuffer.thin_depth", "gbuffer.thin_normal", "gbuffer.thin_camera"};
+constexpr ThinningNames kLaterThinning = {"gbuffer.thin_depth_later", "gbuffer.thin_normal_later",
+                                          "gbuffer.thin_camera_later"};
+
 // Every spacing-th pixel of every spacing-th row, as if the camera had no others: from the middle of each
 // square of the image, what is left over at its right and lower border goes without. Depth and normal only;
 // itself with a spacing of 1.
-GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing);
+GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing,
+                   const ThinningNames& names = kThinning);
 
 // The same of an image, rgba16f.
 ImageHandle addThinImage(FrameGraph& graph, std::string_view name, ImageHandle all, uint32_t spacing);

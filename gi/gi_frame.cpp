@@ -55,7 +55,10 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
     f.indirect = f.bounce1;
     addLaterIrradiance(graph, f.laterLight, f.vals, f.firstCount, f.isms, s.laterBounces);
     const bool goesOn = f.bounce1.image && f.vals.count > f.firstCount;
-    if (goesOn) f.indirect = addValShading(graph, thin, f.vals, f.isms, s.valShading, kAllBouncesShading);
+    const uint32_t apart = f.laterLight.texels ? s.laterBounces.spacing : 1;
+    if (goesOn)
+        f.indirect =
+            addLaterShading(graph, thin, f.bounce1, f.vals, f.firstCount, f.isms, s.valShading, apart);
 
     // Steady and smooth
     if (s.denoiser.enabled && s.denoiser.motion && f.indirect.image) {

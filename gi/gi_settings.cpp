@@ -278,6 +278,9 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"later_bounces", "feedback", 0, 0, "", "and after its second; off: no more than two"},
           &gi.laterBounces.feedback);
     s.add({"later_bounces", "share", 0.05, 0.8, "", "of all clusters"}, &gi.laterBounces.share);
+    s.add({"later_bounces", "spacing", 1, 4, "pixels",
+           "of those bounced light is gathered at, to those later bounces are"},
+          &gi.laterBounces.spacing);
     s.add({"later_bounces", "settle_frames", 1, 1000000, "frames",
            "light goes on bouncing after anything last changed"},
           &gi.laterBounces.settleFrames);

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "gi/upsampling.h"
 #include "gi/val_shading.h"
 #include "shaders/rsm/rsm_io.h"
+#include "shaders/val_shading/val_shading_io.h"
 
 namespace ag::gi {
 
@@ -44,20 +46,55 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
 void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& vals, uint32_t firstLater,
                         const IsmAtlas& isms, const LaterBouncesSettings& s) {
     if (!light.texels || vals.count == 0) return;
-    graph.compute("later_bounces.gather", "later_bounces/gather.comp")
+    const ValShadingSettings shading;
+    const uint32_t runs = (light.count + io::kRunPoints - 1) / io::kRunPoints;
+    const io::GatherPush push{.count = light.count,
+                              .valCount = s.feedback ? vals.count : std::min(vals.count, firstLater),
+                              .nearReach = shading.nearReach,
+                              .ismTileSize = isms.tileSize};
+    const BufferHandle counts = graph.buffer("later_bounces.counts", {.sizeBytes = runs * 8ull});
+    const BufferHandle lists = graph.buffer(
+        "later_bounces.lists",
+        {.sizeBytes = uint64_t(runs) * io::kLightLists * vals.count * 4, .texelFormat = VK_FORMAT_R32_UINT});
+    graph.compute("later_bounces.classify", "later_bounces/classify.comp")
         .read("texels", light.texels)
         .read("vals", vals.vals)
         .read("shapes", vals.shapes)
-        .read("isms", isms.planes ? isms.planes : vals.vals)
-        .write("irradiance", light.irradiance.current)
-        .spec(0, uint32_t(ValShape::kPolygon))
-        .spec(1, isms.planes ? 1 : 0)
-        .spec(3, isms.mapping == IsmMapping::kParaboloid)
-        .push(io::GatherPush{.count = light.count,
-                             .valCount = s.feedback ? vals.count : std::min(vals.count, firstLater),
-                             .ismTileSize = isms.tileSize})
-        .dispatchThreads(light.count);
+        .write("lists", lists)
+        .write("counts", counts)
+        .push(push)
+        .dispatchGroups(runs);
+    const auto gather = [&](std::string_view name, uint32_t list, ValShape shape) {
+        PassBuilder pass = graph.compute(name, "later_bounces/gather.comp");
+        pass.read("texels", light.texels)
+            .read("vals", vals.vals)
+            .read("shapes", vals.shapes)
+            .read("isms", isms.planes ? isms.planes : vals.vals)
+            .read("lists", lists)
+            .read("counts", counts)
+            .spec(0, uint32_t(shape))
+            .spec(1, isms.planes ? 1 : 0)
+            .spec(2, list)
+            .spec(3, isms.mapping == IsmMapping::kParaboloid)
+            .push(push)
+            .dispatchGroups(runs);
+        return pass;
+    };
+    gather("later_bounces.far", io::kFarList, shading.farShape).write("irradiance", light.irradiance.current);
+    gather("later_bounces.near", io::kNearList, shading.shape)
+        .spec(5, true)
+        .readWrite("irradiance", light.irradiance.current);
     graph.output(light.irradiance.current);
+}
+
+Irradiance addLaterShading(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& bounce1,
+                           const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
+                           const ValShadingSettings& shading, uint32_t spacing) {
+    if (spacing == 1) return addValShading(graph, gbuffer, vals, isms, shading, kAllBouncesShading);
+    const GBuffer thinner = addThinned(graph, gbuffer, spacing, kLaterThinning);
+    const Irradiance later =
+        addValShading(graph, thinner, laterVals(vals, firstLater), isms, shading, kLaterShading);
+    return addUpsampling(graph, gbuffer, thinner, later, kLaterUpsampling, bounce1);
 }
 
 }  // namespace ag::gi

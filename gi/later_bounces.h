@@ -11,13 +11,17 @@
 
 namespace ag::gi {
 
+struct GBuffer;
+struct Irradiance;
 struct IsmAtlas;
 struct Vals;
+struct ValShadingSettings;
 
 struct LaterBouncesSettings {
     bool enabled = false;
     bool feedback = true;        // off: two bounces, and no more
     float share = 0.4f;          // of all clusters
+    uint32_t spacing = 2;        // of the pixels bounced light is gathered at, to those later bounces are
     uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
 };
 
@@ -38,5 +42,11 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
 // for later bounces.
 void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& vals, uint32_t firstLater,
                         const IsmAtlas& isms, const LaterBouncesSettings& settings);
+
+// `bounce1`, of the pixels of `gbuffer`, and what the lights from `firstLater` on add to it. That is
+// smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
+Irradiance addLaterShading(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& bounce1,
+                           const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
+                           const ValShadingSettings& shading, uint32_t spacing);
 
 }  // namespace ag::gi

@@ -6,13 +6,14 @@
 namespace ag::gi {
 
 Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& thin,
-                         const Irradiance& gathered, const UpsamplingNames& names) {
-    if (!gathered.image || thin.spacing == 1) return gathered;
+                         const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
+    const uint32_t spacing = thin.spacing / all.spacing;
+    if (!gathered.image || spacing == 1) return gathered;
     const io::PixelRays rays = pixelRays(all.view, all.size);
     const io::UpsamplingPush push{.rays = rays,
-                                  .footprint = 2 * float(thin.spacing) * glm::length(rays.down),
+                                  .footprint = 2 * float(spacing) * glm::length(rays.down),
                                   .near = all.view.near,
-                                  .spacing = thin.spacing};
+                                  .spacing = spacing};
     const ImageHandle result =
         graph.image(names.irradiance, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size});
     const PixelList lacking = addPixelList(graph, names.lacking, all.size);
@@ -24,7 +25,9 @@ Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& t
             .sample("cellDepths", thin.depth)
             .sample("light", gathered.image)
             .sample("toward", gathered.toward ? gathered.toward : gathered.image)
+            .sample("base", base.image ? base.image : gathered.image)
             .spec(0, bool(gathered.toward))
+            .spec(1, bool(base.image))
             .push(push);
         return pass;
     };
@@ -37,7 +40,7 @@ Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& t
         .read("lacking", lacking.pixels)
         .readWrite("result", result)
         .dispatchIndirect(lacking.groups);
-    return {result};
+    return {result, base.toward};
 }
 
 }  // namespace ag::gi

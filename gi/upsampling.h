@@ -24,9 +24,16 @@ constexpr UpsamplingNames kFirstBounceUpsampling = {
     "upsampling.irradiance_first",
     {"upsampling.lacking_first", "upsampling.none_lacking_first", "upsampling.groups_first",
      "upsampling.no_groups_first"}};
+constexpr UpsamplingNames kLaterUpsampling = {"upsampling.near_later",
+                                              "upsampling.far_later",
+                                              "upsampling.irradiance_later",
+                                              {"upsampling.lacking_later", "upsampling.none_lacking_later",
+                                               "upsampling.groups_later", "upsampling.no_groups_later"}};
 
-// What was gathered at the pixels of `thin` = addThinned(`all`); comes back as it is if those are all.
+// What was gathered at the pixels of `thin` = addThinned(`all`); comes back as it is if those are all. Added
+// to `base`, if there is one, whose direction stands for both.
 Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& thin,
-                         const Irradiance& gathered, const UpsamplingNames& names = kUpsampling);
+                         const Irradiance& gathered, const UpsamplingNames& names = kUpsampling,
+                         const Irradiance& base = {});
 
 }  // namespace ag::gi

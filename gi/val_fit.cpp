@@ -19,6 +19,11 @@ Vals firstVals(Vals vals, uint32_t end) {
     return vals;
 }
 
+Vals laterVals(Vals vals, uint32_t first) {
+    vals.first = std::min(vals.count, first);
+    return vals;
+}
+
 Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters) {
     if (clusters.count == 0) return {};
     const Vals v = allocateVals(graph, "val_fit.vals", "val_fit.shapes", clusters.count);

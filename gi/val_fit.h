@@ -12,13 +12,15 @@ struct Vals {
     BufferHandle
         shapes;  // io::ValShapeVectors; also a texel buffer of vec4; invalid for lights that are points
     uint32_t count = 0;  // padded with black lights to whole subgroups
+    uint32_t first = 0;  // those before it are left alone
 };
 
 // Room for `count` lights and the padding.
 Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view shapes, uint32_t count);
 
-// The same without those from `end` on.
+// The same without those from `end` on, or without those before `first`.
 Vals firstVals(Vals vals, uint32_t end);
+Vals laterVals(Vals vals, uint32_t first);
 
 Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters);
 

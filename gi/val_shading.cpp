@@ -13,7 +13,7 @@ constexpr ValTileNames kGlossTiles = {"val_gloss.classify", "val_gloss.lists", "
 // A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks. Where pixels are
 // left out tiles are smaller, so that no more lights are near to one.
 uint32_t tileSizeFor(uint32_t interleave, uint32_t spacing) {
-    if (interleave <= 2 && spacing > 1) return 16;
+    if (interleave <= 2 && spacing > 1) return interleave == 1 && spacing > 3 ? 8 : 16;
     return interleave == 3 ? 24 : 32;
 }
 
@@ -74,6 +74,7 @@ Gather addTiles(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, con
         .vals = vals,
         .isms = isms,
         .push = {.valCount = vals.count,
+                 .firstVal = vals.first,
                  .tileSize = tileSize,
                  .tiles = tiles,
                  .nearReach = nearReach,

@@ -60,6 +60,16 @@ constexpr ValShadingNames kAllBouncesShading = {
     "val_shading.irradiance_all",
     "val_shading.parts_toward_all",
     "val_shading.toward_all"};
+constexpr ValShadingNames kLaterShading = {
+    {"val_shading.classify_later", "val_shading.lists_later", "val_shading.counts_later",
+     "val_shading.lacking_later", "val_shading.lacking_counts_later"},
+    "val_shading.far_later",
+    "val_shading.near_later",
+    "val_shading.fill_later",
+    "val_shading.parts_later",
+    "val_shading.irradiance_later",
+    "val_shading.parts_toward_later",
+    "val_shading.toward_later"};
 
 Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
                          const ValShadingSettings& settings,

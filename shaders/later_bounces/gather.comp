@@ -1,35 +1,59 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Irradiance at the points, from the area lights the screen is lit by and through their shadow maps.
+// Irradiance at the points from the area lights of one of their run's lists, through the shadow maps the screen is lit
+// through.
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 1) const int kVisibilityTaps = 0;
+layout(constant_id = 2) const uint kList = 0;
+layout(constant_id = 5) const bool kAdd = false;  // to what the other list's light made
 
 layout(set = 0, binding = 3) uniform samplerBuffer vals;
 layout(set = 0, binding = 4) uniform samplerBuffer shapes;
 layout(set = 0, binding = 5) uniform samplerBuffer isms;
 #include "later_bounces/later_bounces_io.h"
-#include "rsm/rsm_io.h"
 #include "val_shading/area_light.glsl"
+#include "val_shading/light_lists.glsl"
 
-layout(local_size_x = 64) in;
+const int kPoints = 4;  // an invocation: a light in registers shines on all of them
+layout(local_size_x = 16) in;  // a run
+
 layout(push_constant, scalar) uniform Push { GatherPush p; } push;
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
-layout(set = 0, binding = 1, scalar) writeonly buffer Irradiance { vec4 items[]; } irradiance;
+layout(set = 0, binding = 1) uniform usamplerBuffer lists;
+layout(set = 0, binding = 2, scalar) readonly buffer Counts { uvec2 items[]; } counts;
+layout(set = 0, binding = 6, scalar) buffer Irradiance { vec4 items[]; } irradiance;
+
+struct Points {
+    vec3 x[kPoints], n[kPoints], e[kPoints];
+};
+
+void addLight(AreaLight l, inout Points points) {
+    [[unroll]] for (int p = 0; p < kPoints; ++p)
+        points.e[p] += irradianceFrom(l, points.x[p], points.n[p], 0.0, push.p.ismTileSize);
+}
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
-    int at = int(min(i, push.p.count - 1)) * 3;
-    vec3 x = texelFetch(texels, at).xyz, n = texelFetch(texels, at + 1).xyz, e = vec3(0.0);
+    uint run_ = gl_WorkGroupID.x, first = gl_GlobalInvocationID.x * kPoints;
+    Points points;
+    [[unroll]] for (int p = 0; p < kPoints; ++p) {
+        int at = int(min(first + p, push.p.count - 1)) * 3;
+        points.x[p] = texelFetch(texels, at).xyz, points.n[p] = texelFetch(texels, at + 1).xyz, points.e[p] = vec3(0.0);
+    }
+    uint start = listStart(run_, kList, push.p.valCount), count = counts.items[run_][kList];
     if (kLaneParallel) {
-        for (uint base = 0; base < push.p.valCount; base += kSubgroupSize) {
-            AreaLight mine = loadLight(min(base + gl_SubgroupInvocationID, push.p.valCount - 1));
-            uint here = min(kSubgroupSize, push.p.valCount - base);
-            [[dont_unroll]] for (uint lane = 0; lane < here; ++lane)
-                e += irradianceFrom(lightOfLane(mine, lane), x, n, 0.0, push.p.ismTileSize);
+        for (uint base = 0; base < count; base += kSubgroupSize) {
+            AreaLight mine = loadLight(texelFetch(lists, int(start + min(base + gl_SubgroupInvocationID, count - 1))).x);
+            uint here = min(kSubgroupSize, count - base);
+            [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) addLight(lightOfLane(mine, lane), points);
         }
     } else {
-        for (uint l = 0; l < push.p.valCount; ++l) e += irradianceFrom(loadLight(l), x, n, 0.0, push.p.ismTileSize);
+        for (uint i = 0; i < count; ++i) addLight(loadLight(texelFetch(lists, int(start + i)).x), points);
     }
-    if (i < push.p.count) irradiance.items[i] = vec4(e, 1.0);
+    [[unroll]] for (int p = 0; p < kPoints; ++p) {
+        uint at = first + p;
+        if (at >= push.p.count) continue;
+        vec3 before = kAdd ? irradiance.items[at].xyz : vec3(0.0);
+        irradiance.items[at] = vec4(before + points.e[p], 1.0);
+    }
 }

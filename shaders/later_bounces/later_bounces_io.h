@@ -27,9 +27,12 @@ struct EmitPush {
     uint known;  // 1: there is irradiance of the frame before
 };
 
+const uint kRunPoints = 64;  // one after another, which share lists of near and far lights
+
 struct GatherPush {
     uint count;
     uint valCount;
+    float nearReach;  // as ValShadingPush's
     uint ismTileSize;  // texels along a shadow map's side
 };
 

@@ -7,7 +7,9 @@ layout(set = 0, binding = 2) uniform sampler2D cellNormals;
 layout(set = 0, binding = 3) uniform sampler2D cellDepths;
 layout(set = 0, binding = 4) uniform sampler2D light;  // of cells
 layout(set = 0, binding = 8) uniform sampler2D toward;  // of cells: relative vector irradiance
+layout(set = 0, binding = 9) uniform sampler2D base;    // of pixels: other light that this is added to
 layout(constant_id = 0) const bool kDirected = false;
+layout(constant_id = 1) const bool kAdd = false;
 layout(push_constant, scalar) uniform Push { UpsamplingPush p; } push;
 
 struct Surface {
@@ -34,6 +36,8 @@ float likenessOf(Surface s, ivec2 cell) {
     float like = likeness(s.normal, other.place - s.place, push.p.footprint * s.depth, other.normal);
     return other.depth > 0.0 ? like : 0.0;
 }
+
+vec3 withBase(ivec2 pixel, vec3 e) { return kAdd ? e + texelFetch(base, pixel, 0).rgb : e; }
 
 // In cells.
 vec2 cellsAt(ivec2 pixel) { return (vec2(pixel) - float(push.p.spacing / 2)) / float(push.p.spacing); }

@@ -29,6 +29,6 @@ void main() {
     }
     if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), size))) return;
     bool found = total >= kLeastWeight;
-    imageStore(result, pixel, vec4(found && s.depth > 0.0 ? sum / total : vec3(0.0), 1.0));
+    imageStore(result, pixel, vec4(found && s.depth > 0.0 ? withBase(pixel, sum / total) : vec3(0.0), 1.0));
     if (!found && s.depth > 0.0) listPixel(pixel);
 }

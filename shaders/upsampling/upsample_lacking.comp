@@ -27,5 +27,5 @@ void main() {
         sum += weight * lightFor(s, cell);
         total += weight;
     }
-    imageStore(result, pixel, vec4(sum / total, 1.0));
+    imageStore(result, pixel, vec4(withBase(pixel, sum / total), 1.0));
 }

@@ -3,7 +3,7 @@
 #define AG_SCREEN_TILES_GLSL
 
 #include "gbuffer/gbuffer.glsl"
-#include "val_shading/val_shading_io.h"
+#include "val_shading/light_lists.glsl"
 
 const int kPixels = 4;
 
@@ -37,6 +37,4 @@ ivec2 pixelOf(TileBlock b, int p) {
 }
 
 uint packLacking(uint inTile, uint parts) { return parts << kLackingPixelBits | inTile; }
-
-uint listStart(uint tile, uint list, uint valCount) { return (tile * kLightLists + list) * valCount; }
 #endif

@@ -15,6 +15,7 @@ const uint kLackingPixelBits = 10;
 
 struct ValShadingPush {
     uint valCount;  // and so the most entries of a list
+    uint firstVal;  // those before it are left alone
     uint tileSize;  // pixels, a multiple of the interleaving
     uvec2 tiles;
     float nearReach;  // lights nearer than this many of their half lengths are near
