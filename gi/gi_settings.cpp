@@ -49,8 +49,11 @@ void setIsm(GiSettings& gi) {
     gi.firstBounce = FirstBounce::kPointLights;
     gi.importance.viewWeight = 0;
     gi.valClustering.count = 1024;
-    gi.ismAtlas = {
-        .pointsPerMap = 2048, .nearMore = false, .mapping = IsmMapping::kParaboloid, .planes = false};
+    gi.ismAtlas = {.tileSize = 64,
+                   .pointsPerMap = 2048,
+                   .nearMore = false,
+                   .mapping = IsmMapping::kParaboloid,
+                   .planes = false};
     gi.valShading = {
         .shape = ValShape::kPoint, .farShape = ValShape::kPoint, .nearReach = 0, .interleave = 3, .taps = 1};
 }
@@ -117,7 +120,7 @@ void setAfterglowBounces(GiSettings& gi) {
 void setHigh(GiSettings& gi) {
     gi.rsm.resolution = 512;
     gi.valClustering.count = 256;
-    gi.ismAtlas.pointsPerMap = 4096;
+    gi.ismAtlas = {.tileSize = 64, .pointsPerMap = 4096};
 }
 
 void setUltra(GiSettings& gi) {
@@ -204,7 +207,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"gi", "spacing", 1, 4, "pixels", "from one that indirect light is gathered at to the next"},
           &gi.spacing);
     s.add({"rsm", "resolution", 0, 1024, "texels",
-           "side of a light map, rounded down to a power of two; 0: as each light says"},
+           "side of a light map, rounded down to a multiple of 16; 0: as each light says"},
           &gi.rsm.resolution);
     s.add({"rsm", "sun_margin", 0, 1, "", "part of the scene's width added round a sun's map"},
           &gi.rsm.sunMargin);
@@ -249,7 +252,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.valShading.interleave);
     s.add({"ism_atlas", "enabled", 0, 0, "", "visibility of indirect light"}, &gi.ismAtlas.enabled);
     s.add({"ism_atlas", "tile_size", 16, 128, "texels",
-           "side of a light's depth map, rounded down to a power of two"},
+           "side of a light's depth map, rounded down to a multiple of 16"},
           &gi.ismAtlas.tileSize);
     s.add({"ism_atlas", "points_per_map", 64, 131072, "points", "splatted into each depth map"},
           &gi.ismAtlas.pointsPerMap);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "engine/core/hash.h"
@@ -12,6 +11,7 @@ namespace {
 
 constexpr uint32_t kCoarsestSize = 4;  // texels along the last level's tile
 constexpr uint32_t kMostLevels = 6;
+constexpr uint32_t kTileSizeStep = 16;  // tiles are whole workgroups, and each level half the one before
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 
 // The graph keeps views of pass names, so they are literals.
@@ -160,7 +160,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                      const IsmAtlasSettings& settings) {
     if (!settings.enabled || points.count == 0 || vals.count == 0) return {};
     IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms),
-                   .tileSize = std::clamp(std::bit_floor(settings.tileSize), 16u, 128u),
+                   .tileSize = std::clamp(settings.tileSize / kTileSizeStep * kTileSizeStep, 16u, 128u),
                    .mapping = settings.mapping};
     const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
     const uint32_t moving = movingEntries(points, perMap), still = perMap - moving;

@@ -16,7 +16,7 @@ enum class IsmMapping : uint32_t { kOctahedral, kParaboloid };
 
 struct IsmAtlasSettings {
     bool enabled = true;           // off: bounced light passes through everything
-    uint32_t tileSize = 64;        // texels along a map's side, a power of two from 16 to 128
+    uint32_t tileSize = 48;        // texels along a map's side, a multiple of 16 up to 128
     uint32_t pointsPerMap = 1536;  // splatted into each map
     bool nearMore = true;          // points by the solid angle of surfaces instead of their area
     float splatScale = 1.1f;       // of the points' disks, which at 1 have the surfaces' area
