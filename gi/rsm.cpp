@@ -3,15 +3,19 @@
 #include <algorithm>
 
 #include "engine/core/hash.h"
+#include "gi/pixel_list.h"
 #include "gi/rsm_views.h"
 #include "gi/scene_draws.h"
 
 namespace ag::gi {
 namespace {
 
+constexpr PixelListNames kCreasedTexels = {"rsm.creased", "rsm.none_creased", "rsm.groups", "rsm.no_groups"};
+
 template <class T>
 BufferHandle uploadItems(FrameGraph& graph, const char* name, std::span<const T> items) {
-    const BufferHandle buffer = graph.buffer(name, {.sizeBytes = items.size_bytes()});
+    const BufferHandle buffer =
+        graph.buffer(name, {.sizeBytes = items.size_bytes(), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     graph.upload(name, buffer, std::as_bytes(items));
     return buffer;
 }
@@ -33,6 +37,32 @@ void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
         drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size},
                  DrawFilter::kAll, Viewer::kLight);
     }
+}
+
+void addTexels(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later) {
+    const PixelList creased = addPixelList(graph, kCreasedTexels, rsm.atlas.size);
+    graph.compute("rsm.build_texels", "rsm/build_texels.comp")
+        .sample("normalMap", rsm.normal)
+        .sample("albedoMap", rsm.albedo)
+        .sample("depthMap", rsm.depth)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
+        .read("later", later.texels ? later.texels : rsm.faces)  // none: not read
+        .write("texels", rsm.texels)
+        .write("tileMaps", rsm.tileMaps)
+        .readWrite("listed", creased.pixels)
+        .readWrite("listedGroups", creased.groups)
+        .push(rsm.atlas)
+        .dispatchGroups(rsm.tileCount);
+    graph.compute("rsm.trim_texels", "rsm/trim_texels.comp")
+        .read("texels", rsm.texels)
+        .read("tileMaps", rsm.tileMaps)
+        .read("faces", rsm.faces)
+        .read("maps", rsm.maps)
+        .read("creased", creased.pixels)
+        .readWrite("trimmed", rsm.texels)
+        .push(rsm.atlas)
+        .dispatchIndirect(creased.groups);
 }
 
 }  // namespace
@@ -66,28 +96,9 @@ RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& sett
     const uint64_t texelCount = uint64_t(layout.atlasSize.x) * layout.atlasSize.y;
     const BufferInfo texels{.sizeBytes = texelCount * sizeof(io::RsmTexel),
                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};
-    const BufferHandle whole = graph.buffer("rsm.whole_texels", texels);
     rsm.texels = graph.buffer("rsm.texels", texels);
     rsm.tileMaps = graph.buffer("rsm.tile_maps", {.sizeBytes = rsm.tileCount * sizeof(uint32_t)});
-    graph.compute("rsm.build_texels", "rsm/build_texels.comp")
-        .sample("normalMap", rsm.normal)
-        .sample("albedoMap", rsm.albedo)
-        .sample("depthMap", rsm.depth)
-        .read("faces", rsm.faces)
-        .read("maps", rsm.maps)
-        .write("texels", whole)
-        .write("tileMaps", rsm.tileMaps)
-        .push(rsm.atlas)
-        .dispatchGroups(rsm.tileCount);
-    graph.compute("rsm.trim_texels", "rsm/trim_texels.comp")
-        .read("texels", whole)
-        .read("tileMaps", rsm.tileMaps)
-        .read("faces", rsm.faces)
-        .read("maps", rsm.maps)
-        .read("later", later.texels ? later.texels : whole)
-        .write("trimmed", rsm.texels)
-        .push(rsm.atlas)
-        .dispatchGroups(rsm.tileCount);
+    addTexels(graph, rsm, later);
     return rsm;
 }
 

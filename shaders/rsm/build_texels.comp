@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Turns the rasterised maps into emitters: position, normal, reflected flux and area of each texel (method: RSM).
+// Turns the rasterised maps into emitters: position, normal, reflected flux and area of each texel (method: RSM). Those
+// beside a crease are listed to be trimmed. Texels that are points on surfaces are taken in as they are.
 #include "common/lights.h"
 #include "common/rsm_math.h"
 #include "rsm/rsm.glsl"
@@ -16,6 +17,9 @@ layout(set = 0, binding = 3, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]
 layout(set = 0, binding = 4, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 5, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 6, scalar) writeonly buffer TileMaps { uint items[]; } tileMaps;
+layout(set = 0, binding = 7) uniform samplerBuffer later;
+#define PIXEL_LIST_BINDING 8
+#include "common/pixel_list.glsl"
 
 // The face a texel lies in, or faceCount if none: a handful of faces at most, uniform within a tile.
 uint findFace(uvec2 coord) {
@@ -68,14 +72,35 @@ RsmTexel makeTexel(uvec2 coord, uint faceIndex) {
     return RsmTexel(position, crossSection / cosine, normal, weight, flux, cosine);
 }
 
+bool turnsToward(RsmFace face, uvec2 coord, ivec2 side, vec3 normal) {
+    ivec2 there = clamp(ivec2(coord) + side, ivec2(face.origin), ivec2(face.origin + face.size) - 1);
+    vec3 other = texelFetch(normalMap, there, 0).xyz;
+    return dot(other, other) > 0.5 && dot(other, normal) < (kSameSurface + 0.001) * length(other);
+}
+
+bool atCrease(RsmFace face, uvec2 coord, vec3 normal) {
+    return turnsToward(face, coord, ivec2(-1, 0), normal) || turnsToward(face, coord, ivec2(1, 0), normal) ||
+           turnsToward(face, coord, ivec2(0, -1), normal) || turnsToward(face, coord, ivec2(0, 1), normal);
+}
+
+RsmTexel pointTexel(RsmFace face, uint index) {
+    int at = int(rsmIndexInFace(index, face, push.atlas.size.x)) * 3;
+    vec4 a = texelFetch(later, at), b = texelFetch(later, at + 1), c = texelFetch(later, at + 2);
+    return RsmTexel(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w);
+}
+
 void main() {
-    uint tile = gl_WorkGroupID.x;
+    uint tile = gl_WorkGroupID.x, index = rsmTexelIndex(tile, gl_LocalInvocationID.x);
     uvec2 coord = rsmTexelCoord(tile, gl_LocalInvocationID.x, push.atlas.size.x);
-    uint face = findFace(coord);
+    uint found = findFace(coord);
+    RsmFace face = faces.items[min(found, push.atlas.faceCount - 1)];
+    bool ofMap = found < push.atlas.faceCount, ofSurfaces = maps.items[face.map].kind == kMapOfSurfaces;
     RsmTexel texel = darkTexel();
-    bool ofLight = face < push.atlas.faceCount && maps.items[faces.items[min(face, push.atlas.faceCount - 1)].map].kind != kMapOfSurfaces;
-    if (ofLight) texel = makeTexel(coord, face);
-    texels.items[rsmTexelIndex(tile, gl_LocalInvocationID.x)] = texel;
-    if (gl_LocalInvocationID.x == 0)
-        tileMaps.items[tile] = face < push.atlas.faceCount ? faces.items[face].map : 0xffffffffu;
+    if (ofMap && !ofSurfaces) {
+        texel = makeTexel(coord, found);
+        if (texel.weight > 0.0 && atCrease(face, coord, texel.normal)) listPixel(ivec2(coord));
+    }
+    if (ofMap && ofSurfaces) texel = pointTexel(face, index);
+    texels.items[index] = texel;
+    if (gl_LocalInvocationID.x == 0) tileMaps.items[tile] = ofMap ? face.map : 0xffffffffu;
 }

@@ -51,7 +51,7 @@ float reachToward(TexelView v, ivec2 side) {
     ivec2 there = ivec2(v.inFace) + side;
     if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, ivec2(v.face.size)))) return 0.5;
     RsmSurface other = AG_RSM_FETCH(texels, rsmIndexOfCoord(uvec2(there) + v.face.origin, v.atlasWidth));
-    if (other.weight <= 0.0 || dot(other.normal, v.s.normal) > 0.99) return 0.5;
+    if (other.cosine <= 0.0 || dot(other.normal, v.s.normal) > kSameSurface) return 0.5;
     float here = dot(v.s.position - other.position, other.normal);
     float beyond = dot(onPlane(v, vec2(side)) - other.position, other.normal);
     float share = here / (here - beyond);

@@ -5,14 +5,16 @@
 #include "rsm/rsm_io.h"
 #include "scene/scene_io.h"
 
+const float kSameSurface = 0.99;  // cosine of two texels' normals
+
 struct RsmSurface {
     vec3 position, normal, flux;
-    float area, weight;
+    float area, weight, cosine;
 };
 
 #define AG_RSM_FETCH(texels, index) fetchRsmTexel_(texelFetch(texels, int(index) * 3), texelFetch(texels, int(index) * 3 + 1), texelFetch(texels, int(index) * 3 + 2))
 
-RsmSurface fetchRsmTexel_(vec4 a, vec4 b, vec4 c) { return RsmSurface(a.xyz, b.xyz, c.xyz, a.w, b.w); }
+RsmSurface fetchRsmTexel_(vec4 a, vec4 b, vec4 c) { return RsmSurface(a.xyz, b.xyz, c.xyz, a.w, b.w, c.w); }
 
 // Texels are stored tile by tile, so that a tile's 256 lie together: index of a texel by its tile and its place.
 uint rsmTexelIndex(uint tile, uint inTile) { return tile * (kRsmTileSize * kRsmTileSize) + inTile; }

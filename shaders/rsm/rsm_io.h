@@ -45,7 +45,7 @@ struct RsmTexel {         // 3 vec4; a texel is a small emitter (method: RSM)
     vec3 normal;          // unit
     float weight;         // mean of the flux's channels, W; 0: unlit, no emitter
     vec3 flux;            // reflected, W
-    float emitterCosine;  // light to normal at the texel, for diagnostics
+    float emitterCosine;  // light to normal at the texel; 0: unlit
 };
 
 struct RsmAtlas {  // push constants of the passes that walk the atlas
