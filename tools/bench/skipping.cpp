@@ -63,7 +63,7 @@ class Walkthrough {
                 const gi::GiSettings& settings)
         : renderer_(device), scene_(scene), size_(size), settings_(settings) {
         const reference::RayScene rays(scene);
-        const glm::vec3 seen = placeAlong(rays, {0.8f, 0.8f}), unseen = placeBehind(rays);
+        const glm::vec3 seen = placeInCorner(rays), unseen = placeBehind(rays);
         places_ = {seen, unseen};
         scene.instances.push_back({.primitive = addBox(asset.geometry), .movable = true});
         scene.geometry = &asset.geometry;
@@ -103,11 +103,18 @@ class Walkthrough {
     }
 
   private:
-    // On what is seen at a place of the picture (0 to 1), a little off it.
-    glm::vec3 placeAlong(const reference::RayScene& rays, glm::vec2 at) const {
+    // On what is seen in the picture's lower right corner, a little off it; where the sky is there, nearer to
+    // the middle.
+    glm::vec3 placeInCorner(const reference::RayScene& rays) const {
         const RenderCamera& c = scene_.camera;
-        const glm::vec4 h = c.worldFromClip * glm::vec4(at * 2.0f - 1.0f, 1, 1);
-        return hit(rays, glm::normalize(glm::vec3(h) / h.w - c.position));
+        glm::vec3 direction(0);
+        for (float at = 0.6f; at > 0; at -= 0.05f) {  // of the way from the middle to the corner
+            const glm::vec4 h = c.worldFromClip * glm::vec4(at, at, 1, 1);
+            direction = glm::normalize(glm::vec3(h) / h.w - c.position);
+            reference::Surface surface;
+            if (rays.intersect(c.position, direction, surface)) break;
+        }
+        return hit(rays, direction);
     }
     glm::vec3 placeBehind(const reference::RayScene& rays) const {
         return hit(rays, glm::normalize(-scene_.camera.forward + glm::vec3(0, -0.3f, 0)));
