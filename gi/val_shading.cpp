@@ -91,13 +91,39 @@ Gather addTiles(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, con
     return g;
 }
 
-PassBuilder addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps) {
-    PassBuilder pass = addGather(g, name, "val_shading/gather_gloss.comp", shape, taps);
-    pass.sample("albedoMap", g.gbuffer.albedo)
+// Workgroups that have a pixel with a coat.
+struct GlossyGroups {
+    BufferHandle ids, count;
+};
+
+GlossyGroups addGlossyGroups(const Gather& g, ImageHandle coat) {
+    constexpr uint32_t kBlocksOfGroup = 64;
+    const uint32_t most = (g.blocks + kBlocksOfGroup - 1) / kBlocksOfGroup;
+    const GlossyGroups groups{
+        .ids = g.graph.buffer("val_gloss.groups",
+                              {.sizeBytes = most * sizeof(uint32_t), .texelFormat = VK_FORMAT_R32_UINT}),
+        .count = g.graph.buffer("val_gloss.count", {.sizeBytes = sizeof(glm::uvec3), .indirect = true})};
+    const glm::uvec3 none(0, 1, 1);
+    g.graph.upload("val_gloss.none", groups.count, std::as_bytes(std::span(&none, 1)));
+    g.graph.compute("val_gloss.list", "val_shading/list_gloss.comp")
         .sample("reflectanceMap", g.gbuffer.reflectance)
+        .write("coat", coat)
+        .write("glossyGroups", groups.ids)
+        .readWrite("groups", groups.count)
+        .push(g.push)
+        .dispatchGroups(most);
+    return groups;
+}
+
+void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps,
+              const GlossyGroups& groups, ImageHandle coat) {
+    addGather(g, name, "val_shading/gather_gloss.comp", shape, taps)
+        .sample("albedoMap", g.gbuffer.albedo)
+        .sample("reflectanceMap", g.gbuffer.reflectance)
+        .read("glossyGroups", groups.ids)
+        .readWrite("coat", coat)
         .spec(5, list)
-        .dispatchThreads(g.blocks);
-    return pass;
+        .dispatchIndirect(groups.count);
 }
 
 }  // namespace
@@ -145,10 +171,9 @@ ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& v
     if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};
     const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
     const ImageHandle coat = graph.image("val_gloss.coat", graph.info(gbuffer.reflectance));
-    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps).write("coat", coat);
-    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps)
-        .spec(6, true)
-        .readWrite("coat", coat);
+    const GlossyGroups groups = addGlossyGroups(g, coat);
+    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, groups, coat);
+    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, groups, coat);
     return coat;
 }
 

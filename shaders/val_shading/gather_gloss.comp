@@ -1,14 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_ballot : require
 // What gloss adds to the light of one of a tile's lists, at every pixel: where neighbours share light they do not share
-// what it is reflected by. Subgroups without a glossy pixel look at no light.
+// what it is reflected by. Only workgroups that were listed as having a pixel with a coat.
 #define AG_GLOSSY
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 2) const uint kInterleave = 1;
 layout(constant_id = 5) const uint kList = 0;
-layout(constant_id = 6) const bool kAdd = false;  // to what the other list's light made
 #include "val_shading/gather_inputs.glsl"
 #include "val_shading/gloss.glsl"
 
@@ -16,6 +14,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 8) uniform sampler2D albedoMap;
 layout(set = 0, binding = 9) uniform sampler2D reflectanceMap;
 layout(set = 0, binding = 10, rgba16f) uniform image2D coat;
+layout(set = 0, binding = 11) uniform usamplerBuffer glossyGroups;
 
 struct GlossyPixel {
     Receiver receiver;
@@ -62,22 +61,16 @@ void addLights(TileBlock block, inout GlossyPixel g[kPixels]) {
 }
 
 void main() {
-    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    uint group = texelFetch(glossyGroups, int(gl_WorkGroupID.x)).x;
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     ivec2 size = ivec2(camera.camera.size);
     GlossyPixel g[kPixels];
-    bool glossy = false;
-    [[unroll]] for (int p = 0; p < kPixels; ++p) {
-        g[p] = glossyPixelAt(min(pixelOf(block, p), size - 1));
-        glossy = glossy || g[p].glossy;
-    }
-    bool anyGlossy = subgroupBallot(glossy) != uvec4(0);
-    if (anyGlossy) addLights(block, g);
-    else if (kAdd) return;
+    [[unroll]] for (int p = 0; p < kPixels; ++p) g[p] = glossyPixelAt(min(pixelOf(block, p), size - 1));
+    addLights(block, g);
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
         if (block.spare || any(greaterThanEqual(pixel, size))) continue;
-        vec3 radiance = g[p].radiance;
-        if (kAdd) radiance += imageLoad(coat, pixel).rgb;
+        vec3 radiance = g[p].radiance + imageLoad(coat, pixel).rgb;
         imageStore(coat, pixel, vec4(g[p].glossy ? min(radiance, vec3(kMostHalf)) : vec3(0.0), 1.0));
     }
 }
