@@ -10,6 +10,12 @@
 #include "shaders/val_shading/val_shading_io.h"
 
 namespace ag::gi {
+namespace {
+
+// As ValShadingSettings'. Farther than on screen: what disks are off by comes back in every bounce.
+constexpr float kNearReach = 6;
+
+}  // namespace
 
 LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterBouncesSettings& s,
                          Settling& settling) {
@@ -50,7 +56,7 @@ void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& 
     const uint32_t runs = (light.count + io::kRunPoints - 1) / io::kRunPoints;
     const io::GatherPush push{.count = light.count,
                               .valCount = s.feedback ? vals.count : std::min(vals.count, firstLater),
-                              .nearReach = shading.nearReach,
+                              .nearReach = kNearReach,
                               .ismTileSize = isms.tileSize};
     const BufferHandle counts = graph.buffer("later_bounces.counts", {.sizeBytes = runs * 8ull});
     const BufferHandle lists = graph.buffer(

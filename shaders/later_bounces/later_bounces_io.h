@@ -32,7 +32,7 @@ const uint kRunPoints = 64;  // one after another, which share lists of near and
 struct GatherPush {
     uint count;
     uint valCount;
-    float nearReach;  // as ValShadingPush's
+    float nearReach;   // as ValShadingPush's
     uint ismTileSize;  // texels along a shadow map's side
 };
 

@@ -52,6 +52,7 @@ void moveLast(RenderScene& scene) {
 void addPasses(const Case& c, std::set<std::string>& names) {
     SceneAsset asset = *scenegen::buildScene(c.scene, c.param);
     asset.geometry.materials[0].alphaMode = AlphaMode::kMask;
+    asset.geometry.materials[0].specular = 1;
     RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
     ASSERT_TRUE(gi::applyPreset(c.preset, settings.gi));
     settings.gi.laterBounces.enabled = c.laterBounces;

@@ -80,12 +80,12 @@ TEST(Diff, SaysWhereAChangeBegan) {
 TEST(Diff, FindsWhatWasDoneToRealFrames) {
     const Saved plain = save(seen(), "plain");
     const Capture slowed = record([](RecordSettings& s) {
-        s.graph.repeatPass = "rsm.trim_texels";
+        s.graph.repeatPass = "val_clustering.assign";
         s.graph.repeats = 30;
     });
     const Diff slow = compareCaptures(plain, save(slowed, "slowed"), {.leastRatio = 5});
     ASSERT_FALSE(slow.slower.empty()) << diffText(slow);  // a busy machine may have slowed others, by less
-    EXPECT_EQ(slow.slower[0].pass, "rsm.trim_texels");
+    EXPECT_EQ(slow.slower[0].pass, "val_clustering.assign");
     EXPECT_TRUE(slow.changed.empty()) << diffText(slow);
 
     const Capture brighter = record([](RecordSettings& s) { s.gi.composite.exposure = 1; });

@@ -154,9 +154,9 @@ const std::map<std::string, Layout>& layouts() {
          {sizeof(io::IsmMapState), {AG_MEMBER(IsmMapState, pointCount), AG_MEMBER(IsmMapState, kept)}}},
         {"ValShadingPush",
          {sizeof(io::ValShadingPush),
-          {AG_MEMBER(ValShadingPush, valCount), AG_MEMBER(ValShadingPush, tileSize),
-           AG_MEMBER(ValShadingPush, tiles), AG_MEMBER(ValShadingPush, nearReach),
-           AG_MEMBER(ValShadingPush, ismTileSize)}}}};
+          {AG_MEMBER(ValShadingPush, valCount), AG_MEMBER(ValShadingPush, firstVal),
+           AG_MEMBER(ValShadingPush, tileSize), AG_MEMBER(ValShadingPush, tiles),
+           AG_MEMBER(ValShadingPush, nearReach), AG_MEMBER(ValShadingPush, ismTileSize)}}}};
     return all;
 }
 
