@@ -113,8 +113,9 @@ void setLow(GiSettings& gi) {
 void setAfterglow(GiSettings&) {}
 
 void setAfterglowBounces(GiSettings& gi) {
-    gi.laterBounces.enabled = true;
+    gi.laterBounces = {.enabled = true, .spacing = 3};
     gi.valClustering.count = 256;
+    gi.ismAtlas.tileSize = 32;
 }
 
 void setHigh(GiSettings& gi) {

@@ -26,7 +26,7 @@ float weightOf(IsmLight light, uint segment) {
 
 // The factor from weight to points that makes them entryCount, no segment having more than all of its own.
 float pointsPerWeight(IsmLight light) {
-    const int kRounds = 4;
+    const int kRounds = 2;
     float factor = 0.0;
     for (int round_ = 0; round_ < kRounds; ++round_) {
         float full = 0.0, rest = 0.0;

@@ -28,7 +28,7 @@ std::vector<Variant> mapSizes(std::initializer_list<int> sizes) {
 // More clusters need more texels: outlines of few are worse than those of larger clusters.
 std::vector<Variant> ours() {
     std::vector<Variant> variants = clusterBudgets({64, 128});
-    for (const int count : {256, 512})
+    for (const int count : {128, 256, 512})
         variants.push_back({fmt::format("{}, map 512²", count),
                             {fmt::format("val_clustering.count={}", count), "rsm.resolution=512"}});
     variants.push_back({"128 not adaptive", {"val_clustering.adaptive=off"}});
@@ -38,9 +38,10 @@ std::vector<Variant> ours() {
 std::vector<Variant> twoBounces() {
     std::vector<Variant> variants;
     for (const int count : {128, 256})
-        variants.push_back({fmt::format("{}, map 512²", count),
-                            {fmt::format("val_clustering.count={}", count), "rsm.resolution=512",
-                             "later_bounces.feedback=off"}});
+        variants.push_back({fmt::format("{}", count),
+                            {fmt::format("val_clustering.count={}", count), "later_bounces.feedback=off"}});
+    variants.push_back(
+        {"256, maps 512²", {"val_clustering.count=256", "rsm.resolution=512", "later_bounces.feedback=off"}});
     return variants;
 }
 
