@@ -208,7 +208,7 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"gi", "spacing", 1, 4, "pixels", "from one that indirect light is gathered at to the next"},
           &gi.spacing);
     s.add({"rsm", "resolution", 0, 1024, "texels",
-           "side of a light map, rounded down to a multiple of 16; 0: as each light says"},
+           "side of a light map, rounded down to a power of two; 0: as each light says"},
           &gi.rsm.resolution);
     s.add({"rsm", "sun_margin", 0, 1, "", "part of the scene's width added round a sun's map"},
           &gi.rsm.sunMargin);

@@ -95,21 +95,32 @@ struct Splat {
     uint32_t texelGroups() const { return atlas.tileSize * atlas.tileSize / 256; }
 };
 
-void addSplat(const Splat& s, std::string_view name, BufferHandle states, BufferHandle keys,
-              const io::IsmSplatPush& push) {
-    s.graph.compute(name, "ism_atlas/splat_points.comp")
-        .read("points", s.points.points)
+uint32_t splatGroups(const io::IsmSplatPush& push) {
+    return (push.entryCount + 63) / 64;
+}
+
+PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle states, BufferHandle keys,
+                     const io::IsmSplatPush& push) {
+    PassBuilder pass = s.graph.compute(name, "ism_atlas/splat_points.comp");
+    pass.read("points", s.points.points)
         .read("vals", s.vals.vals)
         .read("chosen", s.atlas.chosen)
         .read("states", states)
         .readWrite("keys", keys)
         .spec(3, s.settings.mapping == IsmMapping::kParaboloid)
-        .push(push)
-        .dispatchGroups((push.entryCount + 63) / 64, s.atlas.mapCount);
+        .push(push);
+    return pass;
 }
 
-// All that stands still: maps are kept where neither it nor the light has moved.
+// All that stands still: maps are kept where neither it nor the light has moved; a splat of those would cost
+// its workgroups all the same, so the others are listed.
 void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
+    const BufferHandle anew = s.graph.buffer(
+        "ism_atlas.anew", {.sizeBytes = s.atlas.mapCount * sizeof(uint32_t), .texelFormat = kUint});
+    const BufferHandle anewGroups =
+        s.graph.buffer("ism_atlas.anew_groups", {.sizeBytes = sizeof(glm::uvec3), .indirect = true});
+    const glm::uvec3 none(splatGroups(push), 0, 1);
+    s.graph.upload("ism_atlas.none_anew", anewGroups, std::as_bytes(std::span(&none, 1)));
     s.graph.compute("ism_atlas.choose", "ism_atlas/choose_still.comp")
         .read("segments", s.points.segments)
         .read("vals", s.vals.vals)
@@ -118,6 +129,8 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .write("places", kept.places.current)
         .write("chosen", kept.chosen.current)
         .write("states", s.atlas.states)
+        .write("anew", anew)
+        .readWrite("anewGroups", anewGroups)
         .spec(0, s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
@@ -127,7 +140,10 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .write("keys", kept.keys.current)
         .push(push)
         .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
-    addSplat(s, "ism_atlas.splat", s.atlas.states, kept.keys.current, push);
+    addSplat(s, "ism_atlas.splat", s.atlas.states, kept.keys.current, push)
+        .read("listed", anew)
+        .spec(4, true)
+        .dispatchIndirect(anewGroups);
 }
 
 // What may move, over a copy of that; every map anew.
@@ -150,7 +166,9 @@ BufferHandle addMovingLayer(const Splat& s, BufferHandle stillKeys, const io::Is
         .write("keys", keys)
         .push(push)
         .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
-    addSplat(s, "ism_atlas.splat_moving", states, keys, push);
+    addSplat(s, "ism_atlas.splat_moving", states, keys, push)
+        .read("listed", s.atlas.chosen)  // not looked at
+        .dispatchGroups(splatGroups(push), s.atlas.mapCount);
     return keys;
 }
 

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// The still points each map is made of. A map whose light and whose still points stand where they stood is kept.
+// The still points each map is made of. A map whose light and whose still points stand where they stood is kept; the
+// others are listed to be splatted.
 #include "common/lane_loop.glsl"
 #include "ism_atlas/ism_atlas_io.h"
 
@@ -16,6 +17,8 @@ layout(set = 0, binding = 3, scalar) writeonly buffer Places { IsmPlace items[];
 layout(set = 0, binding = 4, scalar) writeonly buffer States { IsmMapState items[]; } states;
 layout(set = 0, binding = 5, scalar) readonly buffer PreviousPlaces { IsmPlace items[]; } previousPlaces;
 layout(set = 0, binding = 6) uniform usamplerBuffer previousChosen;
+layout(set = 0, binding = 7, scalar) writeonly buffer Anew { uint items[]; } anew;
+layout(set = 0, binding = 8, scalar) buffer AnewGroups { uvec3 count; } anewGroups;
 #include "ism_atlas/choose_points.glsl"
 
 void main() {
@@ -37,5 +40,6 @@ void main() {
     if (gl_SubgroupInvocationID == 0) {
         places.items[map] = place;
         states.items[map] = state;
+        if (state.pointCount > 0) anew.items[atomicAdd(anewGroups.count.y, 1)] = map;
     }
 }

@@ -17,6 +17,9 @@ layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 3) uniform usamplerBuffer chosen;
 layout(set = 0, binding = 4, scalar) readonly buffer States { IsmMapState items[]; } states;
 layout(set = 0, binding = 2, scalar) buffer Keys { uint items[]; } keys;
+layout(set = 0, binding = 5) uniform usamplerBuffer listed;  // maps, in any order
+
+layout(constant_id = 4) const bool kListed = false;  // else every map
 
 const float kLeastSine = 0.01;  // lower above the light's plane is its own surface
 const int kSmallTexels = 25;    // splatted by one lane, larger ones by the whole subgroup
@@ -105,7 +108,7 @@ Splat splatOfLane(Splat mine, uint lane) {
 }
 
 void main() {
-    uint map = gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
+    uint map = kListed ? texelFetch(listed, int(gl_WorkGroupID.y)).x : gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
     uint entry = push.p.firstEntry + min(gl_GlobalInvocationID.x, push.p.entryCount - 1);
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
     if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.high = mine.low - 1;

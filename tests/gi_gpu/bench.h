@@ -1,6 +1,7 @@
 // A renderer on a scene for the tests of this folder.
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "engine/scene/static_scene.h"
@@ -61,5 +62,24 @@ struct Bench {
     GiFrame last;
     std::function<void(FrameGraph&, const GiFrame&)> output;  // what a test reads besides
 };
+
+inline double meanOf(const Image& image) {
+    double sum = 0;
+    for (const glm::vec3& p : image.pixels)
+        sum += double(p.x + p.y + p.z) / 3;
+    return sum / double(image.pixels.size());
+}
+
+inline float luminanceOf(glm::vec3 c) {
+    return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+// Of the pixels, how many differ by more than that.
+inline double shareOff(const Image& image, const Image& truth, double most) {
+    size_t off = 0;
+    for (size_t i = 0; i < truth.pixels.size(); ++i)
+        off += double(std::abs(luminanceOf(image.pixels[i] - truth.pixels[i]))) > most;
+    return double(off) / double(truth.pixels.size());
+}
 
 }  // namespace ag::gi

@@ -30,17 +30,6 @@ Image bounceImage(Bench& b) {
                                 : Image(int(b.size.x), int(b.size.y));
 }
 
-double meanOf(const Image& image) {
-    double sum = 0;
-    for (const glm::vec3& p : image.pixels)
-        sum += double(p.x + p.y + p.z) / 3;
-    return sum / double(image.pixels.size());
-}
-
-float luminanceOf(glm::vec3 c) {
-    return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-}
-
 double meanOverFrames(Bench& b, int frames) {
     double sum = 0;
     for (int i = 0; i < frames; ++i)
@@ -108,10 +97,7 @@ TEST(Upsampling, IsWhatAllPixelsWouldHave) {
                               });
         const Image truth = readImage(b.renderer, all), image = readImage(b.renderer, spread);
         const double mean = meanOf(truth);
-        size_t off = 0;
-        for (size_t i = 0; i < truth.pixels.size(); ++i)
-            off += std::abs(luminanceOf(image.pixels[i] - truth.pixels[i])) > 0.05 * mean;
-        const double share = double(off) / double(truth.pixels.size());
+        const double share = shareOff(image, truth, 0.05 * mean);
         std::printf("every %u. pixel: %.2f %% of the pixels are off by 5 %% of the mean, mean ratio %.4f\n",
                     spacing, 100 * share, meanOf(image) / mean);
         EXPECT_LT(share, spacing == 2 ? 0.02 : 0.04);

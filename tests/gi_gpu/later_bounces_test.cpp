@@ -120,5 +120,28 @@ TEST(LaterBounces, SameFrameTwiceSameBits) {
     }
 }
 
+// Their light is gathered at fewer pixels, as nothing in it is fine.
+TEST(LaterBounces, AtFewerPixelsAreWhatAllWouldHave) {
+    Bench b(*scenegen::buildScene("cornell", 0), {320, 180});
+    b.settings.laterBounces = {.enabled = true, .feedback = false};
+    b.output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.indirect.image); };
+    const auto settled = [&](uint32_t spacing) {
+        b.settings.laterBounces.spacing = spacing;
+        for (int frame = 0; frame < 80; ++frame)
+            b.frame();
+        return readImage(b.renderer, b.last.indirect.image);
+    };
+    const Image truth = settled(1);
+    const double mean = meanOf(truth);
+    for (const uint32_t spacing : {2u, 3u}) {
+        const Image image = settled(spacing);
+        const double share = shareOff(image, truth, 0.05 * mean);
+        std::printf("every %u. pixel: %.2f %% of the pixels are off by 5 %% of the mean, mean ratio %.4f\n",
+                    spacing, 100 * share, meanOf(image) / mean);
+        EXPECT_LT(share, spacing == 2 ? 0.02 : 0.04);
+        EXPECT_NEAR(meanOf(image) / mean, 1, 0.003);
+    }
+}
+
 }  // namespace
 }  // namespace ag::gi
