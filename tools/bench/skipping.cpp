@@ -23,6 +23,7 @@ constexpr std::array<std::string_view, size_t(Change::kCount)> kNames = {"all pa
                                                                          "the camera, all lights off"};
 constexpr uint32_t kWarmFrames = 48;  // for what settles
 constexpr uint32_t kTimedFrames = 12, kCpuFrames = 6;
+constexpr uint32_t kLateFrames = 4;      // times arrive some frames late
 constexpr float kThingSize = 1.0f / 40;  // of the scene's diagonal
 
 float diagonalOf(const RenderScene& scene) {
@@ -83,8 +84,8 @@ class Walkthrough {
             frame(change, {});
         for (uint32_t i = 0; i < kTimedFrames; ++i) {
             frame(change, {.skip = change != Change::kEverything});
-            if (i < kTimedFrames / 3) continue;  // times arrive some frames late
-            constexpr double kShare = 1.0 / (kTimedFrames - kTimedFrames / 3);
+            if (i < kLateFrames) continue;
+            constexpr double kShare = 1.0 / (kTimedFrames - kLateFrames);
             for (const PassReport& pass : renderer_.graph().report()) {
                 if (pass.outcome != PassOutcome::kRan) continue;
                 cost.gpuMs += pass.gpuMs * kShare;
