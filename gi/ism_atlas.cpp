@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "gi/pixel_list.h"
 
 namespace ag::gi {
 namespace {
@@ -13,6 +14,8 @@ constexpr uint32_t kCoarsestSize = 4;  // texels along the last level's tile
 constexpr uint32_t kMostLevels = 6;
 constexpr uint32_t kTileSizeStep = 16;  // tiles are whole workgroups, and each level half the one before
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
+
+constexpr WorkListNames kMapsAnew = {"ism_atlas.anew", "ism_atlas.anew_groups", "ism_atlas.none_anew"};
 
 // The graph keeps views of pass names, so they are literals.
 constexpr std::array<std::string_view, kMostLevels> kPullNames = {"ism_atlas.close", "ism_atlas.pull2",
@@ -115,12 +118,7 @@ PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle states,
 // All that stands still: maps are kept where neither it nor the light has moved; a splat of those would cost
 // its workgroups all the same, so the others are listed.
 void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
-    const BufferHandle anew = s.graph.buffer(
-        "ism_atlas.anew", {.sizeBytes = s.atlas.mapCount * sizeof(uint32_t), .texelFormat = kUint});
-    const BufferHandle anewGroups =
-        s.graph.buffer("ism_atlas.anew_groups", {.sizeBytes = sizeof(glm::uvec3), .indirect = true});
-    const glm::uvec3 none(splatGroups(push), 0, 1);
-    s.graph.upload("ism_atlas.none_anew", anewGroups, std::as_bytes(std::span(&none, 1)));
+    const WorkList anew = addWorkList(s.graph, kMapsAnew, s.atlas.mapCount, {splatGroups(push), 0, 1});
     s.graph.compute("ism_atlas.choose", "ism_atlas/choose_still.comp")
         .read("segments", s.points.segments)
         .read("vals", s.vals.vals)
@@ -129,8 +127,8 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .write("places", kept.places.current)
         .write("chosen", kept.chosen.current)
         .write("states", s.atlas.states)
-        .write("anew", anew)
-        .readWrite("anewGroups", anewGroups)
+        .write("anew", anew.items)
+        .readWrite("anewGroups", anew.groups)
         .spec(0, s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
@@ -141,9 +139,9 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .push(push)
         .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
     addSplat(s, "ism_atlas.splat", s.atlas.states, kept.keys.current, push)
-        .read("listed", anew)
+        .read("listed", anew.items)
         .spec(4, true)
-        .dispatchIndirect(anewGroups);
+        .dispatchIndirect(anew.groups);
 }
 
 // What may move, over a copy of that; every map anew.

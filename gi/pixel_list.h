@@ -19,6 +19,18 @@ struct PixelListNames {
     std::string_view pixels, noPixels, groups, noGroups;
 };
 
+// The same of anything else an uint can name; how many is counted by the groups alone.
+struct WorkList {
+    BufferHandle items;   // uint each; also a texel buffer
+    BufferHandle groups;  // what dispatchIndirect takes
+};
+struct WorkListNames {
+    std::string_view items, groups, noGroups;
+};
+
+// An empty list for at most so many; `none`: the groups dispatched for it.
+WorkList addWorkList(FrameGraph& graph, const WorkListNames& names, uint32_t most, glm::uvec3 none);
+
 // An empty list for at most every pixel of an image of `size`.
 PixelList addPixelList(FrameGraph& graph, const PixelListNames& names, glm::uvec2 size);
 

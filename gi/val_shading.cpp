@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gi/pixel_list.h"
 #include "shaders/val_shading/val_shading_io.h"
 
 namespace ag::gi {
@@ -9,6 +10,8 @@ namespace {
 
 constexpr ValTileNames kGlossTiles = {"val_gloss.classify", "val_gloss.lists", "val_gloss.counts",
                                       "val_gloss.lacking", "val_gloss.lacking_counts"};
+
+constexpr WorkListNames kGlossyGroups = {"val_gloss.glossy", "val_gloss.groups", "val_gloss.none"};
 
 // A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks. Where pixels are
 // left out tiles are smaller, so that no more lights are near to one.
@@ -92,38 +95,27 @@ Gather addTiles(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, con
 }
 
 // Workgroups that have a pixel with a coat.
-struct GlossyGroups {
-    BufferHandle ids, count;
-};
-
-GlossyGroups addGlossyGroups(const Gather& g, ImageHandle coat) {
-    constexpr uint32_t kBlocksOfGroup = 64;
-    const uint32_t most = (g.blocks + kBlocksOfGroup - 1) / kBlocksOfGroup;
-    const GlossyGroups groups{
-        .ids = g.graph.buffer("val_gloss.groups",
-                              {.sizeBytes = most * sizeof(uint32_t), .texelFormat = VK_FORMAT_R32_UINT}),
-        .count = g.graph.buffer("val_gloss.count", {.sizeBytes = sizeof(glm::uvec3), .indirect = true})};
-    const glm::uvec3 none(0, 1, 1);
-    g.graph.upload("val_gloss.none", groups.count, std::as_bytes(std::span(&none, 1)));
+WorkList addGlossyGroups(const Gather& g, ImageHandle coat) {
+    const WorkList glossy = addWorkList(g.graph, kGlossyGroups, g.blocks, {0, 1, 1});
     g.graph.compute("val_gloss.list", "val_shading/list_gloss.comp")
         .sample("reflectanceMap", g.gbuffer.reflectance)
         .write("coat", coat)
-        .write("glossyGroups", groups.ids)
-        .readWrite("groups", groups.count)
+        .write("glossyGroups", glossy.items)
+        .readWrite("groups", glossy.groups)
         .push(g.push)
-        .dispatchGroups(most);
-    return groups;
+        .dispatchThreads(g.blocks);
+    return glossy;
 }
 
 void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps,
-              const GlossyGroups& groups, ImageHandle coat) {
+              const WorkList& glossy, ImageHandle coat) {
     addGather(g, name, "val_shading/gather_gloss.comp", shape, taps)
         .sample("albedoMap", g.gbuffer.albedo)
         .sample("reflectanceMap", g.gbuffer.reflectance)
-        .read("glossyGroups", groups.ids)
+        .read("glossyGroups", glossy.items)
         .readWrite("coat", coat)
         .spec(5, list)
-        .dispatchIndirect(groups.count);
+        .dispatchIndirect(glossy.groups);
 }
 
 }  // namespace
@@ -171,9 +163,9 @@ ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& v
     if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};
     const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
     const ImageHandle coat = graph.image("val_gloss.coat", graph.info(gbuffer.reflectance));
-    const GlossyGroups groups = addGlossyGroups(g, coat);
-    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, groups, coat);
-    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, groups, coat);
+    const WorkList glossy = addGlossyGroups(g, coat);
+    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, glossy, coat);
+    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, glossy, coat);
     return coat;
 }
 

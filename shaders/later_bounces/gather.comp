@@ -16,7 +16,7 @@ layout(set = 0, binding = 5) uniform samplerBuffer isms;
 #include "val_shading/light_lists.glsl"
 
 const int kPoints = 4;  // an invocation: a light in registers shines on all of them
-layout(local_size_x = 16) in;  // a run
+layout(local_size_x = kRunPoints / kPoints) in;
 
 layout(push_constant, scalar) uniform Push { GatherPush p; } push;
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
@@ -41,15 +41,7 @@ void main() {
         points.x[p] = texelFetch(texels, at).xyz, points.n[p] = texelFetch(texels, at + 1).xyz, points.e[p] = vec3(0.0);
     }
     uint start = listStart(run_, kList, push.p.valCount), count = counts.items[run_][kList];
-    if (kLaneParallel) {
-        for (uint base = 0; base < count; base += kSubgroupSize) {
-            AreaLight mine = loadLight(texelFetch(lists, int(start + min(base + gl_SubgroupInvocationID, count - 1))).x);
-            uint here = min(kSubgroupSize, count - base);
-            [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) addLight(lightOfLane(mine, lane), points);
-        }
-    } else {
-        for (uint i = 0; i < count; ++i) addLight(loadLight(texelFetch(lists, int(start + i)).x), points);
-    }
+    AG_MEET_LIGHTS(start, count, addLight(l, points))
     [[unroll]] for (int p = 0; p < kPoints; ++p) {
         uint at = first + p;
         if (at >= push.p.count) continue;

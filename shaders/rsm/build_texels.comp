@@ -72,10 +72,13 @@ RsmTexel makeTexel(uvec2 coord, uint faceIndex) {
     return RsmTexel(position, crossSection / cosine, normal, weight, flux, cosine);
 }
 
+const float kRounding = 0.001;
+
+// Whether a neighbour's surface may be another one, by normals of half floats; where nothing was drawn there is none.
 bool turnsToward(RsmFace face, uvec2 coord, ivec2 side, vec3 normal) {
     ivec2 there = clamp(ivec2(coord) + side, ivec2(face.origin), ivec2(face.origin + face.size) - 1);
     vec3 other = texelFetch(normalMap, there, 0).xyz;
-    return dot(other, other) > 0.5 && dot(other, normal) < (kSameSurface + 0.001) * length(other);
+    return dot(other, other) > 0.5 && dot(other, normal) < (kSameSurface + kRounding) * length(other);
 }
 
 bool atCrease(RsmFace face, uvec2 coord, vec3 normal) {

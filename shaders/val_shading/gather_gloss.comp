@@ -41,23 +41,13 @@ void addGloss(AreaLight l, inout GlossyPixel g) {
     g.radiance += coatRadiance(g.coat, r.position, r.normal, l, e);
 }
 
+void addGlossToAll(AreaLight l, inout GlossyPixel g[kPixels]) {
+    [[unroll]] for (int p = 0; p < kPixels; ++p) addGloss(l, g[p]);
+}
+
 void addLights(TileBlock block, inout GlossyPixel g[kPixels]) {
     uint start = listStart(block.tile, kList, push.p.valCount), count = counts.items[block.tile][kList];
-    if (!kLaneParallel) {
-        for (uint i = 0; i < count; ++i) {
-            AreaLight l = loadLight(texelFetch(lists, int(start + i)).x);
-            [[unroll]] for (int p = 0; p < kPixels; ++p) addGloss(l, g[p]);
-        }
-        return;
-    }
-    for (uint base = 0; base < count; base += kSubgroupSize) {
-        AreaLight mine = loadLight(texelFetch(lists, int(start + min(base + gl_SubgroupInvocationID, count - 1))).x);
-        uint here = min(kSubgroupSize, count - base);
-        [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {
-            AreaLight l = lightOfLane(mine, lane);
-            [[unroll]] for (int p = 0; p < kPixels; ++p) addGloss(l, g[p]);
-        }
-    }
+    AG_MEET_LIGHTS(start, count, addGlossToAll(l, g))
 }
 
 void main() {

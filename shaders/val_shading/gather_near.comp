@@ -101,6 +101,10 @@ void addFarIrradiance(TileBounds bounds, ivec2 corner, Surface s[kPixels], inout
     }
 }
 
+void addLightToAll(AreaLight l, inout Receiver r[kPixels]) {
+    [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
+}
+
 void main() {
     TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     ivec2 size = ivec2(camera.camera.size);
@@ -119,21 +123,7 @@ void main() {
         for (int p = 0; p < kPixels; ++p) noteLacking(block, p, lackingParts[p]);
     }
     uint start = listStart(block.tile, kNearList, push.p.valCount), count = counts.items[block.tile].x;
-    if (kLaneParallel) {
-        for (uint base = 0; base < count; base += kSubgroupSize) {
-            AreaLight mine = loadLight(texelFetch(lists, int(start + min(base + gl_SubgroupInvocationID, count - 1))).x);
-            uint here = min(kSubgroupSize, count - base);
-            [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {
-                AreaLight l = lightOfLane(mine, lane);
-                [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
-            }
-        }
-    } else {
-        for (uint i = 0; i < count; ++i) {
-            AreaLight l = loadLight(texelFetch(lists, int(start + i)).x);
-            [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
-        }
-    }
+    AG_MEET_LIGHTS(start, count, addLightToAll(l, r))
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
         if (any(greaterThanEqual(pixel, size))) continue;

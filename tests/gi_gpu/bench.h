@@ -1,7 +1,10 @@
 // A renderer on a scene for the tests of this folder.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "engine/scene/static_scene.h"
@@ -80,6 +83,15 @@ inline double shareOff(const Image& image, const Image& truth, double most) {
     for (size_t i = 0; i < truth.pixels.size(); ++i)
         off += double(std::abs(luminanceOf(image.pixels[i] - truth.pixels[i]))) > most;
     return double(off) / double(truth.pixels.size());
+}
+
+// Light gathered at every spacing-th pixel is what all pixels would have, but in creases.
+inline void expectAlike(const Image& image, const Image& truth, uint32_t spacing) {
+    const double mean = meanOf(truth), share = shareOff(image, truth, 0.05 * mean);
+    std::printf("every %u. pixel: %.2f %% of the pixels are off by 5 %% of the mean, mean ratio %.4f\n",
+                spacing, 100 * share, meanOf(image) / mean);
+    EXPECT_LT(share, spacing == 2 ? 0.02 : 0.04);
+    EXPECT_NEAR(meanOf(image) / mean, 1, 0.002);
 }
 
 }  // namespace ag::gi
