@@ -17,11 +17,11 @@ struct Row {
 constexpr std::array kRows = {Row{"half", 0.5f, 64, 48, 32, 768, 3, 2, 4, 0.21},
                               Row{"three quarters", 0.75f, 64, 48, 32, 768, 3, 2, 4, 0.3},
                               Row{"below low", 1, 64, 48, 32, 768, 3, 2, 4, 0.43},
-                              Row{"low", 1, 0, 64, 32, 1024, 3, 2, 4, 0.55},
-                              Row{"low 80", 1, 0, 80, 32, 1536, 3, 2, 4, 0.66},
-                              Row{"low 96", 1, 0, 96, 32, 1536, 3, 2, 4, 0.7},
-                              Row{"low 112", 1, 0, 112, 32, 2048, 3, 2, 4, 0.78},
-                              Row{"low 112, 2 x 2", 1, 0, 112, 32, 1536, 2, 2, 4, 0.84},
+                              Row{"low", 1, 256, 64, 32, 1024, 3, 2, 4, 0.55},
+                              Row{"low 80", 1, 256, 80, 32, 1536, 3, 2, 4, 0.66},
+                              Row{"low 96", 1, 256, 96, 32, 1536, 3, 2, 4, 0.7},
+                              Row{"low 112", 1, 256, 112, 32, 2048, 3, 2, 4, 0.78},
+                              Row{"low 112, 2 x 2", 1, 256, 112, 32, 1536, 2, 2, 4, 0.84},
                               Row{"medium 112", 1, 0, 112, 48, 1536, 2, 2, 4, 0.94},
                               Row{"medium", 1, 0, 128, 48, 1536, 2, 2, 4, 1},
                               Row{"medium 144", 1, 0, 144, 48, 1536, 2, 2, 4, 1.09},
@@ -37,8 +37,8 @@ constexpr std::array kRows = {Row{"half", 0.5f, 64, 48, 32, 768, 3, 2, 4, 0.21},
                               Row{"ultra, 8 taps", 1, 512, 512, 64, 6144, 2, 4, 8, 4.8},
                               Row{"ultra 416, 8 taps", 1, 512, 416, 96, 5120, 2, 4, 8, 5.8},
                               Row{"ultra 384, 8 taps", 1, 512, 384, 128, 4096, 2, 4, 8, 6.8},
-                              Row{"ultra, 12 taps", 1, 512, 512, 128, 6144, 2, 4, 12, 9.1},
-                              Row{"ultra", 1, 512, 512, 128, 8192, 2, 6, 16, 9.9}};
+                              Row{"ultra, 12 taps", 1, 1024, 512, 128, 6144, 2, 4, 12, 9.1},
+                              Row{"ultra", 1, 1024, 512, 128, 8192, 2, 6, 16, 9.9}};
 
 // Of the budget: what a frame may take before a faster step is chosen, what a step may be expected to take if
 // it was never seen and if it was. Between the first and the last nothing changes.

@@ -19,6 +19,7 @@ void setRsmBrute(GiSettings& gi) {
 }
 
 void setRsm400(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 400, .radius = 0.3f};
@@ -26,6 +27,7 @@ void setRsm400(GiSettings& gi) {
 
 // Eight samples and the article's denoiser; ours.
 void setIrsm(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 8, .radius = 0.3f, .random = true};
@@ -38,6 +40,7 @@ void setIrsm(GiSettings& gi) {
 }
 
 void setStochastic(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 8, .random = true, .whole = true, .visible = true};
     gi.denoiser = {.enabled = true, .rounds = 2};
@@ -45,6 +48,7 @@ void setStochastic(GiSettings& gi) {
 
 // Point lights with hard shadows out of uniform points; distances in paraboloids of the atlas's full size.
 void setIsm(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kPointLights;
     gi.importance.viewWeight = 0;
@@ -61,6 +65,7 @@ void setIsm(GiSettings& gi) {
 // 256 point lights and as many of the second bounce, 4x4 pixels share them; the edge-aware Gaussian is a
 // round of the denoiser's filter over one frame.
 void setSsvp(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kSsvp;
     gi.valClustering.count = 256;
@@ -77,6 +82,7 @@ void setSsvp(GiSettings& gi) {
 }
 
 void setRsmc(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.ismAtlas.enabled = false;
     gi.valShading.farShape = ValShape::kDisk;
@@ -105,6 +111,7 @@ void setAcrsm(GiSettings& gi) {
 
 // Ours by budget: lights, points a shadow map is made of, and how many pixels are gathered.
 void setLow(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.valClustering.count = 64;
     gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
     gi.spacing = 3;
@@ -113,6 +120,7 @@ void setLow(GiSettings& gi) {
 void setAfterglow(GiSettings&) {}
 
 void setAfterglowBounces(GiSettings& gi) {
+    gi.rsm.resolution = 256;
     gi.laterBounces = {.enabled = true, .spacing = 3};
     gi.valClustering.count = 256;
     gi.ismAtlas.tileSize = 32;
@@ -125,7 +133,7 @@ void setHigh(GiSettings& gi) {
 }
 
 void setUltra(GiSettings& gi) {
-    gi.rsm.resolution = 512;
+    gi.rsm.resolution = 1024;
     gi.valClustering.count = 512;
     gi.ismAtlas = {.tileSize = 128, .pointsPerMap = 8192};
     gi.valShading.nearReach = 6;
@@ -207,9 +215,10 @@ void registerSettings(Settings& s, GiSettings& gi) {
           &gi.firstBounce);
     s.add({"gi", "spacing", 1, 4, "pixels", "from one that indirect light is gathered at to the next"},
           &gi.spacing);
-    s.add({"rsm", "resolution", 0, 1024, "texels",
-           "side of a light map, rounded down to a power of two; 0: as each light says"},
-          &gi.rsm.resolution);
+    s.add(
+        {"rsm", "resolution", 0, 1024, "texels",
+         "side of a light map, rounded down to a power of two, less with many lights; 0: as each light says"},
+        &gi.rsm.resolution);
     s.add({"rsm", "sun_margin", 0, 1, "", "part of the scene's width added round a sun's map"},
           &gi.rsm.sunMargin);
     s.add({"importance", "view_weight", 0, 1, "", "seed clusters by flux (0) or by what faces the view (1)"},

@@ -3,10 +3,14 @@
 namespace ag::gi {
 namespace {
 
+uint32_t blocksAlong(uint32_t face) {
+    return face / io::blockSide(face);
+}
+
 // Nodes of a full 2x2 pyramid over the largest face's blocks.
 uint32_t pyramidNodes(uint32_t largestFace) {
     uint32_t nodes = 0;
-    for (uint32_t side = largestFace / io::kImportanceBlock; side > 0; side /= 2)
+    for (uint32_t side = blocksAlong(largestFace); side > 0; side /= 2)
         nodes += side * side;
     return nodes;
 }
@@ -26,8 +30,7 @@ Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle view
                      {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
     if (importance.viewDependent()) importance.viewPoints = viewPoints;
 
-    const uint32_t blocks =
-        (rsm.largestFace / io::kImportanceBlock) * (rsm.largestFace / io::kImportanceBlock);
+    const uint32_t blocks = blocksAlong(rsm.largestFace) * blocksAlong(rsm.largestFace);
     PassBuilder evaluate =
         graph.compute("importance.evaluate", importance.viewDependent() ? "importance/evaluate_view.comp"
                                                                         : "importance/evaluate_flux.comp");

@@ -1,6 +1,6 @@
 // Where on the RSM clusters are worth having: reflected flux, and with a view weight how much a block faces
-// what the camera sees (RSMC section 4, ACRSM sections 4.4-4.5). One value a block of 4x4 texels (the
-// sources: one a texel), summed into a 2x2 pyramid for warping.
+// what the camera sees (RSMC section 4, ACRSM sections 4.4-4.5). One value a block of at least 4x4 texels
+// (the sources: one a texel), at most 64x64 a face, summed into a 2x2 pyramid for warping.
 #pragma once
 
 #include "gi/gbuffer.h"

@@ -17,15 +17,31 @@ constexpr uint32_t kShareStep = 8;     // clusters: small changes of flux move n
 constexpr float kFluxBand = 1.5f;      // within which a light's share stays
 constexpr uint32_t kDarkFrames = 120;  // after which a light that went out gives up its share
 constexpr uint32_t kNoMap = ~0u;
+constexpr uint64_t kMostTexels = 6 * 512 * 512;  // of all lights together: a point light's largest map
 
 uint32_t facesOf(const RenderLight& light) {
     return light.kind == LightKind::kPoint ? 6 : 1;
 }
 
-uint32_t faceSize(const RenderLight& light, const RsmSettings& settings) {
+uint32_t faceSize(const RenderLight& light, const RsmSettings& settings, uint32_t halvings) {
     const uint32_t wanted = settings.resolution ? settings.resolution : light.rsmResolution;
     const uint32_t size = std::bit_floor(std::clamp(wanted, 32u, 1024u));
-    return light.kind == LightKind::kPoint ? std::max(size / 2, 32u) : size;
+    return std::max((light.kind == LightKind::kPoint ? size / 2 : size) >> halvings, 32u);
+}
+
+// Many lights share the clusters, so that each needs fewer texels. Dark ones count: one that goes out does
+// not change the others' maps.
+uint32_t halvingsOf(std::span<const RenderLight> lights, const RsmSettings& settings) {
+    uint64_t texels = 0;
+    uint32_t count = 0, halvings = 0;
+    for (const RenderLight& light : lights) {
+        if (!light.bounces || count++ >= io::kMaxBounceLights) continue;
+        const uint64_t size = faceSize(light, settings, 0);
+        texels += facesOf(light) * size * size;
+    }
+    for (; texels > kMostTexels; texels /= 4)
+        ++halvings;
+    return halvings;
 }
 
 LightView faceView(const RenderLight& light, uint32_t face, const RenderScene& scene,
@@ -172,7 +188,7 @@ float emittedFlux(const RenderLight& light, const Bounds& sceneBounds) {
 namespace {
 
 void addLightMap(RsmLayout& layout, const RenderLight& light, const RenderScene& scene,
-                 const RsmSettings& settings) {
+                 const RsmSettings& settings, uint32_t halvings) {
     io::RsmMap& map = layout.maps[layout.mapCount] = mapOf(light);
     map.firstFace = layout.faceCount;
     map.faceCount = facesOf(light);
@@ -182,7 +198,7 @@ void addLightMap(RsmLayout& layout, const RenderLight& light, const RenderScene&
         io::RsmFace& face = layout.faces[layout.faceCount++];
         face.clipFromWorld = view.clipFromWorld;
         face.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(view.clipFromWorld)));
-        face.size = faceSize(light, settings);
+        face.size = faceSize(light, settings, halvings);
         face.map = layout.mapCount;
         layout.largestFace = std::max(layout.largestFace, face.size);
     }
@@ -196,6 +212,7 @@ RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint3
     RsmLayout layout;
     const ClusterShares before = std::exchange(shares, {});
     std::array<Sharer, io::kMaxRsmMaps> sharers{};
+    const uint32_t halvings = halvingsOf(scene.lights, settings);
     for (const RenderLight& light : scene.lights) {
         if (!light.bounces || shares.count == io::kMaxBounceLights) continue;
         const bool dark = light.intensity == glm::vec3(0);
@@ -204,7 +221,7 @@ RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint3
         if (dark && steady.flux == 0) continue;
         sharers[shares.count] = {steady.flux, dark ? kNoMap : layout.mapCount};
         shares.lights[shares.count++] = steady;
-        if (!dark) addLightMap(layout, light, scene, settings);
+        if (!dark) addLightMap(layout, light, scene, settings, halvings);
     }
     if (layout.mapCount == 0) return layout;
     uint32_t sharing = shares.count;

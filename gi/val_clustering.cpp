@@ -1,5 +1,7 @@
 #include "gi/val_clustering.h"
 
+#include <algorithm>
+
 #include "engine/core/hash.h"
 
 namespace ag::gi {
@@ -7,14 +9,21 @@ namespace {
 
 constexpr VkFormat kVec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
-constexpr uint32_t kSumGroups = 4;  // workgroups sharing a tile's candidates
 
-// Steps from one look of adaption at a cluster to the next (ACRSM: 3). While only the camera moves, clusters
-// follow it slowly, so that most of them and of their shadow maps stay as they are.
-uint32_t lookPeriod(ValClusteringHistory& history, uint64_t lightVersion, uint32_t settleFrames) {
-    history.sinceLightChange = history.lightVersion == lightVersion ? history.sinceLightChange + 1 : 0;
-    history.lightVersion = lightVersion;
-    return history.sinceLightChange <= settleFrames ? 3 : 24;
+// Looks of adaption: a cluster is looked at every so many steps (ACRSM: 3).
+constexpr uint32_t kOften = 3, kWhileLightMoves = 12, kWhileCameraMoves = 24, kNever = 1u << 30;
+
+// Soon after a light started or stopped moving often; then seldom, so that most clusters and their shadow
+// maps stay as they are. A cluster just split needs steps to find its place: none is in the last of them.
+uint32_t lookPeriod(ValClusteringHistory& h, uint64_t lightVersion, uint32_t settleFrames) {
+    const bool moves = h.lightVersion != lightVersion;
+    h.sinceTurn = moves == h.lightMoves ? h.sinceTurn + 1 : 0;
+    h.lightVersion = lightVersion;
+    h.lightMoves = moves;
+    const uint32_t splitting = settleFrames / 2;
+    if (h.settling.sinceChange > splitting) return kNever;
+    if (h.sinceTurn <= splitting) return kOften;
+    return moves ? kWhileLightMoves : kWhileCameraMoves;
 }
 
 // Member by member: the struct has padding.
@@ -33,6 +42,23 @@ struct SeedPush {
 struct State {
     HistoryBuffer clusters, extents;
 };
+
+// What tiles have of clusters: summed tile by tile, then cluster by cluster.
+struct Partials {
+    BufferHandle sums, of, count;  // io::kPartialVec4s each; per tile and cluster which one; how many
+    uint32_t most = 0;
+};
+
+Partials partialsOf(FrameGraph& graph, uint32_t tileCount, uint32_t clusterCount) {
+    const uint32_t inTile = std::min({clusterCount, io::kMaxCandidates, io::kMostPartials});
+    Partials p{.most = tileCount * inTile};
+    p.sums = graph.buffer("val_clustering.partials",
+                          {.sizeBytes = uint64_t(p.most) * io::kPartialVec4s * 16, .texelFormat = kVec4});
+    p.of = graph.buffer("val_clustering.partial_of",
+                        {.sizeBytes = uint64_t(tileCount) * clusterCount * 4, .texelFormat = kUint});
+    p.count = graph.buffer("val_clustering.partial_count", {.sizeBytes = 4});
+    return p;
+}
 
 BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
                          const State& state, const io::ClusterSettings& push) {
@@ -75,7 +101,7 @@ void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importan
         .dispatchThreads(push.clusterCount);
 }
 
-void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHandle slotOfCluster,
+void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, const Partials& partials,
                    const io::ClusterSettings& push) {
     graph.compute("val_clustering.gather_candidates", "val_clustering/gather_candidates.comp")
         .read("texels", rsm.texels)
@@ -84,7 +110,8 @@ void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, Buff
         .read("tileMaps", rsm.tileMaps)
         .write("candidates", c.candidates)
         .write("candidateCounts", c.candidateCounts)
-        .write("slotOfCluster", slotOfCluster)
+        .write("partialOf", partials.of)
+        .write("partialCount", partials.count)
         .push(push)
         .dispatchGroups(rsm.tileCount);
     graph.compute("val_clustering.assign", "val_clustering/assign_texels.comp")
@@ -97,25 +124,24 @@ void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, Buff
         .dispatchGroups(rsm.tileCount);
 }
 
-void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, BufferHandle slotOfCluster,
+void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, const Partials& partials,
                const io::ClusterSettings& push) {
-    const BufferHandle partials =
-        graph.buffer("val_clustering.partials",
-                     {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * io::kPartialVec4s * 16,
-                      .texelFormat = kVec4});
     graph.compute("val_clustering.sum_tiles", "val_clustering/sum_tiles.comp")
         .read("texels", rsm.texels)
         .read("seeds", c.seeds)
         .read("candidates", c.candidates)
         .read("slotOfTexel", c.slotOfTexel)
         .read("candidateCounts", c.candidateCounts)
-        .write("partials", partials)
-        .dispatchGroups(rsm.tileCount, kSumGroups);
+        .write("partials", partials.sums)
+        .readWrite("partialOf", partials.of)
+        .readWrite("partialCount", partials.count)
+        .push(glm::uvec2(push.clusterCount, partials.most))
+        .dispatchGroups(rsm.tileCount);
     graph.compute("val_clustering.update", "val_clustering/update_clusters.comp")
         .read("seeds", c.seeds)
         .read("maps", rsm.maps)
-        .read("slotOfCluster", slotOfCluster)
-        .read("partials", partials)
+        .read("partialOf", partials.of)
+        .read("partials", partials.sums)
         .write("clusters", c.clusters)
         .write("extents", c.extents)
         .push(push)
@@ -134,14 +160,15 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
     if (rsm.empty()) return {};
     const uint64_t light = combineHash(rsm.inputsVersion, hashOf(settings));
     const uint64_t inputs = combineHash(light, importance.viewDependent() ? viewVersion : 0);
+    // Past that the clusters rest, and everything behind them is skipped.
+    const uint32_t step = history.settling.advance(inputs, settings.settleFrames);
     const io::ClusterSettings push{.metricWeights = metricWeights(settings),
                                    .clusterCount = settings.count,
                                    .atlasSize = rsm.atlas.size,
                                    .mapCount = rsm.atlas.mapCount,
                                    .viewWeight = importance.viewWeight,
                                    .lookPeriod = lookPeriod(history, light, settings.settleFrames),
-                                   // Then the clusters rest, and everything behind them is skipped.
-                                   .step = history.settling.advance(inputs, settings.settleFrames)};
+                                   .step = step};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
     const State state{
@@ -158,15 +185,13 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
     c.candidateCounts = graph.buffer("val_clustering.candidate_counts", {.sizeBytes = rsm.tileCount * 4ull});
     c.slotOfTexel =
         graph.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
-    const BufferHandle slotOfCluster =
-        graph.buffer("val_clustering.slot_of_cluster",
-                     {.sizeBytes = uint64_t(rsm.tileCount) * settings.count * 4, .texelFormat = kUint});
+    const Partials partials = partialsOf(graph, rsm.tileCount, settings.count);
 
     const BufferHandle plans =
         settings.adaptive ? addAdaption(graph, rsm, importance, state, push) : BufferHandle{};
     addSeeding(graph, rsm, importance, state.clusters, plans, c.seeds, push);
-    addAssignment(graph, rsm, c, slotOfCluster, push);
-    addUpdate(graph, rsm, c, slotOfCluster, push);
+    addAssignment(graph, rsm, c, partials, push);
+    addUpdate(graph, rsm, c, partials, push);
     return c;
 }
 

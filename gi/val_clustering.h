@@ -20,11 +20,12 @@ struct ValClusteringSettings {
     uint32_t settleFrames = 32;  // steps taken after the light maps last changed; then clusters rest
 };
 
-// The part of clustering's state that lives on the CPU: when it may rest.
+// The part of clustering's state that lives on the CPU: when it may rest, and how often it splits.
 struct ValClusteringHistory {
     Settling settling;
     uint64_t lightVersion = 0;  // of the inputs that are not the view
-    uint32_t sinceLightChange = 0;
+    bool lightMoves = false;
+    uint32_t sinceTurn = 0;  // frames since a light started or stopped moving
 };
 
 glm::vec4 metricWeights(const ValClusteringSettings& settings);

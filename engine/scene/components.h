@@ -54,7 +54,7 @@ struct PunctualLight {         // shines along -Z
 
 // Gives a light an RSM and a share of the clusters.
 struct BounceLight {
-    uint32_t rsmResolution = 256;  // texels
+    uint32_t rsmResolution = 512;  // texels
     float budgetShare = 1;         // weight beside other lights of the same flux
 };
 

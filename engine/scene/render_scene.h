@@ -120,7 +120,7 @@ struct RenderLight {
     float innerConeAngle = 0;       // radians from the axis
     float outerConeAngle = 0.785398f;
     bool bounces = false;          // has a BounceLight: gets an RSM
-    uint32_t rsmResolution = 256;  // texels of a square map, or of about as many on six faces
+    uint32_t rsmResolution = 512;  // texels of a square map, or of about as many on six faces
     float budgetShare = 1;         // weight of its share of the cluster budget, times its flux
     bool castsShadow = true;
     uint64_t id = 0;  // stable identity (entity handle), for carrying clusters over

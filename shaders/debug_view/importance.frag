@@ -17,9 +17,10 @@ void main() {
     float importance = 0.0;
     for (uint i = 0; i < push.settings.faceCount; ++i) {
         uvec2 origin = faces.items[i].origin;
-        if (any(lessThan(coord, origin)) || any(greaterThanEqual(coord, origin + faces.items[i].size))) continue;
+        uint size = faces.items[i].size;
+        if (any(lessThan(coord, origin)) || any(greaterThanEqual(coord, origin + size))) continue;
         importance = pyramid.items[i * push.settings.pyramidStride +
-                                   mortonFromCell((coord - origin) / kImportanceBlock)];
+                                   mortonFromCell((coord - origin) / blockSide(size))];
     }
     color = vec4(importance > 0.0 ? heat(clamp(importance, 0.0, 1.0)) : vec3(0.0), 1.0);
 }

@@ -1,4 +1,4 @@
-// Importance of a 4x4 block of RSM texels: its flux against what an unobstructed white surface would reflect
+// Importance of a block of RSM texels: its flux against what an unobstructed white surface would reflect
 // (rho_f), and how much of the view it faces (rho_v, cosine form of ACRSM). A small share for every lit block makes
 // seeding uniform over lit texels when all else is zero.
 #include "common/lane_loop.glsl"
@@ -21,11 +21,11 @@ struct BlockSum {
     vec3 position, normal;  // of the brightest texel
 };
 
-BlockSum sumBlock(uvec2 origin) {
+BlockSum sumBlock(uvec2 origin, uint side) {
     BlockSum sum = BlockSum(0.0, 0.0, vec3(0.0), vec3(0.0, 1.0, 0.0));
     float brightest = 0.0;
-    for (uint i = 0; i < kImportanceBlock * kImportanceBlock; ++i) {
-        uvec2 coord = origin + uvec2(i % kImportanceBlock, i / kImportanceBlock);
+    for (uint i = 0; i < side * side; ++i) {
+        uvec2 coord = origin + uvec2(i % side, i / side);
         RsmSurface s = AG_RSM_FETCH(texels, rsmIndexOfCoord(coord, push.settings.atlasSize.x));
         sum.weight += s.weight;
         sum.litCount += s.weight > 0.0 ? 1.0 : 0.0;
@@ -74,16 +74,16 @@ void main() {
     // Every lane stays alive for the shuffles: those past a face's blocks work on its last one and store nothing.
     uint faceIndex = gl_WorkGroupID.y;
     RsmFace face = faces.items[faceIndex];
-    uint side = face.size / kImportanceBlock;
-    uint code = min(gl_GlobalInvocationID.x, side * side - 1);
-    BlockSum block = sumBlock(face.origin + cellFromMorton(code) * kImportanceBlock);
-    float texelCount = float(kImportanceBlock * kImportanceBlock);
+    uint side = blockSide(face.size), blocks = (face.size / side) * (face.size / side);
+    uint code = min(gl_GlobalInvocationID.x, blocks - 1);
+    BlockSum block = sumBlock(face.origin + cellFromMorton(code) * side, side);
+    float texelCount = float(side * side);
     float importance = block.weight / texelCount / fullWeight(maps.items[face.map], face.size);
 #ifdef AG_VIEW_TERM
     importance = mix(importance, viewTerm(block.position, block.normal), push.settings.viewWeight);
 #endif
     float litShare = block.litCount / texelCount;
     importance = litShare > 0.0 ? max(importance, 0.0) + 1e-4 * litShare : 0.0;
-    if (gl_GlobalInvocationID.x < side * side)
+    if (gl_GlobalInvocationID.x < blocks)
         pyramid.items[faceIndex * push.settings.pyramidStride + code] = importance;
 }

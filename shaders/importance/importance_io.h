@@ -9,7 +9,8 @@
 namespace ag::io {
 #endif
 
-const uint kImportanceBlock = 4;      // texels along a block's side
+const uint kLeastBlock = 4;           // texels along a block's side
+const uint kMostBlocks = 64;          // along a face's side
 const uint kSeedingViewPoints = 256;  // for the view term of seeding (RSMC: 256)
 
 struct ImportanceSettings {  // push constants
@@ -18,6 +19,11 @@ struct ImportanceSettings {  // push constants
     uint pyramidStride;  // floats a face
     float viewWeight;    // w_v of ACRSM eq. 4.3, 0: flux alone
 };
+
+// Texels along the side of a block of a face so large.
+AG_FUNCTION uint blockSide(uint faceSize) {
+    return max(kLeastBlock, faceSize / kMostBlocks);
+}
 
 #ifdef __cplusplus
 }  // namespace ag::io

@@ -57,14 +57,14 @@ uvec2 warpToBlock(uint face, uint pyramidStride, inout vec2 u) {
 }
 
 // The texel of the block under u, or the next lit one after it.
-uint litTexelOfBlock(uint atlasWidth, uvec2 origin, vec2 u) {
-    uint count = kImportanceBlock * kImportanceBlock;
-    uvec2 cell = uvec2(u * float(kImportanceBlock));
-    uint start = cell.y * kImportanceBlock + cell.x;
+uint litTexelOfBlock(uint atlasWidth, uvec2 origin, uint side, vec2 u) {
+    uint count = side * side;
+    uvec2 cell = uvec2(u * float(side));
+    uint start = cell.y * side + cell.x;
     uint found = kNoCluster;
     for (uint i = 0; i < count; ++i) {
         uint place = (start + i) % count;
-        uvec2 coord = origin + uvec2(place % kImportanceBlock, place / kImportanceBlock);
+        uvec2 coord = origin + uvec2(place % side, place / side);
         uint index = rsmIndexOfCoord(coord, atlasWidth);
         if (found == kNoCluster && texelFetch(texels, int(index) * 3 + 1).w > 0.0) found = index;
     }

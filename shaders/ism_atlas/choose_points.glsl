@@ -41,15 +41,17 @@ float pointsPerWeight(IsmLight light) {
     return factor;
 }
 
-// Writes the map's points; returns how many.
+// Writes the map's points; returns how many. A lane goes on at the very entry the one before it stopped at: a running
+// sum less what was added last may round to another, and an entry nobody writes is one of an older frame.
 uint choosePoints(uint map, IsmLight light) {
-    uint scramble = hashUint(map);
+    uint scramble = hashUint(map), written = 0;
     float factor = pointsPerWeight(light), before = hashToUnit(map + 1);
     for (uint base = push.p.firstSegment; base < push.p.endSegment; base += kSubgroupSize) {
         uint segment = base + gl_SubgroupInvocationID;
         float asked = min(weightOf(light, segment) * factor, kMost);
         float end = before + subgroupInclusiveAdd(asked);
-        uint first = min(uint(end - asked), push.p.entryCount), last = min(uint(end), push.p.entryCount);
+        uint wanted = min(uint(end), push.p.entryCount);
+        uint first = max(subgroupExclusiveMax(wanted), written), last = max(subgroupInclusiveMax(wanted), written);
         // Fewer points stand for the same surface: their disks are larger.
         float growth = push.p.diskRadius * sqrt(kMost / max(asked, 1e-6));
         for (uint i = first; i < last; ++i) {
@@ -57,8 +59,9 @@ uint choosePoints(uint map, IsmLight light) {
             chosen.items[firstEntryOf(map) + i] =
                 packIsmPoint(min(segment * kSegmentPoints + rank, push.p.pointCount - 1), growth);
         }
-        before += subgroupAdd(asked);
+        before = subgroupMax(end);
+        written = subgroupMax(last);
     }
-    return min(uint(before), push.p.entryCount);
+    return written;
 }
 #endif

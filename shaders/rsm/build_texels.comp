@@ -8,6 +8,7 @@
 #include "rsm/rsm.glsl"
 
 layout(local_size_x = 256) in;  // one tile
+layout(constant_id = 0) const bool kHasSurfaces = false;  // a map of points on them
 layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
@@ -103,7 +104,7 @@ void main() {
         texel = makeTexel(coord, found);
         if (texel.weight > 0.0 && atCrease(face, coord, texel.normal)) listPixel(ivec2(coord));
     }
-    if (ofMap && ofSurfaces) texel = pointTexel(face, index);
+    if (kHasSurfaces && ofMap && ofSurfaces) texel = pointTexel(face, index);
     texels.items[index] = texel;
     if (gl_LocalInvocationID.x == 0) tileMaps.items[tile] = ofMap ? face.map : 0xffffffffu;
 }

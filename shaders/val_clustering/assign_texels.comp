@@ -8,7 +8,9 @@
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
-layout(local_size_x = 256) in;  // one tile
+const uint kPerLane = 4;  // texels: what lanes hand round serves them all
+
+layout(local_size_x = 64) in;  // one tile
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
@@ -17,46 +19,55 @@ layout(set = 0, binding = 2) uniform usamplerBuffer candidates;
 layout(set = 0, binding = 3, scalar) readonly buffer CandidateCounts { uint items[]; } candidateCounts;
 layout(set = 0, binding = 4, scalar) writeonly buffer SlotOfTexel { uint items[]; } slotOfTexel;
 
-struct Nearest {
-    float metric;
+struct Texel {
+    RsmSurface s;
+    vec3 chroma;
+    float metric;  // to the nearest so far
     uint slot;
 };
 
-void consider(inout Nearest best, RsmSurface s, vec3 chroma, vec3 position, vec3 normal, vec3 seedChroma, uint slot,
-              uint count) {
-    float metric = clusterMetric(s.position, s.normal, chroma, position, normal, seedChroma,
-                                 push.settings.metricWeights);
-    bool nearer = slot < count && metric < best.metric;
-    best.metric = nearer ? metric : best.metric;
-    best.slot = nearer ? slot : best.slot;
+struct Seed {
+    vec3 position, normal, chroma;
+};
+
+Seed seedAt(uint candidate) {
+    int at = int(texelFetch(candidates, int(candidate)).x) * 3;
+    return Seed(texelFetch(seeds, at).xyz, texelFetch(seeds, at + 1).xyz, texelFetch(seeds, at + 2).xyz);
+}
+
+void consider(inout Texel texel[kPerLane], Seed seed, uint slot, bool real) {
+    [[unroll]] for (uint i = 0; i < kPerLane; ++i) {
+        float metric = clusterMetric(texel[i].s.position, texel[i].s.normal, texel[i].chroma, seed.position, seed.normal,
+                                     seed.chroma, push.settings.metricWeights);
+        bool nearer = real && metric < texel[i].metric;
+        texel[i].metric = nearer ? metric : texel[i].metric;
+        texel[i].slot = nearer ? slot : texel[i].slot;
+    }
+}
+
+Seed fromLane(Seed seed, uint lane) {
+    return Seed(subgroupShuffle(seed.position, lane), subgroupShuffle(seed.normal, lane),
+                subgroupShuffle(seed.chroma, lane));
 }
 
 void main() {
-    uint tile = gl_WorkGroupID.x;
-    uint index = rsmTexelIndex(tile, gl_LocalInvocationID.x);
-    RsmSurface s = AG_RSM_FETCH(texels, index);
-    vec3 chroma = s.flux * inversesqrt(max(dot(s.flux, s.flux), 1e-38));
-    uint count = candidateCounts.items[tile];
-    uint first = tile * kMaxCandidates;
-
-    Nearest best = Nearest(3.0e38, kNoCluster);
+    uint tile = gl_WorkGroupID.x, count = candidateCounts.items[tile], first = tile * kMaxCandidates;
+    uint index[kPerLane];
+    Texel texel[kPerLane];
+    [[unroll]] for (uint i = 0; i < kPerLane; ++i) {
+        index[i] = rsmTexelIndex(tile, i * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
+        RsmSurface s = AG_RSM_FETCH(texels, index[i]);
+        texel[i] = Texel(s, s.flux * inversesqrt(max(dot(s.flux, s.flux), 1e-38)), 3.0e38, kNoCluster);
+    }
     if (kLaneParallel) {
         for (uint base = 0; base < count; base += kSubgroupSize) {
-            uint mySlot = min(base + gl_SubgroupInvocationID, count - 1);
-            int seed = int(texelFetch(candidates, int(first + mySlot)).x) * 3;
-            vec3 position = texelFetch(seeds, seed).xyz;
-            vec3 normal = texelFetch(seeds, seed + 1).xyz;
-            vec3 seedChroma = texelFetch(seeds, seed + 2).xyz;
+            Seed mine = seedAt(first + min(base + gl_SubgroupInvocationID, count - 1));
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane)
-                consider(best, s, chroma, subgroupShuffle(position, lane), subgroupShuffle(normal, lane),
-                         subgroupShuffle(seedChroma, lane), base + lane, count);
+                consider(texel, fromLane(mine, lane), base + lane, base + lane < count);
         }
     } else {
-        for (uint slot = 0; slot < count; ++slot) {
-            int seed = int(texelFetch(candidates, int(first + slot)).x) * 3;
-            consider(best, s, chroma, texelFetch(seeds, seed).xyz, texelFetch(seeds, seed + 1).xyz,
-                     texelFetch(seeds, seed + 2).xyz, slot, count);
-        }
+        for (uint slot = 0; slot < count; ++slot) consider(texel, seedAt(first + slot), slot, true);
     }
-    slotOfTexel.items[index] = s.weight > 0.0 ? best.slot : kNoCluster;
+    [[unroll]] for (uint i = 0; i < kPerLane; ++i)
+        slotOfTexel.items[index[i]] = texel[i].s.weight > 0.0 ? texel[i].slot : kNoCluster;
 }

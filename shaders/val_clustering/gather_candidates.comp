@@ -20,7 +20,8 @@ layout(set = 0, binding = 1, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; }
 layout(set = 0, binding = 2, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Candidates { uint items[]; } candidates;
 layout(set = 0, binding = 4, scalar) writeonly buffer CandidateCounts { uint items[]; } candidateCounts;
-layout(set = 0, binding = 5, scalar) writeonly buffer SlotOfCluster { uint items[]; } slotOfCluster;
+layout(set = 0, binding = 5, scalar) writeonly buffer PartialOf { uint items[]; } partialOf;
+layout(set = 0, binding = 7, scalar) writeonly buffer PartialCount { uint count; } partialCount;
 
 layout(set = 0, binding = 6) uniform samplerBuffer texels;
 
@@ -114,8 +115,9 @@ void main() {
         uint slot = found + subgroupBallotExclusiveBitCount(ballot);
         take = take && slot < kMaxCandidates;
         if (take) candidates.items[tile * kMaxCandidates + slot] = cluster;
-        if (cluster < count) slotOfCluster.items[tile * count + cluster] = take ? slot : kNoCluster;
+        if (cluster < count) partialOf.items[tile * count + cluster] = kNoCluster;  // until texels are found
         found += subgroupBallotBitCount(ballot);
     }
     if (gl_SubgroupInvocationID == 0) candidateCounts.items[tile] = min(found, kMaxCandidates);
+    if (tile == 0 && gl_SubgroupInvocationID == 0) partialCount.count = 0;
 }

@@ -48,8 +48,9 @@ ClusterSeed seedFromImportance(uint cluster, uint mapIndex) {
     vec2 u = halton23(1 + (cluster + push.settings.step * kMaxClusters) % 4194304u);
     uint face = chooseFace(map, push.pyramidStride, u.x);
     uvec2 block = warpToBlock(face, push.pyramidStride, u);
-    uvec2 origin = faces.items[face].origin + block * kImportanceBlock;
-    uint texel = litTexelOfBlock(push.settings.atlasSize.x, origin, u);
+    uint side = blockSide(faces.items[face].size);
+    uvec2 origin = faces.items[face].origin + block * side;
+    uint texel = litTexelOfBlock(push.settings.atlasSize.x, origin, side, u);
     if (texel == kNoCluster) return deadSeed(mapIndex);
     RsmSurface s = AG_RSM_FETCH(texels, texel);
     return ClusterSeed(s.position, rsmTileOfCoord(origin, push.settings.atlasSize.x), s.normal, mapIndex, s.flux / length(s.flux), 0.0);

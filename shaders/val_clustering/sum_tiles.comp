@@ -1,16 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Segmented update, first half: for each tile, sums over the texels of each of its candidates, in texel order. A lane
-// owns a candidate, so no atomics: the same texels always give the same bits. Positions are summed relative to the
-// seed, which keeps second moments exact far from the origin. The farthest texels in eight directions of the seed's
-// plane are noted too: the corners of the cluster's convex hull.
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+// Segmented update, first half: for each tile, sums over the texels of each of its candidates that has any. They lie
+// one after another, in any order. A lane owns texels, so no atomics: the same texels always give the same bits. Positions
+// are summed relative to the seed, which keeps second moments exact far from the origin. The farthest texels in eight
+// directions of the seed's plane are noted too: the corners of the cluster's convex hull.
 #include "common/lane_loop.glsl"
 #include "common/sampling.h"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
-layout(local_size_x_id = 100) in;  // one subgroup; the groups along y share a tile's candidates
+layout(local_size_x_id = 100) in;  // one subgroup a tile
+layout(push_constant, scalar) uniform Push { uint clusterCount, mostPartials; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
 layout(set = 0, binding = 1) uniform samplerBuffer seeds;
@@ -18,6 +21,11 @@ layout(set = 0, binding = 2) uniform usamplerBuffer candidates;
 layout(set = 0, binding = 3) uniform usamplerBuffer slotOfTexel;
 layout(set = 0, binding = 4, scalar) readonly buffer CandidateCounts { uint items[]; } candidateCounts;
 layout(set = 0, binding = 5, scalar) writeonly buffer Partials { vec4 items[]; } partials;
+layout(set = 0, binding = 6, scalar) writeonly buffer PartialOf { uint items[]; } partialOf;
+layout(set = 0, binding = 7, scalar) buffer PartialCount { uint count; } partialCount;
+
+const uint kTileTexels = kRsmTileSize * kRsmTileSize;
+const float kNever = -3.0e38;
 
 struct Sums {
     vec4 fluxArea;       // flux, area
@@ -43,7 +51,6 @@ void keepFarther(inout Sums sums, int direction, float reach, uint texel) {
 }
 
 void measureExtent(inout Sums sums, bool mine, Frame f, vec3 offset, uint texel) {
-    const float kNever = -3.0e38;
     float u = dot(offset, f.t), v = dot(offset, f.b);
     sums.before = max(sums.before, mine ? dot(offset, f.n) : kNever);
     float reach[4] = float[](u, u + v, v, v - u);
@@ -53,8 +60,8 @@ void measureExtent(inout Sums sums, bool mine, Frame f, vec3 offset, uint texel)
     }
 }
 
-void addTexel(inout Sums sums, uint slot, uint texelSlot, Frame frame, vec4 a, vec4 b, vec3 flux, uint texel) {
-    float mine = slot == texelSlot ? 1.0 : 0.0;
+void addTexel(inout Sums sums, bool isMember, Frame frame, vec4 a, vec4 b, vec3 flux, uint texel) {
+    float mine = isMember ? 1.0 : 0.0;
     float w = b.w * mine;
     vec3 offset = a.xyz - frame.origin;
     vec3 weighted = offset * w;
@@ -64,54 +71,91 @@ void addTexel(inout Sums sums, uint slot, uint texelSlot, Frame frame, vec4 a, v
     sums.momentDiagonal += weighted * offset;
     sums.momentMixed += weighted.xxy * offset.yzz;
     sums.areaOffset += offset * (a.w * mine);
-    measureExtent(sums, slot == texelSlot, frame, offset, texel);
+    measureExtent(sums, isMember, frame, offset, texel);
 }
 
-void sumCandidate(uint tile, uint slot, uint count) {
-    uint cluster = texelFetch(candidates, int(tile * kMaxCandidates + min(slot, count - 1))).x;
+Sums noTexels() {
+    Sums sums;
+    sums.fluxArea = sums.offsetWeight = sums.normalCount = vec4(0.0);
+    sums.momentDiagonal = sums.momentMixed = sums.areaOffset = vec3(0.0);
+    sums.before = kNever;
+    for (int i = 0; i < int(kExtremes); ++i) {
+        sums.most[i] = kNever;
+        sums.farthest[i] = 0;
+    }
+    return sums;
+}
+
+// Over all lanes; of equally far texels the one of the lowest index.
+Sums addLanes(Sums s) {
+    s.fluxArea = subgroupAdd(s.fluxArea);
+    s.offsetWeight = subgroupAdd(s.offsetWeight);
+    s.normalCount = subgroupAdd(s.normalCount);
+    s.momentDiagonal = subgroupAdd(s.momentDiagonal);
+    s.momentMixed = subgroupAdd(s.momentMixed);
+    s.areaOffset = subgroupAdd(s.areaOffset);
+    s.before = subgroupMax(s.before);
+    [[unroll]] for (int i = 0; i < int(kExtremes); ++i) {
+        float most = subgroupMax(s.most[i]);
+        s.farthest[i] = subgroupMin(s.most[i] == most ? s.farthest[i] : kTileTexels - 1);
+        s.most[i] = most;
+    }
+    return s;
+}
+
+void store(uint at, Sums s) {
+    partials.items[at] = s.fluxArea;
+    partials.items[at + 1] = s.offsetWeight;
+    partials.items[at + 2] = s.normalCount;
+    partials.items[at + 3] = vec4(s.momentDiagonal, s.before);
+    partials.items[at + 4] = vec4(s.momentMixed, 0.0);
+    partials.items[at + 5] = vec4(s.areaOffset, 0.0);
+    [[unroll]] for (int i = 0; i < 2; ++i) {
+        partials.items[at + 6 + i] = vec4(s.most[4 * i], s.most[4 * i + 1], s.most[4 * i + 2], s.most[4 * i + 3]);
+        partials.items[at + 8 + i] =
+            vec4(s.farthest[4 * i], s.farthest[4 * i + 1], s.farthest[4 * i + 2], s.farthest[4 * i + 3]);
+    }
+}
+
+Sums sumCandidate(uint tile, uint slot, uint cluster) {
     Frame frame;
     frame.origin = texelFetch(seeds, int(cluster) * 3).xyz;
     frame.n = texelFetch(seeds, int(cluster) * 3 + 1).xyz;
     orthonormalBasis(frame.n, frame.t, frame.b);
-    Sums sums;
-    sums.fluxArea = sums.offsetWeight = sums.normalCount = vec4(0.0);
-    sums.momentDiagonal = sums.momentMixed = sums.areaOffset = vec3(0.0);
-    sums.before = -3.0e38;
-    for (int i = 0; i < int(kExtremes); ++i) {
-        sums.most[i] = -3.0e38;
-        sums.farthest[i] = 0;
-    }
+    Sums sums = noTexels();
     int first = int(rsmTexelIndex(tile, 0));
-    for (uint base = 0; base < kRsmTileSize * kRsmTileSize; base += kSubgroupSize) {
-        int mine = first + int(base + gl_SubgroupInvocationID);
-        uint texelSlot = texelFetch(slotOfTexel, mine).x;
-        vec4 a = texelFetch(texels, mine * 3);
-        vec4 b = texelFetch(texels, mine * 3 + 1);
-        vec3 flux = texelFetch(texels, mine * 3 + 2).xyz;
-        [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane)
-            addTexel(sums, slot, subgroupShuffle(texelSlot, lane), frame, subgroupShuffle(a, lane),
-                     subgroupShuffle(b, lane), subgroupShuffle(flux, lane), base + lane);
+    for (uint base = 0; base < kTileTexels; base += kSubgroupSize) {
+        uint texel = base + gl_SubgroupInvocationID;
+        int at = first + int(texel);
+        addTexel(sums, texelFetch(slotOfTexel, at).x == slot, frame, texelFetch(texels, at * 3),
+                 texelFetch(texels, at * 3 + 1), texelFetch(texels, at * 3 + 2).xyz, texel);
     }
-    if (slot >= count) return;
-    uint out0 = (tile * kMaxCandidates + slot) * kPartialVec4s;
-    partials.items[out0] = sums.fluxArea;
-    partials.items[out0 + 1] = sums.offsetWeight;
-    partials.items[out0 + 2] = sums.normalCount;
-    partials.items[out0 + 3] = vec4(sums.momentDiagonal, sums.before);
-    partials.items[out0 + 4] = vec4(sums.momentMixed, 0.0);
-    partials.items[out0 + 5] = vec4(sums.areaOffset, 0.0);
-    for (int i = 0; i < 2; ++i) {
-        partials.items[out0 + 6 + i] =
-            vec4(sums.most[4 * i], sums.most[4 * i + 1], sums.most[4 * i + 2], sums.most[4 * i + 3]);
-        partials.items[out0 + 8 + i] = vec4(sums.farthest[4 * i], sums.farthest[4 * i + 1],
-                                            sums.farthest[4 * i + 2], sums.farthest[4 * i + 3]);
+    return addLanes(sums);
+}
+
+// Of 32 candidates from the first on, a bit each for those that have texels in the tile.
+uint membersFrom(uint tile, uint first) {
+    uint found = 0;
+    for (uint base = 0; base < kTileTexels; base += kSubgroupSize) {
+        uint slot = texelFetch(slotOfTexel, int(rsmTexelIndex(tile, base + gl_SubgroupInvocationID))).x - first;
+        found |= slot < 32 ? 1u << (slot & 31u) : 0u;  // unlit: beyond
     }
+    return subgroupOr(found);
 }
 
 void main() {
-    uint tile = gl_WorkGroupID.x;
-    uint count = candidateCounts.items[tile];
-    uint stride = gl_NumWorkGroups.y * kSubgroupSize;
-    for (uint base = gl_WorkGroupID.y * kSubgroupSize; base < count; base += stride)
-        sumCandidate(tile, base + gl_SubgroupInvocationID, count);
+    uint tile = gl_WorkGroupID.x, count = candidateCounts.items[tile];
+    for (uint first = 0; first < count; first += 32) {
+        uint members = membersFrom(tile, first), at = 0;
+        if (gl_SubgroupInvocationID == 0) at = atomicAdd(partialCount.count, bitCount(members));
+        at = subgroupBroadcastFirst(at);
+        for (uint left = members; left != 0; left &= left - 1, ++at) {
+            uint slot = first + uint(findLSB(left));
+            uint cluster = texelFetch(candidates, int(tile * kMaxCandidates + slot)).x;
+            Sums sums = sumCandidate(tile, slot, cluster);
+            if (gl_SubgroupInvocationID != 0 || at >= push.mostPartials) continue;
+            store(at * kPartialVec4s, sums);
+            partialOf.items[tile * push.clusterCount + cluster] = at;
+        }
+    }
 }

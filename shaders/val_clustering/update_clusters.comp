@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
 // Segmented update, second half: each cluster gathers its sums from the tiles that list it and becomes their
 // flux-weighted mean. Flux and area are sums over the texels (not the centre's sample: ACRSM section 4.7 differs).
 #include "common/lane_loop.glsl"
@@ -13,7 +14,7 @@ layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Seeds { ClusterSeed items[]; } seeds;
 layout(set = 0, binding = 1, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
-layout(set = 0, binding = 2) uniform usamplerBuffer slotOfCluster;
+layout(set = 0, binding = 2) uniform usamplerBuffer partialOf;
 layout(set = 0, binding = 3) uniform samplerBuffer partials;
 layout(set = 0, binding = 4, scalar) writeonly buffer Clusters { Cluster items[]; } clusters;
 layout(set = 0, binding = 5, scalar) writeonly buffer Extents { ClusterExtent items[]; } extents;
@@ -35,31 +36,65 @@ uint farthestTexel(Extreme e) {
     return subgroupMin(farthest ? e.texel : 0xffffffffu);
 }
 
+const uint kBatch = 256;  // tiles looked through at once
+shared uint listing[kBatch];
+
+// Those of a batch of tiles that have texels of the cluster, one after another: most have none.
+uint findTiles(uint cluster, uint first, uint tileCount) {
+    uint found = 0;
+    for (uint base = 0; base < kBatch; base += kSubgroupSize) {
+        uint tile = first + base + gl_SubgroupInvocationID;
+        bool lists = texelFetch(partialOf, int(min(tile, tileCount - 1) * push.settings.clusterCount + cluster)).x !=
+                     kNoCluster;
+        lists = lists && tile < tileCount;
+        uvec4 ballot = subgroupBallot(lists);
+        if (lists) listing[found + subgroupBallotExclusiveBitCount(ballot)] = tile;
+        found += subgroupBallotBitCount(ballot);
+    }
+    memoryBarrierShared();
+    subgroupBarrier();
+    return found;
+}
+
+struct Gathered {
+    vec4 sums[kSumVec4s];
+    Extreme extremes[kExtremes];
+    float before;
+};
+
+void addTile(inout Gathered g, uint cluster, uint tile) {
+    int at = int(texelFetch(partialOf, int(tile * push.settings.clusterCount + cluster)).x * kPartialVec4s);
+    for (int i = 0; i < kSumVec4s; ++i) g.sums[i] += texelFetch(partials, at + i);
+    g.before = max(g.before, texelFetch(partials, at + 3).w);
+    for (int i = 0; i < int(kExtremes); ++i) {
+        float reach = texelFetch(partials, at + kSumVec4s + i / 4)[i % 4];
+        uint texel = rsmTexelIndex(tile, uint(texelFetch(partials, at + kSumVec4s + 2 + i / 4)[i % 4]));
+        if (reach > g.extremes[i].reach) g.extremes[i] = Extreme(reach, texel);
+    }
+}
+
+Gathered gather(uint cluster) {
+    Gathered g;
+    for (int i = 0; i < kSumVec4s; ++i) g.sums[i] = vec4(0.0);
+    for (int i = 0; i < int(kExtremes); ++i) g.extremes[i] = Extreme(-3.0e38, 0);
+    g.before = -3.0e38;
+    uint tileCount = (push.settings.atlasSize.x / kRsmTileSize) * (push.settings.atlasSize.y / kRsmTileSize);
+    for (uint first = 0; first < tileCount; first += kBatch) {
+        uint found = findTiles(cluster, first, tileCount);
+        for (uint i = gl_SubgroupInvocationID; i < found; i += kSubgroupSize) addTile(g, cluster, listing[i]);
+        subgroupBarrier();
+    }
+    return g;
+}
+
 void main() {
     uint cluster = gl_WorkGroupID.x;
-    uint tileCount = (push.settings.atlasSize.x / kRsmTileSize) * (push.settings.atlasSize.y / kRsmTileSize);
-    vec4 sums[kSumVec4s] = vec4[](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-    Extreme extremes[kExtremes];
-    for (int i = 0; i < int(kExtremes); ++i) extremes[i] = Extreme(-3.0e38, 0);
-    float before = -3.0e38;
-    for (uint base = 0; base < tileCount; base += kSubgroupSize) {
-        uint tile = min(base + gl_SubgroupInvocationID, tileCount - 1);
-        uint slot = texelFetch(slotOfCluster, int(tile * push.settings.clusterCount + cluster)).x;
-        bool listed = slot != kNoCluster && base + gl_SubgroupInvocationID < tileCount;
-        int at = int((tile * kMaxCandidates + (listed ? slot : 0)) * kPartialVec4s);
-        if (!listed) continue;
-        for (int i = 0; i < kSumVec4s; ++i) sums[i] += texelFetch(partials, at + i);
-        before = max(before, texelFetch(partials, at + 3).w);
-        for (int i = 0; i < int(kExtremes); ++i) {
-            float reach = texelFetch(partials, at + kSumVec4s + i / 4)[i % 4];
-            uint texel = rsmTexelIndex(tile, uint(texelFetch(partials, at + kSumVec4s + 2 + i / 4)[i % 4]));
-            if (reach > extremes[i].reach) extremes[i] = Extreme(reach, texel);
-        }
-    }
-    for (int i = 0; i < kSumVec4s; ++i) sums[i] = subgroupAdd(sums[i]);
+    Gathered g = gather(cluster);
+    vec4 sums[kSumVec4s];
+    for (int i = 0; i < kSumVec4s; ++i) sums[i] = subgroupAdd(g.sums[i]);
     ClusterExtent extent;
-    for (int i = 0; i < int(kExtremes); ++i) extent.texels[i] = farthestTexel(extremes[i]);
-    before = subgroupMax(before);
+    for (int i = 0; i < int(kExtremes); ++i) extent.texels[i] = farthestTexel(g.extremes[i]);
+    float before = subgroupMax(g.before);
     if (gl_SubgroupInvocationID != 0) return;
 
     ClusterSeed seed = seeds.items[cluster];

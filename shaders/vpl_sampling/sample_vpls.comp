@@ -23,10 +23,10 @@ layout(set = 0, binding = 4, scalar) writeonly buffer Vals { Val items[]; } vals
 layout(set = 0, binding = 5, scalar) writeonly buffer Shapes { ValShapeVectors items[]; } shapes;
 #include "importance/warp.glsl"
 
-vec3 fluxOfBlock(uvec2 origin) {
+vec3 fluxOfBlock(uvec2 origin, uint side) {
     vec3 sum = vec3(0.0);
-    for (uint i = 0; i < kImportanceBlock * kImportanceBlock; ++i) {
-        uvec2 coord = origin + uvec2(i % kImportanceBlock, i / kImportanceBlock);
+    for (uint i = 0; i < side * side; ++i) {
+        uvec2 coord = origin + uvec2(i % side, i / side);
         sum += texelFetch(texels, int(rsmIndexOfCoord(coord, push.atlasWidth)) * 3 + 2).rgb;
     }
     return sum;
@@ -36,13 +36,14 @@ Val sampleMap(RsmMap map, uint i, Val black) {
     vec2 u = halton23(1 + i);
     uint face = chooseFace(map, push.pyramidStride, u.x);
     uvec2 block = warpToBlock(face, push.pyramidStride, u);
-    uvec2 origin = faces.items[face].origin + block * kImportanceBlock;
-    uint texel = litTexelOfBlock(push.atlasWidth, origin, u);
+    uint side = blockSide(faces.items[face].size);
+    uvec2 origin = faces.items[face].origin + block * side;
+    uint texel = litTexelOfBlock(push.atlasWidth, origin, side, u);
     float importance = pyramid.items[face * push.pyramidStride + mortonFromCell(block)];
     if (texel == kNoCluster || importance <= 0.0) return black;
     RsmSurface s = AG_RSM_FETCH(texels, texel);
     float perLight = mapImportance(map, push.pyramidStride) / (importance * float(map.clusterCount));
-    return Val(s.position, 0.0, s.normal, 0.0, fluxOfBlock(origin) * perLight, 0.0);
+    return Val(s.position, 0.0, s.normal, 0.0, fluxOfBlock(origin, side) * perLight, 0.0);
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// How lights share the clusters: by flux, all of them, and steadily.
+// How lights share the clusters, by flux, all of them, and steadily; and the texels.
 #include <gtest/gtest.h>
 
 #include "gi/rsm_views.h"
@@ -89,6 +89,37 @@ TEST(ClusterShares, OfALightThatStaysDarkGoToTheOthers) {
     EXPECT_EQ(shares.count, 2u);
     scene.lights[0].intensity = scene.lights[1].intensity = glm::vec3(0);
     EXPECT_EQ(layoutRsm(scene, {}, 128, shares).mapCount, 0u) << "no light, no map";
+}
+
+uint64_t texelsOf(const RsmLayout& layout) {
+    uint64_t texels = 0;
+    for (uint32_t f = 0; f < layout.faceCount; ++f)
+        texels += uint64_t(layout.faces[f].size) * layout.faces[f].size;
+    return texels;
+}
+
+TEST(LightMapSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
+    RenderScene scene = threeLamps();
+    ClusterShares shares;
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), 3u * 512 * 512);
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 64}, 128, shares)), 3u * 64 * 64);
+    scene.lights[0].kind = LightKind::kPoint;
+    scene.lights[1].rsmResolution = 300;
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), (6u + 1 + 4) * 256 * 256);
+}
+
+TEST(LightMapSizes, OfManyLightsAreHalvedAndDarkOnesCount) {
+    RenderScene scene = threeLamps();
+    for (uint64_t id = 4; id <= 8; ++id)
+        scene.lights.push_back(
+            {.kind = LightKind::kPoint, .intensity = glm::vec3(1), .bounces = true, .id = id});
+    ClusterShares shares;
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 1024}, 128, shares)), (3u * 4 + 5 * 6) * 128 * 128);
+    const RsmLayout all = layoutRsm(scene, {}, 128, shares);
+    EXPECT_EQ(all.faces[0].size, 256u);
+    for (size_t i = 1; i < scene.lights.size(); ++i)
+        scene.lights[i].intensity = glm::vec3(0);
+    EXPECT_EQ(layoutRsm(scene, {}, 128, shares).faces[0].size, 256u) << "no map grows as others go out";
 }
 
 }  // namespace

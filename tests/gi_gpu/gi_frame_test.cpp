@@ -284,6 +284,23 @@ TEST(ValClustering, KeepsFluxAndMembershipWhileTheLightMoves) {
     checkAssignmentTwin(b);
 }
 
+// Splits come while there is time left to find a place; later only places that stayed empty are tried anew.
+TEST(ValClustering, NoneIsSplitInTheSecondHalfOfSettling) {
+    Bench b(*scenegen::buildScene("cornell", 0));
+    const uint32_t frames = b.settings.valClustering.settleFrames;
+    uint32_t youngest[2];
+    for (uint32_t half = 0; half < 2; ++half) {
+        for (uint32_t i = 0; i < frames / 2; ++i)
+            b.frame();
+        float least = 1e30f;
+        for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters))
+            if (c.texelCount > 0) least = std::min(least, c.age);
+        youngest[half] = uint32_t(least);
+    }
+    EXPECT_LT(youngest[0], 8u) << "none was split at all";
+    EXPECT_GE(youngest[1], frames / 2 - 2);
+}
+
 TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
     Bench furnace(*scenegen::buildScene("furnace", 50));
     for (int i = 0; i < 5; ++i)

@@ -101,7 +101,7 @@ TEST(Probes, MeasureWhatThePathTracerMeasures) {
         Bench b(*scenegen::buildScene(c.scene, 0));
         const std::vector<RenderProbe> probes = grid(c.from, c.to, c.normal);
         const auto truth = reference(b.scene, probes, 4096);
-        measure(b, probes, 24);
+        measure(b, probes, 40);                          // settled
         compare(c.scene, b, probes, truth, 0.10, 0.35);  // worst: in the penumbra of a block near by
     }
 }
@@ -112,7 +112,7 @@ TEST(Probes, WallsBetweenKeepBouncedLightOut) {
     Bench b(*scenegen::buildScene("occluder", 0));
     std::vector<RenderProbe> probes = grid({0.1f, 0.4f, -1}, {1.6f, 0.9f, 1}, {-1, 0, 0});
     probes.push_back({.position = {-1.4f, 1.1f, 0}, .normal = {-1, 0, 0}});
-    measure(b, probes, 24);
+    measure(b, probes, 40);  // settled
     const float lit = luminance(b.renderer.probeReadings().of(100 + probes.size() - 1)->bounced);
     EXPECT_GT(lit, 0.5f);
     for (size_t i = 0; i + 1 < probes.size(); ++i) {
@@ -141,7 +141,7 @@ TEST(Probes, AllRoundIsTheMeanOverDirections) {
         truth[i / kDirections].bounced += byPlane[i].bounced / float(kDirections);
         truth[i / kDirections].direct += byPlane[i].direct / float(kDirections);
     }
-    measure(b, probes, 24);
+    measure(b, probes, 40);  // settled
     compare("cornell, all round", b, probes, truth, 0.10, 0.20);
 }
 

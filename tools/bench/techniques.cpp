@@ -25,12 +25,10 @@ std::vector<Variant> mapSizes(std::initializer_list<int> sizes) {
     return variants;
 }
 
-// More clusters need more texels: outlines of few are worse than those of larger clusters.
 std::vector<Variant> ours() {
-    std::vector<Variant> variants = clusterBudgets({64, 128});
-    for (const int count : {128, 256, 512})
-        variants.push_back({fmt::format("{}, map 512²", count),
-                            {fmt::format("val_clustering.count={}", count), "rsm.resolution=512"}});
+    std::vector<Variant> variants = clusterBudgets(kCounts);
+    variants.push_back({"128, light map 256²", {"rsm.resolution=256"}});
+    variants.push_back({"256, light map 1024²", {"val_clustering.count=256", "rsm.resolution=1024"}});
     variants.push_back({"128 not adaptive", {"val_clustering.adaptive=off"}});
     return variants;
 }
