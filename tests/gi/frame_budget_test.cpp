@@ -58,7 +58,8 @@ TEST(FrameBudget, IsMetWithin120FramesWhateverTheSceneCosts) {
                 const Played r = play(controller, model, 240);
                 EXPECT_NEAR(r.median(90, 30) / (medium * share), 1, 0.1)
                     << medium << " " << skew << " " << share;
-                EXPECT_EQ(r.changes(120), 0u) << "it does not pump";
+                EXPECT_EQ(r.changes(120), 0u)
+                    << "it does not pump: " << medium << " " << skew << " " << share;
             }
 }
 
