@@ -15,11 +15,9 @@ void setNone(GiSettings& gi) {
 void setRsmBrute(GiSettings& gi) {
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kTexels;
-    gi.rsm.resolution = 128;
 }
 
 void setRsm400(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 400, .radius = 0.3f};
@@ -27,7 +25,6 @@ void setRsm400(GiSettings& gi) {
 
 // Eight samples and the article's denoiser; ours.
 void setIrsm(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 8, .radius = 0.3f, .random = true};
@@ -40,7 +37,6 @@ void setIrsm(GiSettings& gi) {
 }
 
 void setStochastic(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.firstBounce = FirstBounce::kStochasticRsm;
     gi.stochasticRsm = {.samples = 8, .random = true, .whole = true, .visible = true};
     gi.denoiser = {.enabled = true, .rounds = 2};
@@ -48,7 +44,6 @@ void setStochastic(GiSettings& gi) {
 
 // Point lights with hard shadows out of uniform points; distances in paraboloids of the atlas's full size.
 void setIsm(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kPointLights;
     gi.importance.viewWeight = 0;
@@ -65,7 +60,6 @@ void setIsm(GiSettings& gi) {
 // 256 point lights and as many of the second bounce, 4x4 pixels share them; the edge-aware Gaussian is a
 // round of the denoiser's filter over one frame.
 void setSsvp(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.firstBounce = FirstBounce::kSsvp;
     gi.valClustering.count = 256;
@@ -82,7 +76,6 @@ void setSsvp(GiSettings& gi) {
 }
 
 void setRsmc(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.spacing = 1;
     gi.ismAtlas.enabled = false;
     gi.valShading.farShape = ValShape::kDisk;
@@ -111,7 +104,6 @@ void setAcrsm(GiSettings& gi) {
 
 // Ours by budget: lights, points a shadow map is made of, and how many pixels are gathered.
 void setLow(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.valClustering.count = 64;
     gi.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
     gi.spacing = 3;
@@ -120,20 +112,17 @@ void setLow(GiSettings& gi) {
 void setAfterglow(GiSettings&) {}
 
 void setAfterglowBounces(GiSettings& gi) {
-    gi.rsm.resolution = 256;
     gi.laterBounces = {.enabled = true, .spacing = 3};
     gi.valClustering.count = 256;
     gi.ismAtlas.tileSize = 32;
 }
 
 void setHigh(GiSettings& gi) {
-    gi.rsm.resolution = 512;
     gi.valClustering.count = 256;
     gi.ismAtlas = {.tileSize = 64, .pointsPerMap = 4096};
 }
 
 void setUltra(GiSettings& gi) {
-    gi.rsm.resolution = 1024;
     gi.valClustering.count = 512;
     gi.ismAtlas = {.tileSize = 128, .pointsPerMap = 8192};
     gi.valShading.nearReach = 6;
@@ -164,23 +153,24 @@ void setAfterglowLights(GiSettings& gi) {
 struct Preset {
     std::string_view name;
     void (*apply)(GiSettings&);
+    uint32_t mapResolution = 0;  // texels along a light map's side; 0: as each light says
 };
 
 constexpr std::array<Preset, 18> kPresets = {{{"none", setNone},
-                                              {"rsm-brute", setRsmBrute},
-                                              {"rsm-400", setRsm400},
-                                              {"irsm", setIrsm},
-                                              {"stochastic", setStochastic},
-                                              {"ism", setIsm},
-                                              {"ssvp", setSsvp},
-                                              {"rsmc", setRsmc},
-                                              {"acrsm", setAcrsm},
+                                              {"rsm-brute", setRsmBrute, 128},
+                                              {"rsm-400", setRsm400, 256},
+                                              {"irsm", setIrsm, 256},
+                                              {"stochastic", setStochastic, 256},
+                                              {"ism", setIsm, 256},
+                                              {"ssvp", setSsvp, 256},
+                                              {"rsmc", setRsmc, 256},
+                                              {"acrsm", setAcrsm, 256},
                                               {"afterglow", setAfterglow},
                                               {"medium", setAfterglow},
-                                              {"afterglow-bounces", setAfterglowBounces},
-                                              {"low", setLow},
-                                              {"high", setHigh},
-                                              {"ultra", setUltra},
+                                              {"afterglow-bounces", setAfterglowBounces, 256},
+                                              {"low", setLow, 256},
+                                              {"high", setHigh, 512},
+                                              {"ultra", setUltra, 1024},
                                               {"lights-reference", setLightsReference},
                                               {"lightcluster", setLightCluster},
                                               {"afterglow-lights", setAfterglowLights}}};
@@ -201,6 +191,7 @@ bool applyPreset(std::string_view name, GiSettings& gi) {
     const auto found = std::ranges::find(kPresets, name, &Preset::name);
     if (found == kPresets.end()) return false;
     found->apply(gi);
+    if (found->mapResolution) gi.rsm.resolution = found->mapResolution;
     return true;
 }
 

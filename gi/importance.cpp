@@ -3,14 +3,10 @@
 namespace ag::gi {
 namespace {
 
-uint32_t blocksAlong(uint32_t face) {
-    return face / io::blockSide(face);
-}
-
 // Nodes of a full 2x2 pyramid over the largest face's blocks.
 uint32_t pyramidNodes(uint32_t largestFace) {
     uint32_t nodes = 0;
-    for (uint32_t side = blocksAlong(largestFace); side > 0; side /= 2)
+    for (uint32_t side = io::blocksAlong(largestFace); side > 0; side /= 2)
         nodes += side * side;
     return nodes;
 }
@@ -30,7 +26,7 @@ Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle view
                      {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
     if (importance.viewDependent()) importance.viewPoints = viewPoints;
 
-    const uint32_t blocks = blocksAlong(rsm.largestFace) * blocksAlong(rsm.largestFace);
+    const uint32_t along = io::blocksAlong(rsm.largestFace);
     PassBuilder evaluate =
         graph.compute("importance.evaluate", importance.viewDependent() ? "importance/evaluate_view.comp"
                                                                         : "importance/evaluate_flux.comp");
@@ -38,7 +34,7 @@ Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle view
     if (importance.viewDependent()) evaluate.read("viewPoints", importance.viewPoints);
     evaluate.write("pyramid", importance.pyramid)
         .push(push)
-        .dispatchGroups((blocks + 63) / 64, rsm.atlas.faceCount);
+        .dispatchGroups((along * along + 63) / 64, rsm.atlas.faceCount);
 
     graph.compute("importance.build_pyramid", "importance/build_pyramid.comp")
         .read("faces", rsm.faces)

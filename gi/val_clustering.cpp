@@ -1,6 +1,7 @@
 #include "gi/val_clustering.h"
 
 #include <algorithm>
+#include <span>
 
 #include "engine/core/hash.h"
 
@@ -11,7 +12,7 @@ constexpr VkFormat kVec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 
 // Looks of adaption: a cluster is looked at every so many steps (ACRSM: 3).
-constexpr uint32_t kOften = 3, kWhileLightMoves = 12, kWhileCameraMoves = 24, kNever = 1u << 30;
+constexpr uint32_t kOften = 3, kWhileLightMoves = 12, kWhileCameraMoves = 24, kNever = 0;
 
 // Soon after a light started or stopped moving often; then seldom, so that most clusters and their shadow
 // maps stay as they are. A cluster just split needs steps to find its place: none is in the last of them.
@@ -49,14 +50,30 @@ struct Partials {
     uint32_t most = 0;
 };
 
-Partials partialsOf(FrameGraph& graph, uint32_t tileCount, uint32_t clusterCount) {
-    const uint32_t inTile = std::min({clusterCount, io::kMaxCandidates, io::kMostPartials});
-    Partials p{.most = tileCount * inTile};
-    p.sums = graph.buffer("val_clustering.partials",
-                          {.sizeBytes = uint64_t(p.most) * io::kPartialVec4s * 16, .texelFormat = kVec4});
+// A tile has no more than candidates. A cluster is one within its map's radius, and where a probe of a tile
+// (one of 16) is nearest to it; as many again where no cluster is within the radius.
+uint32_t mostPartials(const RsmSet& rsm) {
+    constexpr uint32_t kBeyondRadius = 2 * 16;
+    uint32_t most = 0;
+    for (const io::RsmMap& map : std::span(rsm.mapInfo).first(rsm.atlas.mapCount)) {
+        const uint32_t along = rsm.faceInfo[map.firstFace].size / io::kRsmTileSize;
+        const uint32_t tiles = map.faceCount * along * along, window = 2 * map.candidateRadius + 1;
+        most += std::min(tiles * std::min(map.clusterCount, io::kMaxCandidates),
+                         window * window * map.clusterCount + kBeyondRadius * tiles);
+    }
+    return most;
+}
+
+Partials addPartials(FrameGraph& graph, const RsmSet& rsm, uint32_t clusterCount) {
+    Partials p{.most = mostPartials(rsm)};
+    p.sums = graph.buffer(
+        "val_clustering.partials",
+        {.sizeBytes = uint64_t(p.most) * io::kPartialVec4s * sizeof(glm::vec4), .texelFormat = kVec4});
     p.of = graph.buffer("val_clustering.partial_of",
-                        {.sizeBytes = uint64_t(tileCount) * clusterCount * 4, .texelFormat = kUint});
+                        {.sizeBytes = uint64_t(rsm.tileCount) * clusterCount * 4, .texelFormat = kUint});
     p.count = graph.buffer("val_clustering.partial_count", {.sizeBytes = 4});
+    constexpr uint32_t kNone = 0;
+    graph.upload("val_clustering.no_partials", p.count, std::as_bytes(std::span(&kNone, 1)));
     return p;
 }
 
@@ -111,7 +128,6 @@ void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, cons
         .write("candidates", c.candidates)
         .write("candidateCounts", c.candidateCounts)
         .write("partialOf", partials.of)
-        .write("partialCount", partials.count)
         .push(push)
         .dispatchGroups(rsm.tileCount);
     graph.compute("val_clustering.assign", "val_clustering/assign_texels.comp")
@@ -185,7 +201,7 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
     c.candidateCounts = graph.buffer("val_clustering.candidate_counts", {.sizeBytes = rsm.tileCount * 4ull});
     c.slotOfTexel =
         graph.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
-    const Partials partials = partialsOf(graph, rsm.tileCount, settings.count);
+    const Partials partials = addPartials(graph, rsm, settings.count);
 
     const BufferHandle plans =
         settings.adaptive ? addAdaption(graph, rsm, importance, state, push) : BufferHandle{};

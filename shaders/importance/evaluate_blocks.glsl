@@ -74,7 +74,7 @@ void main() {
     // Every lane stays alive for the shuffles: those past a face's blocks work on its last one and store nothing.
     uint faceIndex = gl_WorkGroupID.y;
     RsmFace face = faces.items[faceIndex];
-    uint side = blockSide(face.size), blocks = (face.size / side) * (face.size / side);
+    uint side = blockSide(face.size), along = blocksAlong(face.size), blocks = along * along;
     uint code = min(gl_GlobalInvocationID.x, blocks - 1);
     BlockSum block = sumBlock(face.origin + cellFromMorton(code) * side, side);
     float texelCount = float(side * side);

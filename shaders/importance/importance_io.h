@@ -20,9 +20,12 @@ struct ImportanceSettings {  // push constants
     float viewWeight;    // w_v of ACRSM eq. 4.3, 0: flux alone
 };
 
-// Texels along the side of a block of a face so large.
+// Along a side of a face so large: its blocks, and the texels of each.
+AG_FUNCTION uint blocksAlong(uint faceSize) {
+    return min(faceSize / kLeastBlock, kMostBlocks);
+}
 AG_FUNCTION uint blockSide(uint faceSize) {
-    return max(kLeastBlock, faceSize / kMostBlocks);
+    return faceSize / blocksAlong(faceSize);
 }
 
 #ifdef __cplusplus

@@ -27,7 +27,7 @@ uint mortonFromCell(uvec2 cell) { return spreadBits(cell.x) | (spreadBits(cell.y
 uvec2 cellFromMorton(uint code) { return uvec2(compactBits(code), compactBits(code >> 1)); }
 
 // Levels above level 0 of a face of `size` texels (a power of two).
-uint pyramidTopLevel(uint size) { return uint(findMSB(size / blockSide(size))); }
+uint pyramidTopLevel(uint size) { return uint(findMSB(blocksAlong(size))); }
 
 // First node of a level: the finer levels' 4^top + ... + 4^(top-level+1) nodes lie before it.
 uint pyramidLevelOffset(uint top, uint level) {

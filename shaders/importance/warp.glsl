@@ -57,8 +57,9 @@ uvec2 warpToBlock(uint face, uint pyramidStride, inout vec2 u) {
 }
 
 // The texel of the block under u, or the next lit one after it.
-uint litTexelOfBlock(uint atlasWidth, uvec2 origin, uint side, vec2 u) {
-    uint count = side * side;
+uint litTexelOfBlock(uint atlasWidth, uint face, uvec2 block, vec2 u) {
+    uint side = blockSide(faces.items[face].size), count = side * side;
+    uvec2 origin = faces.items[face].origin + block * side;
     uvec2 cell = uvec2(u * float(side));
     uint start = cell.y * side + cell.x;
     uint found = kNoCluster;

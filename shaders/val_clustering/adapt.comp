@@ -72,7 +72,8 @@ void main() {
         uint i = base + gl_SubgroupInvocationID, cluster = map.firstCluster + min(i, map.clusterCount - 1);
         Cluster c = previous.items[cluster];
         bool mine = i < map.clusterCount, lit = mine && isLive(c, map.lightIdLow);
-        bool looked = lit && hashUint(cluster * 31 + push.settings.step * 7919) % push.settings.lookPeriod == 0;
+        bool looked = lit && push.settings.lookPeriod > 0 &&
+                      hashUint(cluster * 31 + push.settings.step * 7919) % max(push.settings.lookPeriod, 1) == 0;
         float error = dot(overMean, vec2(errors.items[cluster].ofFlux, errors.items[cluster].ofView));
         if (mine) plans.items[cluster] = lit ? kPlanKeep : kPlanAnew;
         AG_APPEND(emptySlots, (mine && !lit), emptyCount, cluster)

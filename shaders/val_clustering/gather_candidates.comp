@@ -21,7 +21,6 @@ layout(set = 0, binding = 2, scalar) readonly buffer TileMaps { uint items[]; } 
 layout(set = 0, binding = 3, scalar) writeonly buffer Candidates { uint items[]; } candidates;
 layout(set = 0, binding = 4, scalar) writeonly buffer CandidateCounts { uint items[]; } candidateCounts;
 layout(set = 0, binding = 5, scalar) writeonly buffer PartialOf { uint items[]; } partialOf;
-layout(set = 0, binding = 7, scalar) writeonly buffer PartialCount { uint count; } partialCount;
 
 layout(set = 0, binding = 6) uniform samplerBuffer texels;
 
@@ -119,5 +118,4 @@ void main() {
         found += subgroupBallotBitCount(ballot);
     }
     if (gl_SubgroupInvocationID == 0) candidateCounts.items[tile] = min(found, kMaxCandidates);
-    if (tile == 0 && gl_SubgroupInvocationID == 0) partialCount.count = 0;
 }

@@ -43,22 +43,18 @@ ClusterSeed deadSeed(uint map) {
     return ClusterSeed(vec3(0.0), kNoCluster, vec3(0.0, 1.0, 0.0), map, vec3(0.0), 0.0);
 }
 
+ClusterSeed seedFromTexel(uint texel, uint mapIndex) {
+    RsmSurface s = AG_RSM_FETCH(texels, texel);
+    return ClusterSeed(s.position, texel / (kRsmTileSize * kRsmTileSize), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
+}
+
 ClusterSeed seedFromImportance(uint cluster, uint mapIndex) {
     RsmMap map = maps.items[mapIndex];
     vec2 u = halton23(1 + (cluster + push.settings.step * kMaxClusters) % 4194304u);
     uint face = chooseFace(map, push.pyramidStride, u.x);
     uvec2 block = warpToBlock(face, push.pyramidStride, u);
-    uint side = blockSide(faces.items[face].size);
-    uvec2 origin = faces.items[face].origin + block * side;
-    uint texel = litTexelOfBlock(push.settings.atlasSize.x, origin, side, u);
-    if (texel == kNoCluster) return deadSeed(mapIndex);
-    RsmSurface s = AG_RSM_FETCH(texels, texel);
-    return ClusterSeed(s.position, rsmTileOfCoord(origin, push.settings.atlasSize.x), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
-}
-
-ClusterSeed seedFromTexel(uint texel, uint mapIndex) {
-    RsmSurface s = AG_RSM_FETCH(texels, texel);
-    return ClusterSeed(s.position, texel / (kRsmTileSize * kRsmTileSize), s.normal, mapIndex, s.flux / length(s.flux), 0.0);
+    uint texel = litTexelOfBlock(push.settings.atlasSize.x, face, block, u);
+    return texel == kNoCluster ? deadSeed(mapIndex) : seedFromTexel(texel, mapIndex);
 }
 
 void main() {

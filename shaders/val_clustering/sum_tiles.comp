@@ -153,9 +153,10 @@ void main() {
             uint slot = first + uint(findLSB(left));
             uint cluster = texelFetch(candidates, int(tile * kMaxCandidates + slot)).x;
             Sums sums = sumCandidate(tile, slot, cluster);
-            if (gl_SubgroupInvocationID != 0 || at >= push.mostPartials) continue;
-            store(at * kPartialVec4s, sums);
-            partialOf.items[tile * push.clusterCount + cluster] = at;
+            if (gl_SubgroupInvocationID == 0 && at < push.mostPartials) {
+                store(at * kPartialVec4s, sums);
+                partialOf.items[tile * push.clusterCount + cluster] = at;
+            }
         }
     }
 }

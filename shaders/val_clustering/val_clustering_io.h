@@ -16,10 +16,7 @@ const uint kNoCluster = 0xffffffffu;
 // texel.
 const uint kPlanKeep = 0xffffffffu, kPlanAnew = 0xfffffffeu;
 const uint kPartialVec4s = 10;  // what a tile keeps for a cluster it has texels of: 6 of sums, 4 of extremes
-// There is room for so many of these a tile on the average. Candidates are fewer: a cluster is one within two
-// cells of its own and two roundings up to tiles, at most 49 times its share of the tiles, and probes add 16.
-const uint kMostPartials = 96;
-const uint kExtremes = 8;  // directions in the seed's plane, 45 degrees apart
+const uint kExtremes = 8;       // directions in the seed's plane, 45 degrees apart
 
 struct ClusterSeed {  // 3 vec4: what a texel is compared with
     vec3 position;    // m
@@ -62,7 +59,7 @@ struct ClusterSettings {  // push constants
     uvec2 atlasSize;  // texels
     uint mapCount;
     float viewWeight;  // of errors in the view against errors of flux, 0 to 1
-    uint lookPeriod;   // adaption looks at a cluster every so many steps, by chance
+    uint lookPeriod;   // adaption looks at a cluster every so many steps, by chance; 0: never
     uint step;         // counts clustering steps: varies the reseeding sequence
 };
 

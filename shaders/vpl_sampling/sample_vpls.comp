@@ -23,7 +23,9 @@ layout(set = 0, binding = 4, scalar) writeonly buffer Vals { Val items[]; } vals
 layout(set = 0, binding = 5, scalar) writeonly buffer Shapes { ValShapeVectors items[]; } shapes;
 #include "importance/warp.glsl"
 
-vec3 fluxOfBlock(uvec2 origin, uint side) {
+vec3 fluxOfBlock(uint face, uvec2 block) {
+    uint side = blockSide(faces.items[face].size);
+    uvec2 origin = faces.items[face].origin + block * side;
     vec3 sum = vec3(0.0);
     for (uint i = 0; i < side * side; ++i) {
         uvec2 coord = origin + uvec2(i % side, i / side);
@@ -36,14 +38,12 @@ Val sampleMap(RsmMap map, uint i, Val black) {
     vec2 u = halton23(1 + i);
     uint face = chooseFace(map, push.pyramidStride, u.x);
     uvec2 block = warpToBlock(face, push.pyramidStride, u);
-    uint side = blockSide(faces.items[face].size);
-    uvec2 origin = faces.items[face].origin + block * side;
-    uint texel = litTexelOfBlock(push.atlasWidth, origin, side, u);
+    uint texel = litTexelOfBlock(push.atlasWidth, face, block, u);
     float importance = pyramid.items[face * push.pyramidStride + mortonFromCell(block)];
     if (texel == kNoCluster || importance <= 0.0) return black;
     RsmSurface s = AG_RSM_FETCH(texels, texel);
     float perLight = mapImportance(map, push.pyramidStride) / (importance * float(map.clusterCount));
-    return Val(s.position, 0.0, s.normal, 0.0, fluxOfBlock(origin, side) * perLight, 0.0);
+    return Val(s.position, 0.0, s.normal, 0.0, fluxOfBlock(face, block) * perLight, 0.0);
 }
 
 void main() {

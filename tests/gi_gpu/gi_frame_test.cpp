@@ -314,6 +314,10 @@ TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
     for (int i = 0; i < 5; ++i)
         few.frame();
     checkClusters(few);
+    few.settings.laterBounces = {.enabled = true, .share = 0.8f};  // a map whose clusters all tiles consider
+    for (int i = 0; i < 5; ++i)
+        few.frame();
+    checkClusters(few);
 }
 
 // Sampled point lights carry the light maps' flux: each as much as its chance leaves it.
