@@ -11,6 +11,8 @@ enum class Tonemap : uint32_t { kNone, kReinhard, kAces };
 struct CompositeSettings {
     float exposure = 0;  // stops
     Tonemap tonemap = Tonemap::kAces;
+
+    bool operator==(const CompositeSettings&) const = default;
 };
 
 struct GiOutputs {

@@ -20,6 +20,8 @@ struct DenoiserSettings {  // ours
     bool adaptive = true;       // light that changes takes over, bright samples are spread
     bool motion = true;         // histories follow surfaces that move
     float lightTolerance = 4;   // standard deviations by which the light of taps may differ; 0: any
+
+    bool operator==(const DenoiserSettings&) const = default;
 };
 
 struct DenoiserHistory {

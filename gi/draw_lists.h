@@ -54,6 +54,8 @@ class DrawLists {
     // Several views at once, a job each where that is worth it; cull() then finds them done.
     void cullAll(const RenderScene& scene, std::span<const ViewRequest> views);
 
+    Bounds boundsOf(uint32_t instance) const { return bounds_.of(instance); }  // world
+
     // The result stays in place and is valid until the next cull of that slot.
     const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
 

@@ -7,6 +7,7 @@
 #include "gi/gi_settings.h"
 #include "gi/lamp_lighting.h"
 #include "gi/probes.h"
+#include "gi/refresh.h"
 #include "gi/ssvp.h"
 #include "gi/texel_shading.h"
 #include "gi/upsampling.h"
@@ -17,6 +18,7 @@ namespace ag::gi {
 
 // State that outlives a frame; one per view of the scene.
 struct GiHistory {
+    RefreshHistory refresh;
     ClusterShares clusterShares;
     ValClusteringHistory valClustering;
     Settling stochasticRsm;

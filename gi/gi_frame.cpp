@@ -10,11 +10,15 @@ namespace ag::gi {
 
 GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& s, GiHistory& h) {
     GiFrame f;
+    // What may wait
+    const Refresh refresh = chooseRefresh(scene, s, h.refresh);
+
     // Figures as they are bent now
     addSkinning(graph, scene);
 
     // What the camera sees
     f.gbuffer = addGBuffer(graph, scene);
+    graph.hold(!refresh.lights);
     f.viewPoints = addViewPoints(graph, scene, f.gbuffer);
 
     // First bounce: where light lands, as few lights
@@ -28,6 +32,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
         f.vals = addVplSampling(graph, f.rsm, f.importance, s.valClustering.count);
     else if (s.firstBounce != FirstBounce::kSsvp)
         f.vals = addValFit(graph, f.rsm, f.laterLight, f.clusters);
+    graph.hold(false);
     f.firstCount = std::min(f.vals.count, f.rsm.firstLater());
 
     // What each of them sees
@@ -47,9 +52,10 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
         f.bounce1 = addStochasticRsm(graph, scene, thin, f.rsm, {f.clusters, f.vals, f.isms}, s.stochasticRsm,
                                      h.stochasticRsm);
     else if (s.firstBounce != FirstBounce::kNone)
-        f.bounce1 = addValShading(graph, thin, firstVals(f.vals, f.firstCount), f.isms, s.valShading);
-    if (s.firstBounce == FirstBounce::kAreaLights)
-        f.coat = addValGloss(graph, f.gbuffer, f.vals, f.isms, s.valShading);  // at all that have it
+        f.bounce1 = addValShading(graph, thin, firstVals(f.vals, f.firstCount), f.isms, s.valShading,
+                                  kFirstBounceShading, refresh.pixels);
+    if (s.firstBounce == FirstBounce::kAreaLights)  // at all that have it
+        f.coat = addValGloss(graph, f.gbuffer, f.vals, f.isms, s.valShading, refresh.pixels);
 
     // Light that goes on
     f.indirect = f.bounce1;

@@ -154,17 +154,18 @@ struct Preset {
     std::string_view name;
     void (*apply)(GiSettings&);
     uint32_t mapResolution = 0;  // texels along a light map's side; 0: as each light says
+    bool waits = true;           // with what may be late; not where a published system is compared with
 };
 
 constexpr std::array<Preset, 18> kPresets = {{{"none", setNone},
-                                              {"rsm-brute", setRsmBrute, 128},
-                                              {"rsm-400", setRsm400, 256},
-                                              {"irsm", setIrsm, 256},
+                                              {"rsm-brute", setRsmBrute, 128, false},
+                                              {"rsm-400", setRsm400, 256, false},
+                                              {"irsm", setIrsm, 256, false},
                                               {"stochastic", setStochastic, 256},
-                                              {"ism", setIsm, 256},
-                                              {"ssvp", setSsvp, 256},
-                                              {"rsmc", setRsmc, 256},
-                                              {"acrsm", setAcrsm, 256},
+                                              {"ism", setIsm, 256, false},
+                                              {"ssvp", setSsvp, 256, false},
+                                              {"rsmc", setRsmc, 256, false},
+                                              {"acrsm", setAcrsm, 256, false},
                                               {"afterglow", setAfterglow},
                                               {"medium", setAfterglow},
                                               {"afterglow-bounces", setAfterglowBounces, 256},
@@ -192,6 +193,7 @@ bool applyPreset(std::string_view name, GiSettings& gi) {
     if (found == kPresets.end()) return false;
     found->apply(gi);
     if (found->mapResolution) gi.rsm.resolution = found->mapResolution;
+    if (!found->waits) gi.refresh.lightFrames = 1;
     return true;
 }
 
@@ -269,6 +271,14 @@ void registerSettings(Settings& s, GiSettings& gi) {
     s.add({"ism_atlas", "keep_maps", 0, 0, "", "do not splat again for lights that stand still"},
           &gi.ismAtlas.keepMaps);
     s.add({"ism_atlas", "pull_push", 0, 0, "", "close the holes between points"}, &gi.ismAtlas.pullPush);
+    s.add({"refresh", "light_frames", 1, 64, "frames",
+           "while only small things move, from one time that lights are clustered to the next; 1: always"},
+          &gi.refresh.lightFrames);
+    s.add({"refresh", "pixel_frames", 1, 16, "frames",
+           "in which all pixels are gathered meanwhile that are as they were"},
+          &gi.refresh.pixelFrames);
+    s.add({"refresh", "small", 0, 1, "", "of what the camera or a light sees, what counts as small"},
+          &gi.refresh.small);
     s.add({"ssvp", "clusters", 1, 64, "clusters", "of point lights, each with a paraboloid map"},
           &gi.ssvp.clusters);
     s.add({"ssvp", "second_count", 0, 4096, "lights", "of the second bounce"}, &gi.ssvp.secondCount);

@@ -11,6 +11,7 @@
 #include "gi/ism_atlas.h"
 #include "gi/lamp_lighting.h"
 #include "gi/later_bounces.h"
+#include "gi/pixel_share.h"
 #include "gi/probes.h"
 #include "gi/rsm.h"
 #include "gi/shadow_maps.h"
@@ -52,7 +53,10 @@ struct GiSettings {
     LampShadowSettings lampShadows;
     LampLightingSettings lampLighting;
     ProbeSettings probes;
+    RefreshSettings refresh;
     CompositeSettings composite;
+
+    bool operator==(const GiSettings&) const = default;
 };
 
 // Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),

@@ -11,6 +11,8 @@ namespace ag::gi {
 
 struct ImportanceSettings {
     float viewWeight = 0.7f;  // w_v: 0 flux alone (clusters then do not depend on the camera), 1 view alone
+
+    bool operator==(const ImportanceSettings&) const = default;
 };
 
 struct Importance {

@@ -10,48 +10,15 @@
 namespace ag::gi {
 namespace {
 
-constexpr uint32_t kCoarsestSize = 4;  // texels along the last level's tile
-constexpr uint32_t kMostLevels = 6;
-constexpr uint32_t kTileSizeStep = 16;  // tiles are whole workgroups, and each level half the one before
+constexpr uint32_t kTileSizeStep = io::kIsmRegionSide;
+constexpr uint32_t kMostListed = 65535;  // groups of a dispatch on any device
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 
 constexpr WorkListNames kMapsAnew = {"ism_atlas.anew", "ism_atlas.anew_groups", "ism_atlas.none_anew"};
-
-// The graph keeps views of pass names, so they are literals.
-constexpr std::array<std::string_view, kMostLevels> kPullNames = {"ism_atlas.close", "ism_atlas.pull2",
-                                                                  "ism_atlas.pull3", "ism_atlas.pull4",
-                                                                  "ism_atlas.pull5", "ism_atlas.pull6"};
-constexpr std::array<std::string_view, kMostLevels> kPushNames = {"ism_atlas.push1", "ism_atlas.push2",
-                                                                  "ism_atlas.push3", "ism_atlas.push4",
-                                                                  "ism_atlas.push5", "ism_atlas.push6"};
-
-// Holes in planes are closed first, then empty texels are filled from coarser levels.
-void addPullPush(FrameGraph& graph, BufferHandle resolved, const IsmAtlas& atlas) {
-    const uint32_t mapCount = atlas.mapCount, tileSize = atlas.tileSize;
-    std::array<io::IsmLevelPush, kMostLevels> levels{};
-    uint32_t count = 0, fine = 0;
-    for (uint32_t size = tileSize / 2; size >= kCoarsestSize; size /= 2) {
-        const uint32_t coarse = fine + mapCount * size * size * 4;
-        levels[count++] = {size, fine, coarse};
-        fine = coarse;
-    }
-    graph.compute(kPullNames[0], "ism_atlas/close_holes.comp")
-        .read("resolved", resolved)
-        .write("pyramid", atlas.planes)
-        .spec(3, atlas.mapping == IsmMapping::kParaboloid)
-        .push(levels[0])
-        .dispatchGroups((levels[0].coarseSize * levels[0].coarseSize + 63) / 64, mapCount);
-    for (uint32_t i = 1; i < count; ++i)
-        graph.compute(kPullNames[i], "ism_atlas/pull_level.comp")
-            .readWrite("pyramid", atlas.planes)
-            .push(levels[i])
-            .dispatchGroups((levels[i].coarseSize * levels[i].coarseSize + 63) / 64, mapCount);
-    for (uint32_t i = count; i-- > 0;)
-        graph.compute(kPushNames[i], "ism_atlas/push_level.comp")
-            .readWrite("pyramid", atlas.planes)
-            .push(levels[i])
-            .dispatchGroups((levels[i].coarseSize * levels[i].coarseSize + 63) / 64, mapCount);
-}
+constexpr WorkListNames kRestored = {"ism_atlas.restored", "ism_atlas.restored_groups",
+                                     "ism_atlas.none_restored"};
+constexpr WorkListNames kFinished = {"ism_atlas.finished", "ism_atlas.finished_groups",
+                                     "ism_atlas.none_finished"};
 
 // What still layers are made of and like, as a number; 0: none are kept.
 uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const SurfacePoints& points,
@@ -60,7 +27,8 @@ uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const Surf
     const uint64_t size =
         hashValue(glm::uvec4(atlas.mapCount, atlas.tileSize, atlas.pointsPerMap, stillEntries));
     const uint64_t like =
-        hashValue(glm::vec4(s.splatScale, float(s.mapping), float(s.nearMore), points.extent));
+        combineHash(hashValue(glm::vec4(s.splatScale, float(s.mapping), float(s.nearMore), points.extent)),
+                    uint64_t(s.planes) * 2 + s.pullPush);
     return uint32_t(combineHash(combineHash(size, like), points.stillVersion)) | 1;
 }
 
@@ -89,6 +57,10 @@ io::IsmSplatPush layerPush(io::IsmSplatPush push, const PointLayer& layer, uint3
     return push;
 }
 
+uint32_t regionsOf(uint32_t tileSize) {
+    return (tileSize / io::kIsmRegionSide) * (tileSize / io::kIsmRegionSide);
+}
+
 struct Splat {
     FrameGraph& graph;
     const SurfacePoints& points;
@@ -96,18 +68,23 @@ struct Splat {
     const IsmAtlasSettings& settings;
     const IsmAtlas& atlas;
     uint32_t texelGroups() const { return atlas.tileSize * atlas.tileSize / 256; }
+    uint32_t regions() const { return atlas.mapCount * regionsOf(atlas.tileSize); }
+};
+
+struct MapPush {
+    io::IsmSplatPush splat;
+    uint32_t mapCount;
 };
 
 uint32_t splatGroups(const io::IsmSplatPush& push) {
     return (push.entryCount + 63) / 64;
 }
 
-PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle states, BufferHandle keys,
-                     const io::IsmSplatPush& push) {
+PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle chosen, BufferHandle states,
+                     BufferHandle keys, const io::IsmSplatPush& push) {
     PassBuilder pass = s.graph.compute(name, "ism_atlas/splat_points.comp");
-    pass.read("points", s.points.points)
-        .read("vals", s.vals.vals)
-        .read("chosen", s.atlas.chosen)
+    pass.read("vals", s.vals.vals)
+        .read("chosen", chosen)
         .read("states", states)
         .readWrite("keys", keys)
         .spec(3, s.settings.mapping == IsmMapping::kParaboloid)
@@ -120,7 +97,7 @@ PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle states,
 void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
     const WorkList anew = addWorkList(s.graph, kMapsAnew, s.atlas.mapCount, {splatGroups(push), 0, 1});
     s.graph.compute("ism_atlas.choose", "ism_atlas/choose_still.comp")
-        .read("segments", s.points.segments)
+        .readPart("segments", s.points.segments, s.points.stillVersion)
         .read("vals", s.vals.vals)
         .readPrevious("previousPlaces", kept.places)
         .readPrevious("previousChosen", kept.chosen)
@@ -138,36 +115,107 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .write("keys", kept.keys.current)
         .push(push)
         .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
-    addSplat(s, "ism_atlas.splat", s.atlas.states, kept.keys.current, push)
+    addSplat(s, "ism_atlas.splat", s.atlas.chosen, s.atlas.states, kept.keys.current, push)
+        .readPart("points", s.points.points, s.points.stillVersion)
+        .readWrite("finishes", kept.keys.current)  // not looked at
         .read("listed", anew.items)
         .spec(4, true)
         .dispatchIndirect(anew.groups);
 }
 
-// What may move, over a copy of that; every map anew.
-BufferHandle addMovingLayer(const Splat& s, BufferHandle stillKeys, const io::IsmSplatPush& push) {
+// Regions where the still layer is to show again.
+WorkList addRestored(const Splat& s, const MapHistories& kept, const HistoryBuffer& finishes,
+                     const io::IsmSplatPush& push) {
+    const WorkList restored = addWorkList(s.graph, kRestored, s.regions(), {0, 1, 1});
+    s.graph.compute("ism_atlas.list_restored", "ism_atlas/list_restored.comp")
+        .read("places", kept.places.current)
+        .readPrevious("previousFinishes", finishes)
+        .write("finishes", finishes.current)
+        .write("listed", restored.items)
+        .readWrite("groups", restored.groups)
+        .push(MapPush{push, s.atlas.mapCount})
+        .dispatchThreads(s.atlas.mapCount);
+    return restored;
+}
+
+// What may move, over the still layer: only where it shows or showed in the frame before is anything done.
+struct MovingLayer {
+    BufferHandle keys, chosen;
+};
+MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle finishes,
+                           const WorkList& restored, const io::IsmSplatPush& push) {
     const BufferHandle states =
         s.graph.buffer("ism_atlas.moving_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
-    const uint64_t texels = uint64_t(s.atlas.mapCount) * s.atlas.tileSize * s.atlas.tileSize;
-    const BufferHandle keys =
-        s.graph.buffer("ism_atlas.all_keys", {.sizeBytes = texels * 4, .texelFormat = kUint});
+    const BufferHandle keys = s.graph.buffer("ism_atlas.all_keys", s.graph.info(stillKeys));
+    const BufferHandle chosen =
+        s.graph.buffer("ism_atlas.moving_chosen",
+                       {.sizeBytes = s.atlas.mapCount * push.entryCount * 4ull, .texelFormat = kUint});
     s.graph.compute("ism_atlas.choose_moving", "ism_atlas/choose_moving.comp")
         .read("segments", s.points.segments)
         .read("vals", s.vals.vals)
-        .readWrite("chosen", s.atlas.chosen)
+        .write("chosen", chosen)
         .write("states", states)
         .spec(0, s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
-    s.graph.compute("ism_atlas.copy", "ism_atlas/copy_keys.comp")
+    s.graph.compute("ism_atlas.restore", "ism_atlas/restore_keys.comp")
+        .read("listed", restored.items)
         .read("still", stillKeys)
         .write("keys", keys)
         .push(push)
-        .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
-    addSplat(s, "ism_atlas.splat_moving", states, keys, push)
-        .read("listed", s.atlas.chosen)  // not looked at
+        .dispatchIndirect(restored.groups);
+    addSplat(s, "ism_atlas.splat_moving", chosen, states, keys, push)
+        .read("points", s.points.points)
+        .readWrite("finishes", finishes)
+        .read("listed", chosen)  // not looked at
+        .spec(5, true)
         .dispatchGroups(splatGroups(push), s.atlas.mapCount);
-    return keys;
+    return {keys, chosen};
+}
+
+// From the nearest points to planes without holes, where maps may be otherwise than they were.
+void addFinish(const Splat& s, const MovingLayer& layer, const HistoryBuffer& finishes,
+               const io::IsmSplatPush& push) {
+    const WorkList finished = addWorkList(s.graph, kFinished, s.regions(), {0, 1, 1});
+    s.graph.compute("ism_atlas.list_finished", "ism_atlas/list_finished.comp")
+        .readPrevious("previousFinishes", finishes)
+        .read("finishes", finishes.current)
+        .write("listed", finished.items)
+        .readWrite("groups", finished.groups)
+        .push(MapPush{push, s.atlas.mapCount})
+        .dispatchThreads(s.atlas.mapCount);
+    const BufferHandle resolved = s.settings.pullPush
+                                      ? s.graph.buffer("ism_atlas.resolved", s.graph.info(s.atlas.planes))
+                                      : s.atlas.planes;
+    s.graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
+        .read("points", s.points.points)
+        .read("vals", s.vals.vals)
+        .read("keys", layer.keys)
+        .read("stillChosen", s.atlas.chosen)
+        .read("movingChosen", layer.chosen)
+        .read("listed", finished.items)
+        .write("planes", resolved)
+        .spec(0, s.settings.planes)
+        .spec(1, !s.settings.pullPush)
+        .spec(2, push.entryCount > 0)
+        .push(push)
+        .dispatchIndirect(finished.groups);
+    if (!s.settings.pullPush) return;
+    s.graph.compute("ism_atlas.close", "ism_atlas/close_holes.comp")
+        .read("resolved", resolved)
+        .read("listed", finished.items)
+        .write("planes", s.atlas.planes)
+        .spec(3, s.atlas.mapping == IsmMapping::kParaboloid)
+        .push(push)
+        .dispatchIndirect(finished.groups);
+}
+
+// The largest maps there may be so many of.
+uint32_t tileSizeFor(uint32_t asked, uint32_t mapCount) {
+    uint32_t size = std::clamp(asked / kTileSizeStep * kTileSizeStep, kTileSizeStep, 128u);
+    while (mapCount * regionsOf(size) > kMostListed)
+        size -= kTileSizeStep;
+    return size;
 }
 
 }  // namespace
@@ -175,47 +223,35 @@ BufferHandle addMovingLayer(const Splat& s, BufferHandle stillKeys, const io::Is
 IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,
                      const IsmAtlasSettings& settings) {
     if (!settings.enabled || points.count == 0 || vals.count == 0) return {};
-    IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms),
-                   .tileSize = std::clamp(settings.tileSize / kTileSizeStep * kTileSizeStep, 16u, 128u),
-                   .mapping = settings.mapping};
+    IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms), .mapping = settings.mapping};
+    atlas.tileSize = tileSizeFor(settings.tileSize, atlas.mapCount);
     const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
     const uint32_t moving = movingEntries(points, perMap), still = perMap - moving;
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
-    atlas.planes = graph.buffer("ism_atlas.planes", {.sizeBytes = (texels + texels / 3 + 1) * 16,
-                                                     .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    atlas.planes = graph.buffer("ism_atlas.planes",
+                                {.sizeBytes = texels * 16, .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     const io::IsmSplatPush push{.pointCount = points.count,
                                 .tileSize = atlas.tileSize,
-                                .pointsPerMap = perMap,
                                 .inverseExtent = 1 / points.extent,
                                 .contents = contentsOf(settings, atlas, points, still)};
     const MapHistories kept{
         .places =
             graph.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
-        .chosen = graph.historyBuffer("ism_atlas.chosen",
-                                      {.sizeBytes = atlas.mapCount * perMap * 4ull, .texelFormat = kUint}),
+        .chosen = graph.historyBuffer(
+            "ism_atlas.chosen",
+            {.sizeBytes = std::max(still, 1u) * atlas.mapCount * 4ull, .texelFormat = kUint}),
         .keys = graph.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = kUint})};
     atlas.chosen = kept.chosen.current;
     atlas.states = graph.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});
     const Splat splat{graph, points, vals, settings, atlas};
-    BufferHandle keys = kept.keys.current;
     addStillLayer(splat, kept, layerPush(push, points.still, 0, still, settings.splatScale));
-    if (moving > 0)
-        keys =
-            addMovingLayer(splat, keys, layerPush(push, points.moving, still, moving, settings.splatScale));
-    const BufferHandle resolved =
-        settings.pullPush ? graph.buffer("ism_atlas.resolved", {.sizeBytes = texels * 16,
-                                                                .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT})
-                          : atlas.planes;
-    graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
-        .read("points", points.points)
-        .read("vals", vals.vals)
-        .read("keys", keys)
-        .read("chosen", atlas.chosen)
-        .write("planes", resolved)
-        .spec(0, settings.planes)
-        .push(push)
-        .dispatchGroups(splat.texelGroups(), atlas.mapCount);
-    if (settings.pullPush) addPullPush(graph, resolved, atlas);
+    const HistoryBuffer finishes =
+        graph.historyBuffer("ism_atlas.finishes", {.sizeBytes = atlas.mapCount * sizeof(io::IsmFinish)});
+    const WorkList restored = addRestored(splat, kept, finishes, push);
+    const io::IsmSplatPush movingPush = layerPush(push, points.moving, still, moving, settings.splatScale);
+    MovingLayer all{kept.keys.current, atlas.chosen};
+    if (moving > 0) all = addMovingLayer(splat, all.keys, finishes.current, restored, movingPush);
+    addFinish(splat, all, finishes, movingPush);
     return atlas;
 }
 

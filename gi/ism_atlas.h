@@ -24,11 +24,13 @@ struct IsmAtlasSettings {
     bool planes = true;    // what texels keep; off: distances with a bias of a disk, as in the sources
     bool keepMaps = true;  // of lights that stand still before points that do; not with skipping off
     bool pullPush = true;  // close the holes between points
+
+    bool operator==(const IsmAtlasSettings&) const = default;
 };
 
 struct IsmAtlas {
-    BufferHandle planes;  // vec4: level 0 of all maps first; also a texel buffer; invalid: no visibility
-    BufferHandle chosen;  // per map its points, see ism_light.glsl
+    BufferHandle planes;  // vec4; also a texel buffer; invalid: no visibility
+    BufferHandle chosen;  // per map its points that stand still, see ism_light.glsl
     BufferHandle states;  // io::IsmMapState
     uint32_t pointsPerMap = 0;
     uint32_t mapCount = 0;

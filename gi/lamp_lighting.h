@@ -17,6 +17,8 @@ struct LampLightingSettings {
     // A lamp has all of its cluster's shadow where it is so many times farther off than from the centre,
     // nearer by in proportion less. 0: everywhere, as published.
     float shadowReach = 4;
+
+    bool operator==(const LampLightingSettings&) const = default;
 };
 
 // Adds to `before`, or starts anew where that has no image.

@@ -13,6 +13,8 @@ struct LampShadowSettings {
     uint32_t faceResolution = 512;  // texels along a cube face's side, at most; smaller for many clusters
     uint32_t atlasSize = 4096;      // texels along the atlas's side
     uint32_t softTaps = 0;  // of the disk as large as a cluster that its shadow comes from; 0: its centre
+
+    bool operator==(const LampShadowSettings&) const = default;
 };
 
 struct LampShadowHistory {

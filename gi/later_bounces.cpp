@@ -25,7 +25,7 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
     const uint64_t inputs =
         combineHash(combineHash(r.lightsVersion, r.instancesVersion),
                     combineHash(r.cameraVersion, hashValue(glm::vec2(s.share, s.feedback))));
-    const uint32_t step = settling.advance(inputs, s.settleFrames);
+    const uint32_t step = graph.holding() ? settling.step : settling.advance(inputs, s.settleFrames);
     LaterLight light{.count = scene.bouncePointCount, .share = s.share};
     light.side = uint32_t(std::lround(std::sqrt(double(light.count))));
     light.irradiance = graph.historyBuffer(

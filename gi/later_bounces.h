@@ -23,6 +23,8 @@ struct LaterBouncesSettings {
     float share = 0.4f;          // of all clusters
     uint32_t spacing = 2;        // of the pixels bounced light is gathered at, to those later bounces are
     uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
+
+    bool operator==(const LaterBouncesSettings&) const = default;
 };
 
 // The points' emission as texels of a light map, and where the light on them goes.

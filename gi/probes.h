@@ -18,6 +18,8 @@ constexpr uint32_t kMostProbes = 4096;  // further ones are left out
 struct ProbeSettings {
     ValShape shape = ValShape::kPolygon;
     uint32_t taps = 4;  // of an area light's soft shadow
+
+    bool operator==(const ProbeSettings&) const = default;
 };
 
 struct ProbeReading {

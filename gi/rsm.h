@@ -16,6 +16,8 @@ namespace ag::gi {
 struct RsmSettings {
     uint32_t resolution = 0;  // texels along a map's side; 0: as each light says
     float sunMargin = 0.02f;  // part of the scene's width added round a sun's map
+
+    bool operator==(const RsmSettings&) const = default;
 };
 
 struct RsmSet {

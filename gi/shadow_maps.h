@@ -15,6 +15,8 @@ struct ShadowMapSettings {
     uint32_t cascades = 3;       // of each sun, 1 to 4
     float cascadeReach = 1;      // part of the way to the scene's end that cascades share out
     float cascadeSplit = 0.75f;  // 0 uniform, 1 logarithmic
+
+    bool operator==(const ShadowMapSettings&) const = default;
 };
 
 struct SunShadow {

@@ -16,6 +16,8 @@ struct SsvpSettings {
     uint32_t rounds = 5;         // of k-means
     uint32_t mapSize = 256;      // texels along a paraboloid's square
     bool disk = true;            // sample the paraboloids' disks; off: the squares round them
+
+    bool operator==(const SsvpSettings&) const = default;
 };
 
 struct Ssvp {

@@ -23,6 +23,8 @@ struct StochasticRsmSettings {
     bool whole = false;    // every other sample from all of the map, so that no light is lost; not of points
     bool visible = false;  // samples as far as their cluster's imperfect shadow map lets them be seen
     uint32_t settleFrames = 64;  // frames with new samples after anything last changed
+
+    bool operator==(const StochasticRsmSettings&) const = default;
 };
 
 struct SampleVisibility {  // clusters of texels, and the map of what each sees

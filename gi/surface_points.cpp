@@ -15,6 +15,16 @@ PointLayer layerOf(uint32_t first, uint32_t count) {
             .segmentCount = (count + io::kSegmentPoints - 1) / io::kSegmentPoints};
 }
 
+constexpr uint32_t kPlaceGroup = 64, kBoundGroup = 64;  // invocations
+
+// What stands still is worked on once, in groups of so many points; a group that has some of both counts as
+// moving.
+void addLayers(PassBuilder& pass, const SurfacePoints& p, uint64_t movingVersion, uint32_t groupPoints) {
+    const uint32_t still = p.still.count / groupPoints, all = (p.count + groupPoints - 1) / groupPoints;
+    if (still > 0) pass.part(0, still, p.stillVersion);
+    if (all > still) pass.part(still, all - still, combineHash(p.stillVersion, movingVersion));
+}
+
 }  // namespace
 
 SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
@@ -31,19 +41,16 @@ SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     place.read("instances", scene.instances)
         .read("samples", scene.surfaceSamples)
         .read("areas", scene.pointAreas)
-        .write("points", p.points)
-        .push(p.count)
-        .key(scene.scene->instancesVersion)
-        .dispatchThreads(p.count);
+        .parts("points", p.points)
+        .push(io::PointPush{.pointCount = p.count});
     readFigures(place, scene.skin);
+    addLayers(place, p, scene.scene->instancesVersion, kPlaceGroup);
     const uint32_t segments = p.still.segmentCount + p.moving.segmentCount;
     p.segments = graph.buffer("surface_points.segments", {.sizeBytes = segments * sizeof(io::SurfaceSegment),
                                                           .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.compute("surface_points.bound", "surface_points/bound_segments.comp")
-        .read("points", p.points)
-        .write("segments", p.segments)
-        .push(p.count)
-        .dispatchThreads(segments);
+    PassBuilder bound = graph.compute("surface_points.bound", "surface_points/bound_segments.comp");
+    bound.read("points", p.points).parts("segments", p.segments).push(io::PointPush{.pointCount = p.count});
+    addLayers(bound, p, scene.scene->instancesVersion, io::kSegmentPoints * kBoundGroup);
     return p;
 }
 

@@ -177,14 +177,17 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
     const uint64_t light = combineHash(rsm.inputsVersion, hashOf(settings));
     const uint64_t inputs = combineHash(light, importance.viewDependent() ? viewVersion : 0);
     // Past that the clusters rest, and everything behind them is skipped.
-    const uint32_t step = history.settling.advance(inputs, settings.settleFrames);
-    const io::ClusterSettings push{.metricWeights = metricWeights(settings),
-                                   .clusterCount = settings.count,
-                                   .atlasSize = rsm.atlas.size,
-                                   .mapCount = rsm.atlas.mapCount,
-                                   .viewWeight = importance.viewWeight,
-                                   .lookPeriod = lookPeriod(history, light, settings.settleFrames),
-                                   .step = step};
+    const bool late = graph.holding();
+    const uint32_t step =
+        late ? history.settling.step : history.settling.advance(inputs, settings.settleFrames);
+    const io::ClusterSettings push{
+        .metricWeights = metricWeights(settings),
+        .clusterCount = settings.count,
+        .atlasSize = rsm.atlas.size,
+        .mapCount = rsm.atlas.mapCount,
+        .viewWeight = importance.viewWeight,
+        .lookPeriod = late ? kNever : lookPeriod(history, light, settings.settleFrames),
+        .step = step};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
     const State state{

@@ -18,6 +18,8 @@ struct ValClusteringSettings {
     float planeWeight = 12;      // of the distance from the cluster's plane, 1/m²
     bool adaptive = true;        // split clusters with much error, drop those with little (ACRSM 4.8)
     uint32_t settleFrames = 32;  // steps taken after the light maps last changed; then clusters rest
+
+    bool operator==(const ValClusteringSettings&) const = default;
 };
 
 // The part of clustering's state that lives on the CPU: when it may rest, and how often it splits.

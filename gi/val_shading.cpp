@@ -11,6 +11,9 @@ namespace {
 constexpr ValTileNames kGlossTiles = {"val_gloss.classify", "val_gloss.lists", "val_gloss.counts",
                                       "val_gloss.lacking", "val_gloss.lacking_counts"};
 
+constexpr WorkListNames kGroupsAnew = {"val_shading.anew", "val_shading.groups", "val_shading.none"};
+constexpr WorkListNames kGlossyGroupsAnew = {"val_gloss.anew", "val_gloss.anew_groups",
+                                             "val_gloss.none_anew"};
 constexpr WorkListNames kGlossyGroups = {"val_gloss.glossy", "val_gloss.groups", "val_gloss.none"};
 
 // A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks. Where pixels are
@@ -94,12 +97,36 @@ Gather addTiles(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, con
     return g;
 }
 
+uint32_t groupsOf(const Gather& g) {
+    return (g.blocks + 63) / 64;
+}
+
+HistoryBuffer addDigests(const Gather& g, std::string_view name) {
+    return g.graph.historyBuffer(name, {.sizeBytes = groupsOf(g) * sizeof(glm::uvec2)});
+}
+
+// Workgroups of a gathering of some pixels.
+WorkList addGroupsAnew(const Gather& g, const PixelShare& share) {
+    const HistoryBuffer digests = addDigests(g, "val_shading.digests");
+    const WorkList anew = addWorkList(g.graph, kGroupsAnew, groupsOf(g), {0, 1, 1});
+    g.graph.compute("val_shading.list", "val_shading/list_groups.comp")
+        .sample("normalMap", g.gbuffer.normal)
+        .sample("depthMap", g.gbuffer.depth)
+        .readPrevious("previousDigests", digests)
+        .write("digests", digests.current)
+        .write("listed", anew.items)
+        .readWrite("groups", anew.groups)
+        .push(io::ValSharePush{g.push, share.index, share.count})
+        .dispatchThreads(g.blocks);
+    return anew;
+}
+
 // Workgroups that have a pixel with a coat.
 WorkList addGlossyGroups(const Gather& g, ImageHandle coat) {
-    const WorkList glossy = addWorkList(g.graph, kGlossyGroups, g.blocks, {0, 1, 1});
+    const WorkList glossy = addWorkList(g.graph, kGlossyGroups, groupsOf(g), {0, 1, 1});
     g.graph.compute("val_gloss.list", "val_shading/list_gloss.comp")
         .sample("reflectanceMap", g.gbuffer.reflectance)
-        .write("coat", coat)
+        .readWrite("coat", coat)
         .write("glossyGroups", glossy.items)
         .readWrite("groups", glossy.groups)
         .push(g.push)
@@ -107,21 +134,42 @@ WorkList addGlossyGroups(const Gather& g, ImageHandle coat) {
     return glossy;
 }
 
+// Those of them that are gathered anew.
+WorkList addGlossyGroupsAnew(const Gather& g, const WorkList& glossy, const PixelShare& share) {
+    const HistoryBuffer digests = addDigests(g, "val_gloss.digests");
+    g.graph.fill("val_gloss.no_digests", digests.current, 0);  // of those without a coat
+    const WorkList anew = addWorkList(g.graph, kGlossyGroupsAnew, groupsOf(g), {0, 1, 1});
+    g.graph.compute("val_gloss.list_anew", "val_shading/list_gloss_anew.comp")
+        .sample("normalMap", g.gbuffer.normal)
+        .sample("depthMap", g.gbuffer.depth)
+        .sample("albedoMap", g.gbuffer.albedo)
+        .sample("reflectanceMap", g.gbuffer.reflectance)
+        .readPrevious("previousDigests", digests)
+        .write("digests", digests.current)
+        .read("glossyGroups", glossy.items)
+        .write("listed", anew.items)
+        .readWrite("groups", anew.groups)
+        .push(io::ValSharePush{g.push, share.index, share.count})
+        .dispatchIndirect(glossy.groups);
+    return anew;
+}
+
 void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps,
-              const WorkList& glossy, ImageHandle coat) {
+              const WorkList& groups, ImageHandle coat) {
     addGather(g, name, "val_shading/gather_gloss.comp", shape, taps)
         .sample("albedoMap", g.gbuffer.albedo)
         .sample("reflectanceMap", g.gbuffer.reflectance)
-        .read("glossyGroups", glossy.items)
+        .read("listed", groups.items)
         .readWrite("coat", coat)
         .spec(5, list)
-        .dispatchIndirect(glossy.groups);
+        .dispatchIndirect(groups.groups);
 }
 
 }  // namespace
 
 Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
-                         const ValShadingSettings& settings, const ValShadingNames& names) {
+                         const ValShadingSettings& settings, const ValShadingNames& names,
+                         const PixelShare& share) {
     if (vals.count == 0) return {};
     const uint32_t n = std::clamp(settings.interleave, 1u, 4u);
     const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, n, names.tiles);
@@ -134,20 +182,26 @@ Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& 
                             directed ? graph.image(names.toward, info) : ImageHandle{}};
     // Compiled out, a binding takes any image of the same class.
     const auto orOther = [&](ImageHandle image, ImageHandle other) { return directed ? image : other; };
-    addGather(g, names.far, "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
-        .write("parts", parts)
-        .write("partsToward", orOther(partsToward, parts))
-        .spec(7, directed)
-        .dispatchThreads(g.blocks);
-    addGather(g, names.near, "val_shading/gather_near.comp", settings.shape, settings.taps)
-        .sample("parts", parts)
-        .sample("partsToward", orOther(partsToward, parts))
-        .write("toward", orOther(result.toward, result.image))
-        .spec(7, directed)
-        .readWrite("lackingCounts", g.lackingCounts)
-        .write("lacking", g.lacking)
-        .write("irradiance", result.image)
-        .dispatchThreads(g.blocks);
+    const bool some = share.some && n == 1;
+    const WorkList anew = some ? addGroupsAnew(g, share) : WorkList{.items = g.lists};
+    const auto dispatch = [&](PassBuilder pass) {
+        pass.read("listed", anew.items).spec(7, directed).spec(8, some);
+        if (some)
+            pass.dispatchIndirect(anew.groups);
+        else
+            pass.dispatchThreads(g.blocks);
+    };
+    // What is not gathered anew stays.
+    dispatch(addGather(g, names.far, "val_shading/gather_far.comp", settings.farShape, settings.farTaps)
+                 .readWrite("parts", parts)
+                 .readWrite("partsToward", orOther(partsToward, parts)));
+    dispatch(addGather(g, names.near, "val_shading/gather_near.comp", settings.shape, settings.taps)
+                 .sample("parts", parts)
+                 .sample("partsToward", orOther(partsToward, parts))
+                 .readWrite("toward", orOther(result.toward, result.image))
+                 .readWrite("lackingCounts", g.lackingCounts)
+                 .write("lacking", g.lacking)
+                 .readWrite("irradiance", result.image));
     if (n > 1)
         addGather(g, names.fill, "val_shading/gather_lacking.comp", settings.farShape, settings.farTaps)
             .read("lackingCounts", g.lackingCounts)
@@ -158,14 +212,15 @@ Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& 
 }
 
 ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
-                        const ValShadingSettings& settings) {
+                        const ValShadingSettings& settings, const PixelShare& share) {
     const bool lightsHaveArea = settings.farShape != ValShape::kPoint;
     if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};
     const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
     const ImageHandle coat = graph.image("val_gloss.coat", graph.info(gbuffer.reflectance));
     const WorkList glossy = addGlossyGroups(g, coat);
-    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, glossy, coat);
-    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, glossy, coat);
+    const WorkList anew = share.some ? addGlossyGroupsAnew(g, glossy, share) : glossy;
+    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, anew, coat);
+    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, anew, coat);
     return coat;
 }
 

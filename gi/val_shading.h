@@ -6,6 +6,7 @@
 
 #include "gi/gbuffer.h"
 #include "gi/ism_atlas.h"
+#include "gi/pixel_share.h"
 
 namespace ag::gi {
 
@@ -25,6 +26,8 @@ struct ValShadingSettings {
     uint32_t taps = 4;        // of near lights' soft shadows; 1: hard ones, from the light's centre
     uint32_t farTaps = 1;     // of far lights'
     bool glossy = true;  // materials reflect by their roughness, where a scene has such and lights are areas
+
+    bool operator==(const ValShadingSettings&) const = default;
 };
 
 struct Irradiance {
@@ -71,13 +74,14 @@ constexpr ValShadingNames kLaterShading = {
     "val_shading.parts_toward_later",
     "val_shading.toward_later"};
 
+// `share`: only of the first bounce, and not where pixels share out far lights.
 Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
                          const ValShadingSettings& settings,
-                         const ValShadingNames& names = kFirstBounceShading);
+                         const ValShadingNames& names = kFirstBounceShading, const PixelShare& share = {});
 
 // What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels of the
 // G-buffer; those without a coat cost nothing. Invalid: no gloss.
 ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
-                        const ValShadingSettings& settings);
+                        const ValShadingSettings& settings, const PixelShare& share = {});
 
 }  // namespace ag::gi

@@ -39,6 +39,7 @@ FrameGraph::~FrameGraph() {
 
 void FrameGraph::beginFrame(const FrameGraphOptions& options) {
     impl_->options = options;
+    impl_->holding = false;
     ++impl_->frame;
     impl_->resources.clear();
     impl_->passes.clear();
@@ -179,6 +180,7 @@ Pass& FrameGraph::Impl::addPass(std::string_view name, PassKind kind) {
     pass.firstUse = uint32_t(uses.size());
     pass.firstDraw = uint32_t(draws.size());
     pass.stats = statsFor(name);
+    pass.held = holding;
     for (const Pass& other : passes)
         AG_CHECK_MSG(other.stats != pass.stats, "pass added twice: " + std::string(name));
     passes.push_back(pass);
@@ -193,6 +195,13 @@ void FrameGraph::Impl::addUse(const Use& use) {
                  std::string(resource.name) + " is read-only here");
     uses.push_back(use);
     ++passes.back().useCount;
+}
+
+void FrameGraph::hold(bool on) {
+    impl_->holding = on;
+}
+bool FrameGraph::holding() const {
+    return impl_->holding;
 }
 
 PassBuilder FrameGraph::compute(std::string_view name, std::string_view shader) {

@@ -126,6 +126,8 @@ class PassBuilder {
     PassBuilder& write(std::string_view name, ImageHandle image, uint32_t mip = 0);
     PassBuilder& readWrite(std::string_view name, BufferHandle buffer);
     PassBuilder& readWrite(std::string_view name, ImageHandle image);
+    // A part of the buffer that is known to be as `version` says, whatever else in it changes.
+    PassBuilder& readPart(std::string_view name, BufferHandle buffer, uint64_t version);
     // The previous half of a history: read, but not part of the key (see the file's head).
     PassBuilder& readPrevious(std::string_view name, const HistoryBuffer& history);
     PassBuilder& samplePrevious(std::string_view name, const HistoryImage& history, Sampler sampler);
@@ -187,6 +189,7 @@ enum class PassReason : uint8_t {
     kLost,        // ran: what it had made is needed and no longer in memory
     kAll,         // ran: nothing is skipped
     kUnchanged,   // skipped: what it would make is there, or only skipped passes would read it
+    kHeld,        // skipped: what it made is to stay (see FrameGraph::hold)
     kUnread,      // dropped: nothing that was asked for needs what it writes
 };
 
@@ -273,6 +276,11 @@ class FrameGraph {
 
     const ImageInfo& info(ImageHandle image) const;
     const BufferInfo& info(BufferHandle buffer) const;
+
+    // What the passes added from here on write stays as it is, whatever changes that they read, with skipping
+    // or without: for what may be late on purpose. They run only where there is nothing yet.
+    void hold(bool on);
+    bool holding() const;
 
     // --- Passes; `name` is "technique.step" ---
     PassBuilder compute(std::string_view name, std::string_view shader);

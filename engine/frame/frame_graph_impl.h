@@ -136,6 +136,7 @@ struct Pass {
     const gpu::Pipeline* pipeline = nullptr;
     uint64_t pipelineKey = 0;
     bool runs = false, wanted = false;
+    bool held = false;  // what it writes stays as it is
     uint32_t stats = 0;
 };
 
@@ -156,6 +157,7 @@ struct FrameGraph::Impl {
     gpu::PipelineLibrary* pipelines = nullptr;
     FrameGraphOptions options;
     uint64_t frame = 0;
+    bool holding = false;  // passes added now are held
 
     // This frame
     std::vector<Resource> resources;
@@ -168,8 +170,9 @@ struct FrameGraph::Impl {
     std::vector<PassRecord> records;
     std::vector<PassSpan> spans;  // of frame `spansFrame`
     uint64_t spansFrame = 0;
-    std::vector<uint64_t> stepKeys;  // scratch, by slot
-    std::vector<Patch> patches;      // scratch
+    std::vector<uint64_t> stepKeys;   // scratch, by slot
+    std::vector<uint32_t> heldSlots;  // scratch: histories that do not step
+    std::vector<Patch> patches;       // scratch
 
     // From frame to frame
     std::vector<Slot> slots;
@@ -201,6 +204,9 @@ struct FrameGraph::Impl {
     void resolvePipelines();
     uint64_t ownKey(const Pass& pass) const;
     uint64_t passKey(const Pass& pass, bool withPrevious) const;
+    void decideHeld();
+    uint64_t newestVersion(const Resource& resource) const;
+    const Use* earlierWrite(const Pass& pass, const Use& use) const;
     void walkVersions(bool withPrevious);
     void chooseHalves();
     void markWanted();

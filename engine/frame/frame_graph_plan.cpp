@@ -105,6 +105,26 @@ uint64_t FrameGraph::Impl::patchKey(const Pass& pass, size_t first, size_t end) 
     return key;
 }
 
+// What a resource held at the end of the frame before; 0: nothing.
+uint64_t FrameGraph::Impl::newestVersion(const Resource& r) const {
+    return slots[r.slot].halves[slots[r.slot].current].version;
+}
+
+// A pass can be held that has made all it writes.
+void FrameGraph::Impl::decideHeld() {
+    for (Pass& pass : passes)
+        for (const Use& use : usesOf(pass))
+            if (writes(use.kind)) pass.held = pass.held && newestVersion(resources[use.resource]) != 0;
+}
+
+const Use* FrameGraph::Impl::earlierWrite(const Pass& pass, const Use& use) const {
+    for (const Use& other : usesOf(pass)) {
+        if (&other == &use) return nullptr;
+        if (other.resource == use.resource && writes(other.kind)) return &other;
+    }
+    return nullptr;
+}
+
 // Forward over the passes: what each resource will hold after each of them. Without `previous` for the keys
 // by which histories decide whether to step, with it for the versions proper.
 void FrameGraph::Impl::walkVersions(bool withPrevious) {
@@ -113,7 +133,7 @@ void FrameGraph::Impl::walkVersions(bool withPrevious) {
         if (r.kind == ResourceKind::kHistoryPrevious && withPrevious)
             r.version = slots[r.slot].halves[r.half].version;
     }
-    if (!withPrevious) stepKeys.assign(slots.size(), 0);
+    if (!withPrevious) stepKeys.assign(slots.size(), 0), heldSlots.clear();
     for (Pass& pass : passes) {
         const uint64_t key = passKey(pass, withPrevious);
         uint32_t index = 0;
@@ -125,10 +145,16 @@ void FrameGraph::Impl::walkVersions(bool withPrevious) {
             ++index;
             use.versionBefore = r.version;
             if (!writes(use.kind)) continue;
-            use.versionAfter = combineHash(key, index) | 1;  // never 0
+            const Use* same = earlierWrite(pass, use);  // of two bindings of one resource
+            const uint64_t made = pass.held ? newestVersion(r) : combineHash(key, index) | 1;  // never 0
+            use.versionAfter = same ? same->versionAfter : made;
             r.version = use.versionAfter;
+            if (!withPrevious && history && pass.held) heldSlots.push_back(r.slot);
         }
     }
+    if (withPrevious) return;
+    for (const uint32_t slot : heldSlots)
+        stepKeys[slot] = slots[slot].stepKey;
 }
 
 // A history steps when anything it is made from changed: the halves then change places.
@@ -189,7 +215,7 @@ bool FrameGraph::Impl::markRunning() {
     for (Resource& r : resources)
         r.needed = r.isOutput;
     for (auto pass = passes.rbegin(); pass != passes.rend(); ++pass) {
-        bool run = pass->runs || (!options.skip && pass->wanted);
+        bool run = pass->runs || (!options.skip && pass->wanted && !pass->held);
         for (const Use& use : usesOf(*pass)) {
             Resource& r = resources[use.resource];
             if (writes(use.kind) && r.needed) run = run || !available(r, use.versionAfter);
@@ -213,6 +239,7 @@ bool FrameGraph::Impl::markRunning() {
 
 void FrameGraph::Impl::plan() {
     resolvePipelines();
+    decideHeld();
     walkVersions(false);
     chooseHalves();
     walkVersions(true);

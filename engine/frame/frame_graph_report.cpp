@@ -8,9 +8,10 @@
 namespace ag {
 
 std::string_view reasonText(PassReason reason) {
-    static constexpr std::array<std::string_view, 8> kTexts = {
+    static constexpr std::array<std::string_view, 9> kTexts = {
         "for the first time",     "changed: ",      "its parameters changed",   "goes on from: ",
-        "its result was dropped", "all are to run", "nothing it reads changed", "nobody reads it"};
+        "its result was dropped", "all are to run", "nothing it reads changed", "it may be late",
+        "nobody reads it"};
     return kTexts[size_t(reason)];
 }
 
@@ -19,7 +20,9 @@ PassReport FrameGraph::Impl::reportOf(const Pass& pass) const {
     PassReport out{.name = pass.name};
     if (!pass.runs) {
         out.outcome = pass.wanted ? PassOutcome::kSkipped : PassOutcome::kDropped;
-        out.reason = pass.wanted ? PassReason::kUnchanged : PassReason::kUnread;
+        out.reason = !pass.wanted ? PassReason::kUnread
+                     : pass.held  ? PassReason::kHeld
+                                  : PassReason::kUnchanged;
         return out;
     }
     out.outcome = PassOutcome::kRan;

@@ -27,6 +27,12 @@ PassBuilder& PassBuilder::read(std::string_view name, ImageHandle image) {
     return *this;
 }
 
+PassBuilder& PassBuilder::readPart(std::string_view name, BufferHandle buffer, uint64_t version) {
+    read(name, buffer);
+    graph_->impl_->uses.back().keyed = false;
+    return key(version);
+}
+
 PassBuilder& PassBuilder::write(std::string_view name, BufferHandle buffer) {
     graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kComputeWrite, .name = name});
     return *this;

@@ -12,7 +12,7 @@
 layout(constant_id = 0) const bool kByDistance = true;
 const float kMost = float(kSegmentPoints);
 
-uint firstEntryOf(uint map) { return map * push.p.pointsPerMap + push.p.firstEntry; }
+uint firstEntryOf(uint map) { return map * push.p.entryCount; }
 
 // Of a segment, relative to other segments.
 float weightOf(IsmLight light, uint segment) {

@@ -25,7 +25,7 @@ void main() {
     uint map = gl_WorkGroupID.x;
     IsmPlace old = previousPlaces.items[map];
     IsmPlace place = IsmPlace(texelFetch(vals, int(map) * 3).xyz, push.p.contents, texelFetch(vals, int(map) * 3 + 1).xyz,
-                              texelFetch(vals, int(map) * 3 + 2).w);
+                              texelFetch(vals, int(map) * 3 + 2).w, old.made);
     IsmLight light = AG_ISM_LIGHT(vals, map);
     bool kept = light.lit && push.p.contents != 0 && old == place;
     IsmMapState state = IsmMapState(0, kept ? 1 : 0);
@@ -35,6 +35,7 @@ void main() {
             chosen.items[first + i] = texelFetch(previousChosen, int(first + i)).x;
     } else {
         state.pointCount = choosePoints(map, light);
+        ++place.made;
     }
     if (!light.lit) place.contents = 0;
     if (gl_SubgroupInvocationID == 0) {

@@ -2,19 +2,21 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-// What lies behind shows through where disks do not meet: a texel beyond a plane that its neighbours on two opposite
-// sides share is a hole in that plane. Each lane closes two by two texels and makes the one of the coarser level.
-#include "ism_atlas/ism_atlas_io.h"
+// Closes the holes of listed regions. What lies behind shows through where disks do not meet: a texel beyond a plane that
+// its neighbours on two opposite sides share is a hole in that plane. What is empty then is filled by pull-push (Marroquim
+// et al. 2007; Ritschel et al. 2008): from the finest coarser level that was met there, whose texels are the lower medians
+// of four. Each lane has two by two texels.
 #include "ism_atlas/ism_map.glsl"
 #include "ism_atlas/lower_median.glsl"
+#include "ism_atlas/regions.glsl"
 
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { IsmLevelPush p; } push;
+layout(local_size_x = 8, local_size_y = 8) in;  // a region
+layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer resolved;
-layout(set = 0, binding = 1, scalar) writeonly buffer Pyramid { vec4 items[]; } pyramid;
+layout(set = 0, binding = 1, scalar) readonly buffer Listed { uint items[]; } listed;
+layout(set = 0, binding = 2, scalar) writeonly buffer Planes { vec4 items[]; } planes;
 
-const int kWidest = 2;          // texels to either side
 const float kMostApart = 0.05;  // of two texels' planes for one, relative
 
 // What the map holds at a texel: its own or, where that is beyond the plane of a and b, that one.
@@ -22,36 +24,62 @@ void closeBetween(vec4 a, vec4 b, vec3 direction, inout vec4 texel) {
     vec3 apart = a.xyz - b.xyz;
     bool onePlane = a.w > 0.0 && b.w > 0.0 && dot(apart, apart) <= kMostApart * kMostApart * dot(a.xyz, a.xyz);
     float along = dot(a.xyz, direction);
-    bool beyond = along > 0.0 && (texel.w <= 0.0 || ismBeyond(along * texel.w, int(push.p.coarseSize) * 2));
+    bool beyond = along > 0.0 && (texel.w <= 0.0 || ismBeyond(along * texel.w, int(push.p.tileSize)));
     if (onePlane && beyond) texel = vec4(a.xyz, 1.0 / along);
 }
 
-vec4 closed(int first, ivec2 at, int size) {
+vec4 resolvedAt(uint map, ivec2 at) { return texelFetch(resolved, int(regionTexel(map, uvec2(at), push.p.tileSize))); }
+
+vec4 closed(uint map, ivec2 at, int size) {
     const ivec2 kSides[4] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1));
     vec3 direction = ismDirection((vec2(at) + 0.5) / float(size));
-    int own = first + at.y * size + at.x;
-    vec4 texel = texelFetch(resolved, own);
+    vec4 texel = resolvedAt(map, at);
     [[unroll]] for (int i = 0; i < 4; ++i)
-        [[unroll]] for (int far = 1; far <= kWidest; ++far) {
+        [[unroll]] for (int far = 1; far <= kIsmWidestHole; ++far) {
             ivec2 side = kSides[i] * far, low = min(at - side, at + side), high = max(at - side, at + side);
             bool within = all(greaterThanEqual(low, ivec2(0))) && all(lessThan(high, ivec2(size)));
-            int offset = within ? side.y * size + side.x : 0;  // a texel closes no hole in itself
-            closeBetween(texelFetch(resolved, own - offset), texelFetch(resolved, own + offset), direction, texel);
+            side = within ? side : ivec2(0);  // a texel closes no hole in itself
+            closeBetween(resolvedAt(map, at - side), resolvedAt(map, at + side), direction, texel);
         }
     return texel;
 }
 
+const uint kLevels = 4;        // the coarsest texel is as large as a region
+const uint kCoarsestSide = 4;  // texels along a map at least
+
+// Levels of the region one after the other, each a row of squares of half the side; the first has 8 by 8 texels.
+shared vec4 level[85];
+uint levelStart(uint i) { return (256u - (256u >> 2 * i)) / 3u; }
+uint levelTexel(uint i, uvec2 at) { return levelStart(i) + at.y * (8u >> i) + at.x; }
+
+void pull(uint i) {
+    uvec2 at = gl_LocalInvocationID.xy;
+    if (all(lessThan(at, uvec2(8u >> i))))
+        level[levelTexel(i, at)] = lowerMedian(level[levelTexel(i - 1, 2 * at)], level[levelTexel(i - 1, 2 * at + uvec2(1, 0))],
+                                               level[levelTexel(i - 1, 2 * at + uvec2(0, 1))], level[levelTexel(i - 1, 2 * at + 1)]);
+}
+
 void main() {
-    uint map = gl_WorkGroupID.y, coarseSize = push.p.coarseSize, inTile = gl_GlobalInvocationID.x;
-    if (inTile >= coarseSize * coarseSize) return;
-    int size = int(coarseSize) * 2, first = int(push.p.fineOffset + map * 4 * coarseSize * coarseSize);
-    ivec2 at = ivec2(inTile % coarseSize, inTile / coarseSize) * 2;
+    IsmRegion region = regionOf(listed.items[gl_WorkGroupID.x]);
+    int size = int(push.p.tileSize);
+    uvec2 at = gl_LocalInvocationID.xy;
+    ivec2 corner = ivec2(region.first + 2 * at);
     vec4 quad[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 place = at + ivec2(i & 1, i >> 1);
-        quad[i] = closed(first, place, size);
-        pyramid.items[first + place.y * size + place.x] = quad[i];
+    [[unroll]] for (int i = 0; i < 4; ++i) quad[i] = closed(region.map, corner + ivec2(i & 1, i >> 1), size);
+    level[levelTexel(0, at)] = lowerMedian(quad[0], quad[1], quad[2], quad[3]);
+    for (uint i = 1; i < kLevels; ++i) {
+        barrier();
+        pull(i);
     }
-    pyramid.items[push.p.coarseOffset + map * coarseSize * coarseSize + inTile] =
-        lowerMedian(quad[0], quad[1], quad[2], quad[3]);
+    barrier();
+    vec4 behind = vec4(0.0);
+    for (uint i = 0; i < kLevels; ++i) {
+        vec4 coarse = level[levelTexel(i, at >> i)];
+        bool coarser = push.p.tileSize >> (i + 1) >= kCoarsestSide;
+        if (behind.w <= 0.0 && coarser) behind = coarse;
+    }
+    [[unroll]] for (int i = 0; i < 4; ++i) {
+        ivec2 place = corner + ivec2(i & 1, i >> 1);
+        planes.items[(int(region.map) * size + place.y) * size + place.x] = quad[i].w > 0.0 ? quad[i] : behind;
+    }
 }

@@ -25,18 +25,18 @@ struct IsmSplatPush {
     uint pointCount;                // of both layers
     uint firstSegment, endSegment;  // the layer's
     uint tileSize;                  // texels along a map's side
-    uint pointsPerMap;              // of both layers
-    uint firstEntry, entryCount;    // the layer's among them
+    uint firstEntry, entryCount;    // the layer's among a map's points: the still ones come first
     float diskRadius;               // over that of disks with the surfaces' area together
     float inverseExtent;            // 1/m: of the greatest distance
     uint contents;                  // changes with the still points and with what maps are made like
 };
 
-struct IsmPlace {   // 2 vec4: what a map was last made for
+struct IsmPlace {   // what the still layer of a map was last made for
     vec3 position;  // m
     uint contents;  // as above; 0: never made
     vec3 normal;
     float before;  // m
+    uint made;     // how many times it was
 };
 
 struct IsmMapState {  // of a layer of a map
@@ -44,9 +44,13 @@ struct IsmMapState {  // of a layer of a map
     uint kept;        // 1: as it was, its light and the points have not moved
 };
 
-struct IsmLevelPush {
-    uint coarseSize;                // texels along the coarser level's tile
-    uint fineOffset, coarseOffset;  // first texel of the levels in the pyramid
+// Maps are finished by squares of so many texels, those that may look otherwise than they did.
+const uint kIsmRegionSide = 16;  // a map of the largest has 8 by 8
+const int kIsmWidestHole = 2;    // texels to either side that close one
+
+struct IsmFinish {    // what a map was last finished from
+    uint made;        // the number of its still layer
+    uint touched[2];  // a bit a region: movable surfaces may show in it
 };
 
 #ifdef __cplusplus

@@ -1,20 +1,25 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The nearest points' planes and distances, for the lookup. Where the surface is bent, the plane is moved behind it, so
+// Of listed regions the nearest points' planes and distances, for the lookup. Where the surface is bent, the plane is moved behind it, so
 // that a fold does not shadow itself.
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
+#include "ism_atlas/regions.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = 256) in;  // a region
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
 layout(constant_id = 0) const bool kPlanes = true;  // else distances
+layout(constant_id = 2) const bool kMoving = false;  // some points may move
+layout(constant_id = 1) const bool kLast = false;   // nothing is closed: maps row by row
 
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 2) uniform usamplerBuffer keys;
-layout(set = 0, binding = 4) uniform usamplerBuffer chosen;
+layout(set = 0, binding = 4) uniform usamplerBuffer stillChosen;
+layout(set = 0, binding = 6) uniform usamplerBuffer movingChosen;
+layout(set = 0, binding = 5, scalar) readonly buffer Listed { uint items[]; } listed;
 layout(set = 0, binding = 3, scalar) writeonly buffer Planes { vec4 items[]; } planes;
 
 // How far the surface may lie behind what the texel holds, within a disk or the texel, whichever is larger: a bend of k
@@ -24,12 +29,19 @@ float depthWithin(float bend, float radius, float distance_) {
     return kPlanes ? min(0.5 * bend * r * r, r) : r;
 }
 
+// The push constants are the moving layer's.
+uint chosenOf(uint map, uint entry) {
+    uint moving = min(entry - push.p.firstEntry, push.p.entryCount - 1u), still = min(entry, push.p.firstEntry - 1u);
+    return kMoving && entry >= push.p.firstEntry ? texelFetch(movingChosen, int(map * push.p.entryCount + moving)).x
+                                                 : texelFetch(stillChosen, int(map * push.p.firstEntry + still)).x;
+}
+
 void main() {
-    uint map = gl_WorkGroupID.y, texels = push.p.tileSize * push.p.tileSize;
-    uint texel = map * texels + gl_GlobalInvocationID.x;  // tiles are whole workgroups
+    IsmRegion region = regionOf(listed.items[gl_WorkGroupID.x]);
+    uint map = region.map;
+    uint texel = regionTexel(map, region.first, push.p.tileSize) + gl_LocalInvocationID.x;
     uint key = texelFetch(keys, int(texel)).x;
-    uint entry = min(key & ((1u << kIsmPointBits) - 1u), push.p.pointsPerMap - 1u);
-    uint packed = texelFetch(chosen, int(map * push.p.pointsPerMap + entry)).x;
+    uint packed = chosenOf(map, key & ((1u << kIsmPointBits) - 1u));
     int point = int(min(pointOf(packed), push.p.pointCount - 1u)) * 4;
     IsmLight light = AG_ISM_LIGHT(vals, map);
     vec4 place = texelFetch(points, point);
@@ -40,5 +52,7 @@ void main() {
     p *= 1.0 + depthWithin(place.w, normalAndRadius.w * growthOf(packed), distance_) / max(distance_, 1e-6);
     vec3 normal = kPlanes ? toLight(light, normalAndRadius.xyz) : p / max(length(p), 1e-20);
     vec3 m = planeThrough(p, normal);
-    planes.items[texel] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, distance_);
+    uvec2 at = region.first + uvec2(gl_LocalInvocationID.x % kIsmRegionSide, gl_LocalInvocationID.x / kIsmRegionSide);
+    uint to = kLast ? (map * push.p.tileSize + at.y) * push.p.tileSize + at.x : texel;
+    planes.items[to] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, distance_);
 }

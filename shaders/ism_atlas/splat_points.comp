@@ -8,6 +8,7 @@
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
 #include "ism_atlas/ism_map.glsl"
+#include "ism_atlas/regions.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
@@ -19,7 +20,10 @@ layout(set = 0, binding = 4, scalar) readonly buffer States { IsmMapState items[
 layout(set = 0, binding = 2, scalar) buffer Keys { uint items[]; } keys;
 layout(set = 0, binding = 5) uniform usamplerBuffer listed;  // maps, in any order
 
+layout(set = 0, binding = 6, scalar) buffer Finishes { IsmFinish items[]; } finishes;
+
 layout(constant_id = 4) const bool kListed = false;  // else every map
+layout(constant_id = 5) const bool kMarks = false;   // the regions that are touched
 
 const float kLeastSine = 0.01;  // lower above the light's plane is its own surface
 const int kSmallTexels = 25;    // splatted by one lane, larger ones by the whole subgroup
@@ -50,7 +54,7 @@ vec2 reachOf(Splat s, vec3 normal) {
 }
 
 Splat splatOf(uint map, uint entry, IsmLight light) {
-    uint packed = texelFetch(chosen, int(map * push.p.pointsPerMap + entry)).x;
+    uint packed = texelFetch(chosen, int(map * push.p.entryCount + entry - push.p.firstEntry)).x;
     uint point = min(pointOf(packed), push.p.pointCount - 1);
     Splat s;
     s.entry = entry;
@@ -74,25 +78,37 @@ Splat splatOf(uint map, uint entry, IsmLight light) {
     return s;
 }
 
-void touch(Splat s, uint tile, ivec2 texel) {
+void touch(Splat s, uint map, ivec2 texel) {
     vec3 w = ismDirection((vec2(texel) + 0.5) / float(push.p.tileSize));
     vec3 hit = w / max(dot(s.plane, w), 1e-12);
     vec3 off = hit - s.place;
     bool inside = dot(off, off) <= s.radius * s.radius &&
                   dot(off, s.edges[0].xyz) >= -s.edges[0].w && dot(off, s.edges[1].xyz) >= -s.edges[1].w;
     if (!inside) return;
-    atomicMin(keys.items[tile + uint(texel.y) * push.p.tileSize + uint(texel.x)], keyOf(length(hit), s.entry));
+    atomicMin(keys.items[regionTexel(map, uvec2(texel), push.p.tileSize)], keyOf(length(hit), s.entry));
 }
 
-void splatAlone(Splat s, uint tile) {
+void splatAlone(Splat s, uint map) {
     for (int y = s.low.y; y <= s.high.y; ++y)
-        for (int x = s.low.x; x <= s.high.x; ++x) touch(s, tile, ivec2(x, y));
+        for (int x = s.low.x; x <= s.high.x; ++x) touch(s, map, ivec2(x, y));
 }
 
-void splatTogether(Splat s, uint tile) {
+void splatTogether(Splat s, uint map) {
     ivec2 extent = s.high - s.low + 1;
     for (int i = int(gl_SubgroupInvocationID); i < extent.x * extent.y; i += int(gl_SubgroupSize))
-        touch(s, tile, s.low + ivec2(i % extent.x, i / extent.x));
+        touch(s, map, s.low + ivec2(i % extent.x, i / extent.x));
+}
+
+// Also those where a hole may be closed by what was met.
+void markRegions(Splat s, uint map) {
+    int side = int(push.p.tileSize / kIsmRegionSide);
+    ivec2 first = max(s.low - kIsmWidestHole, ivec2(0)) / int(kIsmRegionSide);
+    ivec2 last = min((s.high + kIsmWidestHole) / int(kIsmRegionSide), ivec2(side - 1));
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+            int region = y * side + x;
+            atomicOr(finishes.items[map].touched[region / 32], 1u << (region & 31));
+        }
 }
 
 Splat splatOfLane(Splat mine, uint lane) {
@@ -108,17 +124,18 @@ Splat splatOfLane(Splat mine, uint lane) {
 }
 
 void main() {
-    uint map = kListed ? texelFetch(listed, int(gl_WorkGroupID.y)).x : gl_WorkGroupID.y, tile = map * push.p.tileSize * push.p.tileSize;
+    uint map = kListed ? texelFetch(listed, int(gl_WorkGroupID.y)).x : gl_WorkGroupID.y;
     uint entry = push.p.firstEntry + min(gl_GlobalInvocationID.x, push.p.entryCount - 1);
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
     if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.high = mine.low - 1;
     ivec2 extent = mine.high - mine.low + 1;
     bool small = any(lessThan(extent, ivec2(1))) || extent.x * extent.y <= kSmallTexels;
-    if (small) splatAlone(mine, tile);
+    if (small) splatAlone(mine, map);
+    if (kMarks && all(greaterThanEqual(extent, ivec2(1)))) markRegions(mine, map);
     uvec4 large = subgroupBallot(!small);
     while (large != uvec4(0)) {
         uint lane = subgroupBallotFindLSB(large);
         large[lane / 32] &= large[lane / 32] - 1;
-        splatTogether(splatOfLane(mine, lane), tile);
+        splatTogether(splatOfLane(mine, lane), map);
     }
 }

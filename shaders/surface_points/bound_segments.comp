@@ -5,25 +5,25 @@
 #include "surface_points/surface_points_io.h"
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { uint pointCount; } push;
+layout(push_constant, scalar) uniform Push { PointPush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1, scalar) writeonly buffer Segments { SurfaceSegment items[]; } segments;
 
 vec3 placeOf(uint segment, uint i) {
-    return texelFetch(points, int(min(segment * kSegmentPoints + i, push.pointCount - 1)) * 4).xyz;
+    return texelFetch(points, int(min(segment * kSegmentPoints + i, push.p.pointCount - 1)) * 4).xyz;
 }
 
 // The last segment may have fewer points.
 float areaOf(uint segment, uint i) {
     uint point = segment * kSegmentPoints + i;
-    float radius = texelFetch(points, int(min(point, push.pointCount - 1)) * 4 + 1).w;
-    return point < push.pointCount ? kPi * radius * radius : 0.0;
+    float radius = texelFetch(points, int(min(point, push.p.pointCount - 1)) * 4 + 1).w;
+    return point < push.p.pointCount ? kPi * radius * radius : 0.0;
 }
 
 void main() {
-    uint segment = gl_GlobalInvocationID.x;
-    if (segment * kSegmentPoints >= push.pointCount) return;
+    uint segment = push.p.firstGroup * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+    if (segment * kSegmentPoints >= push.p.pointCount) return;
     vec3 least = vec3(3.0e38), most = vec3(-3.0e38);
     for (uint i = 0; i < kSegmentPoints; ++i) {
         vec3 p = placeOf(segment, i);

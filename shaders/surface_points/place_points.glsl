@@ -7,7 +7,7 @@
 #endif
 
 layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Push { uint count; } push;
+layout(push_constant, scalar) uniform Push { PointPush p; } push;
 
 layout(set = 0, binding = 1) uniform samplerBuffer samples;
 layout(set = 0, binding = 5) uniform samplerBuffer areas;
@@ -29,8 +29,8 @@ SurfaceSample fetchSample(int i) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
-    if (i >= push.count) return;
+    uint i = push.p.firstGroup * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
+    if (i >= push.p.pointCount) return;
     SurfaceSample s = fetchSample(int(i));
     InstanceTransform t = fetchInstance(int(s.instance));
 #ifdef AG_FIGURES

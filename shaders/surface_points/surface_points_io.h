@@ -45,6 +45,11 @@ struct SurfaceSegment {  // 1 vec4: a ball round a segment's points
     uint radiusAndArea;  // halves, m and m²: of the ball, and what the points stand for
 };
 
+struct PointPush {
+    uint firstGroup;  // to run
+    uint pointCount;  // of all
+};
+
 #ifdef __cplusplus
 }  // namespace ag::io
 #endif

@@ -8,11 +8,14 @@ layout(constant_id = 2) const uint kInterleave = 1;
 #include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 8) const bool kListed = false;  // else every workgroup
+layout(set = 0, binding = 10) uniform usamplerBuffer listed;
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D partsToward;
 
 void main() {
-    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
+    uint group = kListed ? texelFetch(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
     uvec2 size = camera.camera.size;
     Receiver r[kPixels];
     float distance_[kPixels];  // m along the camera's axis; 0: sky

@@ -14,7 +14,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 8) uniform sampler2D albedoMap;
 layout(set = 0, binding = 9) uniform sampler2D reflectanceMap;
 layout(set = 0, binding = 10, rgba16f) uniform image2D coat;
-layout(set = 0, binding = 11) uniform usamplerBuffer glossyGroups;
+layout(set = 0, binding = 11) uniform usamplerBuffer listed;
 
 struct GlossyPixel {
     Receiver receiver;
@@ -51,7 +51,7 @@ void addLights(TileBlock block, inout GlossyPixel g[kPixels]) {
 }
 
 void main() {
-    uint group = texelFetch(glossyGroups, int(gl_WorkGroupID.x)).x;
+    uint group = texelFetch(listed, int(gl_WorkGroupID.x)).x;
     TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     ivec2 size = ivec2(camera.camera.size);
     GlossyPixel g[kPixels];
@@ -60,7 +60,7 @@ void main() {
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
         if (block.spare || any(greaterThanEqual(pixel, size))) continue;
-        vec3 radiance = g[p].radiance + imageLoad(coat, pixel).rgb;
+        vec3 radiance = g[p].radiance + (kList == kNearList ? vec3(0.0) : imageLoad(coat, pixel).rgb);  // near ones come first
         imageStore(coat, pixel, vec4(g[p].glossy ? min(radiance, vec3(kMostHalf)) : vec3(0.0), 1.0));
     }
 }

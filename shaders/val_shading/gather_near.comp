@@ -8,6 +8,8 @@ layout(constant_id = 2) const int kInterleave = 1;
 #include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 8) const bool kListed = false;  // else every workgroup
+layout(set = 0, binding = 14) uniform usamplerBuffer listed;
 layout(set = 0, binding = 8) uniform sampler2D parts;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D irradiance;
 layout(set = 0, binding = 12) uniform sampler2D partsToward;
@@ -106,7 +108,8 @@ void addLightToAll(AreaLight l, inout Receiver r[kPixels]) {
 }
 
 void main() {
-    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    uint group = kListed ? texelFetch(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     ivec2 size = ivec2(camera.camera.size);
     TileBounds bounds = TileBounds(ivec2(block.origin), min(ivec2(block.origin + push.p.tileSize), size));
     Surface s[kPixels];

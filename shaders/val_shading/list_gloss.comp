@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Lists the workgroups of gather_gloss.comp that have a pixel with a coat, in any order; the coat starts black.
+// Lists the workgroups of gather_gloss.comp that have a pixel with a coat, in any order; the others' is black.
 #include "val_shading/screen_tiles.glsl"
 
 layout(local_size_x = 64) in;  // as gather_gloss.comp
@@ -23,9 +23,16 @@ void main() {
         ivec2 pixel = pixelOf(block, p);
         if (block.spare || any(greaterThanEqual(pixel, size))) continue;
         glossy = glossy || any(greaterThan(texelFetch(reflectanceMap, pixel, 0), vec4(0.0)));
-        imageStore(coat, pixel, vec4(0.0));
     }
     if (glossy) anyGlossy = 1;
     barrier();
-    if (gl_LocalInvocationIndex == 0 && anyGlossy == 1) glossyGroups.items[atomicAdd(groups.count.x, 1)] = gl_WorkGroupID.x;
+    if (anyGlossy == 1) {
+        if (gl_LocalInvocationIndex == 0) glossyGroups.items[atomicAdd(groups.count.x, 1)] = gl_WorkGroupID.x;
+        return;
+    }
+    for (int p = 0; p < kPixels; ++p) {
+        ivec2 pixel = pixelOf(block, p);
+        if (block.spare || any(greaterThanEqual(pixel, size))) continue;
+        imageStore(coat, pixel, vec4(0.0));
+    }
 }

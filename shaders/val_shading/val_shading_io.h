@@ -22,6 +22,11 @@ struct ValShadingPush {
     uint ismTileSize;
 };
 
+struct ValSharePush {
+    ValShadingPush gather;
+    uint index, count;  // of every count-th tile the index-th ones
+};
+
 #ifdef __cplusplus
 }  // namespace ag::io
 #endif

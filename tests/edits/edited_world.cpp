@@ -52,6 +52,7 @@ gi::GiSettings smallSettings() {
     gi.lightClusters.most = 4;
     gi.lampShadows.faceResolution = 32;
     gi.lampShadows.atlasSize = 512;
+    gi.refresh = {.lightFrames = 5, .pixelFrames = 3, .small = 0.5f};
     return gi;
 }
 
@@ -97,12 +98,14 @@ std::string EditedWorld::edit() {
         std::string (EditedWorld::*apply)();
     };
     static constexpr std::array kKinds = {
-        Kind{20, &EditedWorld::moveThing},    Kind{5, &EditedWorld::addThing},
-        Kind{5, &EditedWorld::removeThing},   Kind{14, &EditedWorld::switchLight},
-        Kind{9, &EditedWorld::moveLight},     Kind{4, &EditedWorld::addLight},
-        Kind{4, &EditedWorld::removeLight},   Kind{14, &EditedWorld::moveCamera},
-        Kind{6, &EditedWorld::poseFigure},    Kind{3, &EditedWorld::resize},
-        Kind{9, &EditedWorld::changeSetting}, Kind{3, &EditedWorld::resetSettings}};
+        Kind{17, &EditedWorld::moveThing},   Kind{3, &EditedWorld::beginWalk},
+        Kind{5, &EditedWorld::addThing},     Kind{5, &EditedWorld::removeThing},
+        Kind{14, &EditedWorld::switchLight}, Kind{9, &EditedWorld::moveLight},
+        Kind{4, &EditedWorld::addLight},     Kind{4, &EditedWorld::removeLight},
+        Kind{14, &EditedWorld::moveCamera},  Kind{6, &EditedWorld::poseFigure},
+        Kind{3, &EditedWorld::resize},       Kind{9, &EditedWorld::changeSetting},
+        Kind{3, &EditedWorld::resetSettings}};
+    if (walkFrames_ > 0) return walk();
     uint32_t at = below(100);
     for (const Kind& kind : kKinds) {
         if (at < kind.weight) return (this->*kind.apply)();
@@ -118,6 +121,22 @@ std::string EditedWorld::moveThing() {
     local.translation += glm::dvec3{between(-1, 1), between(-0.3f, 0.3f), between(-1, 1)};
     if (below(3) == 0) local.rotation = glm::angleAxis(between(0, 6), glm::vec3(0, 1, 0));
     return fmt::format("moved thing {}", pick);
+}
+
+// For some frames nothing but one thing moves, a little: what may then be late is.
+std::string EditedWorld::beginWalk() {
+    if (things_.empty()) return addThing();
+    walker_ = below(things_.size());
+    walkFrames_ = 4 + below(12);
+    return fmt::format("thing {} begins to walk", walker_);
+}
+
+std::string EditedWorld::walk() {
+    --walkFrames_;
+    if (below(4) == 0) return "the walker waits";
+    LocalTransform& local = *world_.write<LocalTransform>(things_[walker_]);
+    local.translation += glm::dvec3{between(-0.1f, 0.1f), 0, between(-0.1f, 0.1f)};
+    return "the walker walks";
 }
 
 std::string EditedWorld::addThing() {

@@ -30,6 +30,8 @@ class EditedWorld {
   private:
     std::string edit();
     std::string moveThing();
+    std::string beginWalk();
+    std::string walk();
     std::string addThing();
     std::string removeThing();
     std::string poseFigure();
@@ -55,6 +57,7 @@ class EditedWorld {
     std::vector<Entity> things_, lights_;  // figures are things too
     std::vector<MeshInstance> meshes_;     // that a new thing may have
     MeshInstance figureMesh_;
+    uint32_t walker_ = 0, walkFrames_ = 0;  // of the things, how long it walks on
     glm::uvec2 size_{48, 32};
     gi::GiSettings settings_;
     Settings registry_;  // defaults: small and quick

@@ -225,6 +225,68 @@ TEST_F(NullGraph, HistoriesStepOnlyWhenTheirInputsDo) {
         << "going back is a step too: the past is another one";
 }
 
+TEST_F(NullGraph, WhatIsHeldStaysThoughWhatItReadsChanges) {
+    const auto frame = [&](uint64_t version, bool hold, bool skip) {
+        options.skip = skip;
+        g.beginFrame(options);
+        g.hold(hold);
+        const BufferHandle source = g.importBuffer("source", kBuffer, version);
+        const HistoryBuffer sum = g.historyBuffer("sum", kBuffer);
+        g.compute("held", "a.comp")
+            .read("source", source)
+            .readPrevious("before", sum)
+            .write("sum", sum.current);
+        g.hold(false);
+        const BufferHandle out = g.buffer("out", kBuffer);
+        g.compute("use", "b.comp").read("sum", sum.current).read("source", source).write("out", out);
+        g.output(out);
+        return run();
+    };
+    for (const bool skip : {true, false}) {
+        g.resetHistory("sum");
+        EXPECT_EQ(frame(1, true, skip).at("held"), PassOutcome::kRan) << "there is nothing yet";
+        const uint64_t ran = g.report().front().runCount;
+        auto outcome = frame(2, true, skip);
+        EXPECT_EQ(outcome.at("held"), PassOutcome::kSkipped);
+        EXPECT_EQ(g.report().front().reason, PassReason::kHeld);
+        EXPECT_EQ(outcome.at("use"), PassOutcome::kRan) << "of the rest it sees what changed";
+        outcome = frame(2, true, skip);
+        EXPECT_EQ(outcome.at("use"), skip ? PassOutcome::kSkipped : PassOutcome::kRan);
+        EXPECT_EQ(frame(2, false, skip).at("held"), PassOutcome::kRan) << "what was put off comes";
+        EXPECT_EQ(g.report().front().runCount, ran + 1);
+    }
+}
+
+TEST_F(NullGraph, OneResourceUnderTwoNamesIsMadeOnce) {
+    const auto frame = [&](uint64_t version) {
+        g.beginFrame(options);
+        const BufferHandle both = g.buffer("both", kBuffer), out = g.buffer("out", kBuffer);
+        g.compute("make", "a.comp").write("one", both).write("other", both).dispatchThreads(1);
+        g.compute("use", "b.comp")
+            .read("both", both)
+            .read("source", g.importBuffer("source", kBuffer, version))
+            .write("out", out);
+        g.output(out);
+        return run();
+    };
+    frame(1);
+    EXPECT_EQ(frame(2).at("make"), PassOutcome::kSkipped);
+}
+
+TEST_F(NullGraph, APartThatIsKnownToBeTheSameIsReadAsTheSame) {
+    const auto frame = [&](uint64_t version, uint64_t part) {
+        g.beginFrame(options);
+        const BufferHandle source = g.importBuffer("source", kBuffer, version),
+                           out = g.buffer("out", kBuffer);
+        g.compute("use", "b.comp").readPart("source", source, part).write("out", out);
+        g.output(out);
+        return run().at("use");
+    };
+    frame(1, 1);
+    EXPECT_EQ(frame(2, 1), PassOutcome::kSkipped);
+    EXPECT_EQ(frame(2, 2), PassOutcome::kRan);
+}
+
 TEST_F(NullGraph, ScratchIsMadeAgainOnlyForConsumersThatRun) {
     const auto declare = [&](uint64_t first, uint64_t second) {
         g.beginFrame(options);

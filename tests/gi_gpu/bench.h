@@ -49,6 +49,11 @@ struct Bench {
         gpu::downloadBuffer(renderer.device(), source, std::as_writable_bytes(std::span(items)));
         return items;
     }
+    PassOutcome outcome(std::string_view pass) {
+        const auto report = renderer.graph().report();
+        const auto found = std::ranges::find(report, pass, &PassReport::name);
+        return found == report.end() ? PassOutcome::kDropped : found->outcome;
+    }
     int passesRun() {
         int count = 0;
         for (const PassReport& pass : renderer.graph().report())

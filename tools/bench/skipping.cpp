@@ -21,9 +21,9 @@ constexpr std::array<std::string_view, size_t(Change::kCount)> kNames = {"all pa
                                                                          "a small thing out of view",
                                                                          "a light",
                                                                          "the camera, all lights off"};
-constexpr uint32_t kWarmFrames = 48;  // for what settles
-constexpr uint32_t kTimedFrames = 12, kCpuFrames = 6;
+constexpr uint32_t kWarmFrames = 48;     // for what settles
 constexpr uint32_t kLateFrames = 4;      // times arrive some frames late
+constexpr uint32_t kRounds = 2;          // of what comes up every so many frames
 constexpr float kThingSize = 1.0f / 40;  // of the scene's diagonal
 
 float diagonalOf(const RenderScene& scene) {
@@ -80,24 +80,26 @@ class Walkthrough {
             change == Change::kCameraByFlux ? 0 : gi::ImportanceSettings{}.viewWeight;
         restart(change);
         ChangeCost cost;
+        const uint32_t cpuFrames = kRounds * settings_.refresh.lightFrames;
+        const uint32_t timedFrames = kLateFrames + cpuFrames;
+        const double part = 1.0 / cpuFrames;
         for (uint32_t i = 0; i < kWarmFrames; ++i)
             frame(change, {});
-        for (uint32_t i = 0; i < kTimedFrames; ++i) {
+        for (uint32_t i = 0; i < timedFrames; ++i) {
             frame(change, {.skip = change != Change::kEverything});
             if (i < kLateFrames) continue;
-            constexpr double kShare = 1.0 / (kTimedFrames - kLateFrames);
             for (const PassReport& pass : renderer_.graph().report()) {
                 if (pass.outcome != PassOutcome::kRan) continue;
-                cost.gpuMs += pass.gpuMs * kShare;
-                cost.passes[std::string(pass.name)].ranIn += kShare;
+                cost.gpuMs += pass.gpuMs * part;
+                cost.passes[std::string(pass.name)].ranIn += part;
             }
         }
-        for (uint32_t i = 0; i < kCpuFrames; ++i) {
+        for (uint32_t i = 0; i < cpuFrames; ++i) {
             frame(change, {.skip = change != Change::kEverything, .timing = TimingMode::kProcessCpu});
             for (const PassReport& pass : renderer_.graph().report()) {
                 if (pass.outcome != PassOutcome::kRan) continue;
-                cost.cpuMs += pass.cpuMs / kCpuFrames;
-                cost.passes[std::string(pass.name)].cpuMs += pass.cpuMs / kCpuFrames;
+                cost.cpuMs += pass.cpuMs * part;
+                cost.passes[std::string(pass.name)].cpuMs += pass.cpuMs * part;
             }
         }
         return cost;

@@ -1,0 +1,43 @@
+// Which of indirect light is made anew in a frame. What a small thing that moves changes of it is little, and
+// far from the thing nobody sees it some frames late: lights are then clustered, and pixels whose surfaces
+// are as they were are gathered, only every so many frames. All else follows at once: what the camera sees,
+// direct light, shadow maps of area lights, pixels of what moved.
+#pragma once
+
+#include <vector>
+
+#include "gi/gi_settings.h"
+#include "gi/pixel_share.h"
+
+namespace ag::gi {
+
+// What the decision goes by, from frame to frame.
+struct RefreshHistory {
+    struct Place {
+        uint32_t row;      // of what moves
+        glm::vec3 centre;  // when lights were clustered
+    };
+    GiSettings settings;
+    std::vector<RenderLight> bounceLights;
+    glm::uvec2 size{0};
+    uint64_t loadedVersion = 0, cameraVersion = 0, originVersion = 0, instancesVersion = 0;
+    uint32_t sinceLarge = 0;   // frames since anything but small things changed
+    uint32_t sinceMoved = 0;   // frames since anything moved
+    uint32_t sinceLights = 0;  // frames since lights were clustered
+    std::vector<Place> places;
+    bool patient = false;  // something may be late
+};
+
+struct Refresh {
+    bool lights = true;  // light maps, what the view asks of clusters, clusters
+    PixelShare pixels;
+};
+
+// Once a frame.
+Refresh chooseRefresh(const SceneView& scene, const GiSettings& settings, RefreshHistory& history);
+
+// The most that what moved since the frame before takes up of what the camera or a bounce light sees, by
+// balls round it: 1 is all, and may be passed.
+float shareSeen(const SceneView& scene);
+
+}  // namespace ag::gi

@@ -1,0 +1,22 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// The regions to finish anew: where movable surfaces show or showed, and all where the still layer is another.
+#include "ism_atlas/regions.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { IsmSplatPush p; uint mapCount; } push;
+
+layout(set = 0, binding = 0, scalar) readonly buffer PreviousFinishes { IsmFinish items[]; } previousFinishes;
+layout(set = 0, binding = 1, scalar) readonly buffer Finishes { IsmFinish items[]; } finishes;
+layout(set = 0, binding = 2, scalar) writeonly buffer Listed { uint items[]; } listed;
+layout(set = 0, binding = 3, scalar) buffer Groups { uvec3 count; } groups;
+
+void main() {
+    uint map = gl_GlobalInvocationID.x;
+    if (map >= push.mapCount) return;
+    IsmFinish old = previousFinishes.items[map], now = finishes.items[map];
+    uvec2 shows = uvec2(old.touched[0] | now.touched[0], old.touched[1] | now.touched[1]);
+    uvec2 mask = old.made == now.made ? shows : allRegions(push.p.tileSize);
+    AG_LIST_REGIONS(map, mask)
+}
