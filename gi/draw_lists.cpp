@@ -70,6 +70,7 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
         bucketFirst_[b] = bucketFirst_[b - 1] + bucketCapacity_[b - 1];
     bounds_.resize(scene.instances.size());
     transformHash_.resize(scene.instances.size());
+    movable_.assign((scene.instances.size() + 63) / 64, 0);
     views_.clear();
     commands_.clear();
     ++generation_;
@@ -84,7 +85,9 @@ bool DrawLists::refreshBounds(const RenderScene& scene, bool all) {
             const RenderInstance& instance = scene.instances[i];
             bounds_.set(i, instance, boundsLocal(scene, instance));
             transformHash_[i] = shapeHash(scene, instance);
-            changed_[i / 64] |= uint64_t(1) << (i % 64);
+            const uint64_t bit = uint64_t(1) << (i % 64);
+            changed_[i / 64] |= bit;
+            movable_[i / 64] = instance.movable ? movable_[i / 64] | bit : movable_[i / 64] & ~bit;
             const uint32_t bucket = instanceBucket_[i];
             inPlace &= bucket == kNoBucket || buckets_[bucket].mirrored == isMirrored(instance);
         }
@@ -140,6 +143,27 @@ const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const 
     return views_[slot].draws;
 }
 
+// What the view sees of a layer, after what is there; returns its version.
+uint64_t DrawLists::addCommands(const RenderScene& scene, const ViewRequest& request, bool movable,
+                                View& view) {
+    uint64_t version = combineHash(geometryVersion_, generation_);
+    for (uint32_t word = 0; word < view.inSight.size(); ++word)
+        for (uint64_t bits = view.inSight[word] & (movable ? movable_[word] : ~movable_[word]); bits;
+             bits &= bits - 1) {
+            const uint32_t i = word * 64 + uint32_t(std::countr_zero(bits));
+            if (instanceBucket_[i] == kNoBucket || beyondFar(bounds_.of(i), request.clipFromWorld)) continue;
+            const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
+            BucketRange& range = view.draws.buckets[instanceBucket_[i]];
+            commands_[range.firstCommand + range.commandCount++] = {
+                p.indexCount, 1, p.firstIndex, firstVertexOf(scene, scene.instances[i]), i};
+            range.stillCount += !movable;
+            view.draws.movableCount += movable;
+            version = combineHash(combineHash(version, i), transformHash_[i]);
+            ++view.draws.instanceCount;
+        }
+    return version;
+}
+
 // Writes only what is the view's own: several may run at once.
 void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
     View& view = views_[request.slot];
@@ -149,21 +173,12 @@ void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
 
     const uint32_t first = request.slot * commandsPerView();
     for (size_t b = 0; b < buckets_.size(); ++b)
-        view.draws.buckets[b] = {first + bucketFirst_[b], 0};
-    uint64_t version = combineHash(geometryVersion_, generation_);
-    view.draws.instanceCount = 0;
+        view.draws.buckets[b] = {.firstCommand = first + bucketFirst_[b]};
+    view.draws.instanceCount = view.draws.movableCount = 0;
     bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
-    for (uint32_t word = 0; word < view.inSight.size(); ++word)
-        for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
-            const uint32_t i = word * 64 + uint32_t(std::countr_zero(bits));
-            if (instanceBucket_[i] == kNoBucket || beyondFar(bounds_.of(i), request.clipFromWorld)) continue;
-            const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
-            BucketRange& range = view.draws.buckets[instanceBucket_[i]];
-            commands_[range.firstCommand + range.commandCount++] = {
-                p.indexCount, 1, p.firstIndex, firstVertexOf(scene, scene.instances[i]), i};
-            version = combineHash(combineHash(version, i), transformHash_[i]);
-            ++view.draws.instanceCount;
-        }
+    view.draws.stillVersion = addCommands(scene, request, false, view);
+    view.draws.movableVersion = addCommands(scene, request, true, view);
+    const uint64_t version = combineHash(view.draws.stillVersion, view.draws.movableVersion);
     view.dirty = view.dirty || version != view.draws.version;
     view.draws.version = version;
     view.clipFromWorld = request.clipFromWorld;
@@ -179,13 +194,14 @@ const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
     view.draws.instanceCount = 0;
     for (size_t b = 0; b < buckets_.size(); ++b) {
         BucketRange& range = view.draws.buckets[b];
-        range = {slot * commandsPerView() + bucketFirst_[b], 0};
-        auto row = rows.begin();  // commands of a bucket ascend too
+        range = {.firstCommand = slot * commandsPerView() + bucketFirst_[b]};
+        auto row = rows.begin();  // commands of a bucket ascend too, those of each layer
         for (uint32_t c = 0; c < from.buckets[b].commandCount; ++c) {
+            if (c == from.buckets[b].stillCount) row = rows.begin();
             const VkDrawIndexedIndirectCommand& command = commands_[from.buckets[b].firstCommand + c];
             while (row != rows.end() && row->end <= command.firstInstance)
                 ++row;
-            if (row == rows.end()) break;
+            if (row == rows.end()) continue;
             if (command.firstInstance >= row->begin)
                 commands_[range.firstCommand + range.commandCount++] = command;
         }

@@ -28,15 +28,26 @@ struct DrawBucket {
     bool operator==(const DrawBucket&) const = default;
 };
 
+// Of the instances, by RenderInstance::movable.
+enum class DrawLayer { kAll, kStill, kMovable };
+
 struct BucketRange {
     uint32_t firstCommand = 0;  // within the whole command array
     uint32_t commandCount = 0;
+    uint32_t stillCount = 0;  // the first ones are of what stands still
 };
 
 struct ViewDraws {
     std::vector<BucketRange> buckets;  // parallel to DrawLists::buckets()
-    uint64_t version = 0;              // of the commands, the transforms and the geometry behind them
-    uint32_t instanceCount = 0;
+    // Of the commands, the transforms and the geometry behind them.
+    uint64_t version = 0, stillVersion = 0, movableVersion = 0;
+    uint32_t instanceCount = 0, movableCount = 0;
+
+    uint64_t versionOf(DrawLayer layer) const {
+        return layer == DrawLayer::kAll     ? version
+               : layer == DrawLayer::kStill ? stillVersion
+                                            : movableVersion;
+    }
 };
 
 // Slots are counted up by the caller and keep their place in the command array.
@@ -83,6 +94,7 @@ class DrawLists {
     bool refreshBounds(const RenderScene& scene, bool all);
     void ensureView(uint32_t view);
     void cullView(const RenderScene& scene, const ViewRequest& request);
+    uint64_t addCommands(const RenderScene& scene, const ViewRequest& request, bool movable, View& view);
 
     std::vector<DrawBucket> buckets_;
     std::vector<uint32_t> bucketCapacity_;  // instances in each bucket
@@ -92,6 +104,7 @@ class DrawLists {
     InstanceBounds bounds_;
     std::vector<uint64_t> changed_;  // a bit an instance whose bounds were set anew
     std::vector<uint64_t> transformHash_;
+    std::vector<uint64_t> movable_;  // a bit an instance
     std::vector<VkDrawIndexedIndirectCommand> commands_;
     std::deque<View> views_;  // references from cull() stay valid
     JobRunner* jobs_ = nullptr;

@@ -24,6 +24,7 @@ struct GiHistory {
     Settling stochasticRsm;
     Settling laterBounces;
     DenoiserHistory denoiser;
+    SunShadowHistory sunShadows;
     LightClusterHistory lightClusters;
     LampShadowHistory lampShadows;
     LampListsHistory lampLists;

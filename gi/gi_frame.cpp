@@ -79,7 +79,7 @@ GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const G
         goesOn ? addUpsampling(graph, f.gbuffer, thin, f.bounce1, kFirstBounceUpsampling) : f.indirect;
 
     // Direct light
-    f.shadows = addSunShadows(graph, scene, s.shadowMaps);
+    f.shadows = addSunShadows(graph, scene, s.shadowMaps, h.sunShadows);
     f.direct = addSunLighting(graph, scene, f.gbuffer, f.shadows);
     const LightClusters& lamps =
         clusterLamps(*scene.scene, h.lampRelevance, s.lightClusters, h.lightClusters);

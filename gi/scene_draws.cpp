@@ -3,14 +3,25 @@
 #include <algorithm>
 
 namespace ag::gi {
+namespace {
+
+BucketRange rangeOf(const BucketRange& all, DrawLayer layer) {
+    if (layer == DrawLayer::kAll) return all;
+    if (layer == DrawLayer::kStill) return {all.firstCommand, all.stillCount, all.stillCount};
+    return {all.firstCommand + all.stillCount, all.commandCount - all.stillCount, 0};
+}
+
+}  // namespace
 
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer) {
-    drawView(pass, scene, view, std::as_bytes(std::span(&clipFromWorld, 1)), viewport, filter, viewer);
+              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
+              DrawLayer layer) {
+    drawView(pass, scene, view, std::as_bytes(std::span(&clipFromWorld, 1)), viewport, filter, viewer, layer);
 }
 
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer) {
+              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
+              DrawLayer layer) {
     const bool camera = viewer == Viewer::kCamera;
     const bool shapes = filter == DrawFilter::kShapes || filter == DrawFilter::kOpaqueOnly;
     const std::span<const DrawBucket> buckets = scene.draws->buckets();
@@ -18,7 +29,8 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
         const DrawBucket& bucket = buckets[b];
         const bool wanted = filter == DrawFilter::kAll || filter == DrawFilter::kShapes ||
                             bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
-        if (!wanted || view.buckets[b].commandCount == 0) continue;
+        const BucketRange range = rangeOf(view.buckets[b], layer);
+        if (!wanted || range.commandCount == 0) continue;
         RasterDraw draw;
         if (!shapes) {
             draw.spec[draw.specCount++] = {0, uint32_t(bucket.textureClass)};
@@ -32,9 +44,9 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
         std::ranges::copy(push, draw.push.begin());
         draw.pushSizeBytes = uint32_t(push.size());
         draw.commands = scene.commands;
-        draw.commandsOffsetBytes = view.buckets[b].firstCommand * sizeof(VkDrawIndexedIndirectCommand);
-        draw.commandCount = view.buckets[b].commandCount;
-        draw.commandsVersion = view.version;
+        draw.commandsOffsetBytes = range.firstCommand * sizeof(VkDrawIndexedIndirectCommand);
+        draw.commandCount = range.commandCount;
+        draw.commandsVersion = view.versionOf(layer);
         pass.draw(draw);
     }
 }

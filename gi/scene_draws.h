@@ -15,10 +15,12 @@ enum class Viewer { kCamera, kLight };
 // One RasterDraw per non-empty bucket: the variant's constants (ids 0 texture class, 1 alpha mask, 2 normal
 // map), the view's matrix as push constant, its viewport.
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer);
+              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
+              DrawLayer layer = DrawLayer::kAll);
 // The same with other push constants, for views that are no matrix.
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer);
+              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
+              DrawLayer layer = DrawLayer::kAll);
 bool hasMasked(const SceneView& scene);  // any alpha-masked surface
 // The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
 void bindMaterials(PassBuilder& pass, const SceneView& scene);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/hash.h"
 #include "gi/cascades.h"
 #include "gi/scene_draws.h"
 
@@ -60,45 +61,95 @@ void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowM
     }
 }
 
-ImageHandle addAtlas(FrameGraph& graph, const SceneView& scene, std::span<io::ShadowView> views,
-                     uint32_t tile) {
+// The views' places in the atlas, and what each draws.
+struct Cascades {
+    std::span<io::ShadowView> views;
+    std::array<const ViewDraws*, io::kMaxShadowViews> draws{};
+    glm::uvec2 atlasSize{0};
+};
+
+Cascades cullCascades(const SceneView& scene, std::span<io::ShadowView> views, uint32_t tile) {
     const Atlas atlas = atlasOf(tile, uint32_t(views.size()));
-    const ImageHandle image =
-        graph.image("shadow_maps.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = atlas.size()});
-    PassBuilder opaque =
-        graph.raster("shadow_maps.cascades", "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
-    opaque.depthClear(image).geometry(scene.geometry).read("instances", scene.instances);
+    Cascades c{.views = views, .atlasSize = atlas.size()};
     std::array<ViewRequest, io::kMaxShadowViews> requests;
     for (uint32_t v = 0; v < views.size(); ++v)
         requests[v] = {scene.viewsClaimed + v, views[v].clipFromWorld};
     scene.draws->cullAll(*scene.scene, {requests.data(), views.size()});
     for (uint32_t v = 0; v < views.size(); ++v) {
-        io::ShadowView& view = views[v];
-        view.origin = atlas.place(v);
-        const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), view.clipFromWorld);
-        drawView(opaque, scene, draws, view.clipFromWorld, {view.origin, view.size, view.size},
-                 DrawFilter::kOpaqueOnly, Viewer::kLight);
+        views[v].origin = atlas.place(v);
+        c.draws[v] = &scene.draws->cull(*scene.scene, scene.claimView(), views[v].clipFromWorld);
     }
-    return image;
+    return c;
+}
+
+struct LayerNames {
+    std::string_view opaque, masked;
+};
+constexpr LayerNames kAllNames = {"shadow_maps.cascades", "shadow_maps.cascades_masked"};
+constexpr LayerNames kStillNames = {"shadow_maps.still", "shadow_maps.still_masked"};
+constexpr LayerNames kMovableNames = {"shadow_maps.movable", "shadow_maps.movable_masked"};
+
+void drawCascades(PassBuilder& pass, const SceneView& scene, const Cascades& c, DrawFilter filter,
+                  DrawLayer layer) {
+    for (size_t v = 0; v < c.views.size(); ++v)
+        drawView(pass, scene, *c.draws[v], c.views[v].clipFromWorld,
+                 {c.views[v].origin, c.views[v].size, c.views[v].size}, filter, Viewer::kLight, layer);
 }
 
 // Masked surfaces need their textures: a second pass over the same atlas, only where the scene has any.
-void addMasked(FrameGraph& graph, const SceneView& scene, ImageHandle image,
-               std::span<const io::ShadowView> views, uint32_t firstSlot) {
+void addLayer(FrameGraph& graph, const SceneView& scene, const Cascades& c, DrawLayer layer,
+              const LayerNames& names, ImageHandle image) {
+    PassBuilder opaque =
+        graph.raster(names.opaque, "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
+    if (layer == DrawLayer::kMovable)
+        opaque.depth(image);  // over what stands still
+    else
+        opaque.depthClear(image);
+    opaque.geometry(scene.geometry).read("instances", scene.instances);
+    drawCascades(opaque, scene, c, DrawFilter::kOpaqueOnly, layer);
     if (!hasMasked(scene)) return;
-    PassBuilder masked = graph.raster("shadow_maps.cascades_masked", "shadow_maps/masked.vert",
-                                      "shadow_maps/masked.frag", gpu::VertexLayout::kPositionsAndUvs);
+    PassBuilder masked = graph.raster(names.masked, "shadow_maps/masked.vert", "shadow_maps/masked.frag",
+                                      gpu::VertexLayout::kPositionsAndUvs);
     masked.depth(image).geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(masked, scene);
-    for (uint32_t v = 0; v < views.size(); ++v)
-        drawView(masked, scene, scene.draws->cull(*scene.scene, firstSlot + v, views[v].clipFromWorld),
-                 views[v].clipFromWorld, {views[v].origin, views[v].size, views[v].size},
-                 DrawFilter::kMaskedOnly, Viewer::kLight);
+    drawCascades(masked, scene, c, DrawFilter::kMaskedOnly, layer);
+}
+
+// Where the views or what stands still changes from frame to frame, a layer of it would not last.
+bool chooseLayered(const Cascades& c, SunShadowHistory& h) {
+    uint64_t still = hashBytes(std::as_bytes(c.views)), movable = 0;
+    for (size_t v = 0; v < c.views.size(); ++v) {
+        still = combineHash(still, c.draws[v]->stillVersion);
+        movable = combineHash(movable, c.draws[v]->movableVersion);
+    }
+    if (still != h.still)
+        h.layered = false;
+    else if (movable != h.movable)
+        h.layered = true;
+    h.still = still;
+    h.movable = movable;
+    return h.layered;
+}
+
+ImageHandle addAtlas(FrameGraph& graph, const SceneView& scene, const Cascades& c,
+                     SunShadowHistory& history) {
+    const ImageInfo info{.format = VK_FORMAT_D32_SFLOAT, .size = c.atlasSize};
+    const ImageHandle atlas = graph.image("shadow_maps.atlas", info);
+    if (!chooseLayered(c, history)) {
+        addLayer(graph, scene, c, DrawLayer::kAll, kAllNames, atlas);
+        return atlas;
+    }
+    const ImageHandle still = graph.image("shadow_maps.still_atlas", info);
+    addLayer(graph, scene, c, DrawLayer::kStill, kStillNames, still);
+    graph.copyImage("shadow_maps.copy", still, atlas);
+    addLayer(graph, scene, c, DrawLayer::kMovable, kMovableNames, atlas);
+    return atlas;
 }
 
 }  // namespace
 
-ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const ShadowMapSettings& settings) {
+ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const ShadowMapSettings& settings,
+                         SunShadowHistory& history) {
     ShadowMaps maps;
     Views views;
     const auto& lights = scene.scene->lights;
@@ -111,9 +162,7 @@ ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const Shadow
     }
     if (views.count == 0) return maps;
     const std::span all(views.items.data(), views.count);
-    const uint32_t firstSlot = scene.viewsClaimed;
-    maps.atlas = addAtlas(graph, scene, all, settings.resolution);
-    addMasked(graph, scene, maps.atlas, all, firstSlot);
+    maps.atlas = addAtlas(graph, scene, cullCascades(scene, all, settings.resolution), history);
     maps.views = graph.buffer("shadow_maps.views", {.sizeBytes = sizeof views.items});
     graph.upload("shadow_maps.views", maps.views, std::as_bytes(std::span(views.items)));
     return maps;

@@ -32,6 +32,13 @@ struct ShadowMaps {
     uint32_t sunCount = 0;
 };
 
-ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const ShadowMapSettings& settings);
+// What stands still has a layer of its own while nothing else of the maps changes than what may move.
+struct SunShadowHistory {
+    uint64_t still = 0, movable = 0;  // what each layer was made of
+    bool layered = false;
+};
+
+ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const ShadowMapSettings& settings,
+                         SunShadowHistory& history);
 
 }  // namespace ag::gi

@@ -221,6 +221,18 @@ std::vector<Patch>* FrameGraph::Impl::patchesOf(const Pass& pass) {
     return nullptr;
 }
 
+namespace {
+
+void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Image& target) {
+    const VkImageCopy region{.srcSubresource = {source.aspect(), 0, 0, 1},
+                             .dstSubresource = {target.aspect(), 0, 0, 1},
+                             .extent = {source.desc().size.x, source.desc().size.y, 1}};
+    vkCmdCopyImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(),
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+}  // namespace
+
 void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass) {
     const Use& to = usesOf(pass).back();
     if (pass.kind == PassKind::kFill) {
@@ -237,6 +249,8 @@ void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass
     } else {
         const gpu::Image& source = imageOf(resources[usesOf(pass).front().resource]);
         const gpu::Image& target = imageOf(resources[to.resource]);
+        if (source.desc().size == target.desc().size && source.desc().format == target.desc().format)
+            return copyWhole(commands, source, target);
         VkImageBlit region{.srcSubresource = {source.aspect(), 0, 0, 1},
                            .dstSubresource = {target.aspect(), 0, 0, 1}};
         region.srcOffsets[1] = {int32_t(source.desc().size.x), int32_t(source.desc().size.y), 1};

@@ -21,10 +21,11 @@ constexpr std::array<std::string_view, size_t(Change::kCount)> kNames = {"all pa
                                                                          "a small thing out of view",
                                                                          "a light",
                                                                          "the camera, all lights off"};
-constexpr uint32_t kWarmFrames = 48;     // for what settles
-constexpr uint32_t kLateFrames = 4;      // times arrive some frames late
-constexpr uint32_t kRounds = 2;          // of what comes up every so many frames
-constexpr float kThingSize = 1.0f / 40;  // of the scene's diagonal
+constexpr uint32_t kWarmFrames = 48;  // for what settles
+constexpr uint32_t kLateFrames = 4;   // times arrive some frames late
+constexpr uint32_t kRounds = 2;       // of what comes up every so many frames
+// At most, of the scene's diagonal and of its distance from the camera when it is in view.
+constexpr float kThingOfScene = 1.0f / 40, kThingOfDistance = 1.0f / 20;
 
 float diagonalOf(const RenderScene& scene) {
     return glm::length(scene.bounds.max - scene.bounds.min);
@@ -64,8 +65,13 @@ class Walkthrough {
                 const gi::GiSettings& settings)
         : renderer_(device), scene_(scene), size_(size), settings_(settings) {
         const reference::RayScene rays(scene);
-        const glm::vec3 seen = placeInCorner(rays), unseen = placeBehind(rays);
-        places_ = {seen, unseen};
+        const glm::vec3 corner = cornerSeen(rays);
+        thingSize_ = std::min(kThingOfScene * diagonalOf(scene),
+                              kThingOfDistance * glm::distance(corner, scene.camera.position));
+        const glm::vec3 toCorner = glm::normalize(corner - scene.camera.position);
+        const glm::vec3 seen = hit(rays, toCorner);
+        const glm::vec3 behind = glm::normalize(-scene.camera.forward + glm::vec3(0, -0.3f, 0));
+        places_ = {seen, hit(rays, behind)};
         scene.instances.push_back({.primitive = addBox(asset.geometry), .movable = true});
         scene.geometry = &asset.geometry;
         placeThing(seen, 0);
@@ -106,31 +112,28 @@ class Walkthrough {
     }
 
   private:
-    // On what is seen in the picture's lower right corner, a little off it; where the sky is there, nearer to
-    // the middle.
-    glm::vec3 placeInCorner(const reference::RayScene& rays) const {
+    // What is seen in the picture's lower right corner; where the sky is there, nearer to the middle.
+    glm::vec3 cornerSeen(const reference::RayScene& rays) const {
         const RenderCamera& c = scene_.camera;
         glm::vec3 direction(0);
         for (float at = 0.6f; at > 0; at -= 0.05f) {  // of the way from the middle to the corner
             const glm::vec4 h = c.worldFromClip * glm::vec4(at, at, 1, 1);
             direction = glm::normalize(glm::vec3(h) / h.w - c.position);
             reference::Surface surface;
-            if (rays.intersect(c.position, direction, surface)) break;
+            if (rays.intersect(c.position, direction, surface)) return surface.position;
         }
-        return hit(rays, direction);
+        return c.position + direction * 0.1f * diagonalOf(scene_);
     }
-    glm::vec3 placeBehind(const reference::RayScene& rays) const {
-        return hit(rays, glm::normalize(-scene_.camera.forward + glm::vec3(0, -0.3f, 0)));
-    }
+    // A little off what is there.
     glm::vec3 hit(const reference::RayScene& rays, glm::vec3 direction) const {
         reference::Surface surface;
-        const float size = kThingSize * diagonalOf(scene_);
+        const float size = thingSize_;
         if (!rays.intersect(scene_.camera.position, direction, surface))
             return scene_.camera.position + direction * 4.0f * size;
         return surface.position + surface.geometricNormal * size - direction * size;
     }
     void placeThing(glm::vec3 place, uint32_t frame) {
-        const float size = kThingSize * diagonalOf(scene_);
+        const float size = thingSize_;
         const float slide = 0.2f * size * std::sin(float(frame) * 0.5f);
         scene_.instances.back().worldFromLocal =
             glm::mat4x3(size, 0, 0, 0, size, 0, 0, 0, size, place.x + slide, place.y, place.z);
@@ -183,6 +186,7 @@ class Walkthrough {
     RenderScene start_;
     glm::uvec2 size_;
     gi::GiSettings settings_;
+    float thingSize_ = 0;  // m
     std::array<glm::vec3, 2> places_{};
     uint32_t frame_ = 0;
 };
