@@ -78,7 +78,7 @@ class HeadlessRun {
         }
         frameMs_.push_back(ms);
         passes_.add(renderer_.graph());
-        const double cost = cost_.add(renderer_.graph().report());
+        const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
         costMs_.push_back(cost);
         if (demo_.options.budgetMs > 0 && budget_.frame(cost)) {
             costMs_.clear();

@@ -257,7 +257,7 @@ class WindowedRun {
     bool automatic() const { return demo_.user.quality == Quality::kAutomatic; }
     const gi::QualityStep& quality() const { return gi::qualitySteps()[budget_.step()]; }
     void adapt() {
-        const double cost = cost_.add(renderer_.graph().report());
+        const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
         if (automatic() && !menu_.open && budget_.frame(cost)) usePlayerSettings();
     }
     glm::uvec2 renderSize() const {

@@ -38,8 +38,9 @@ void applyQualityStep(const QualityStep& step, GiSettings& gi);
 // that stands still does not look cheap.
 class FrameCost {
   public:
-    // ms; 0 as long as nothing was timed.
-    double add(std::span<const PassReport> passes);
+    // ms; 0 as long as nothing was timed. `partly`: the times are of a frame in which passes did a part of
+    // their work (GiRenderer::timesArePartial); what was known of those before stays.
+    double add(std::span<const PassReport> passes, bool partly = false);
     void forget() { known_.clear(); }
 
   private:

@@ -58,6 +58,8 @@ class GiRenderer {
     gpu::PipelineLibrary& pipelines() { return pipelines_; }
     // Of everything in the frame; the layers of debug_view and the probes' readings are in metres and watts.
     RenderUnits units() const { return units_; }
+    // Of the times that the graph reports now: what may be late was (see refresh.h).
+    bool timesArePartial() const { return history_.refresh.sincePatient <= kFramesInFlight; }
     const FrameMoments& moments() const { return moments_; }  // of the frame last rendered
     uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
 

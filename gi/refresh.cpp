@@ -150,6 +150,7 @@ Refresh chooseRefresh(const SceneView& scene, const GiSettings& settings, Refres
     const bool patient = s.lightFrames > 1 && settled && moves;
     const bool begins = patient && !h.patient;
     h.patient = patient;
+    h.sincePatient = count(patient, h.sincePatient);
     if (!patient) return {};
     const bool behind = leavesLightBehind(scene, h.places);
     const bool lights = begins || behind || h.sinceLights + 1 >= s.lightFrames;

@@ -25,7 +25,8 @@ struct RefreshHistory {
     uint32_t sinceMoved = 0;   // frames since anything moved
     uint32_t sinceLights = 0;  // frames since lights were clustered
     std::vector<Place> places;
-    bool patient = false;  // something may be late
+    bool patient = false;              // something may be late
+    uint32_t sincePatient = 1u << 20;  // frames
 };
 
 struct Refresh {

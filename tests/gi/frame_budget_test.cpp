@@ -63,6 +63,21 @@ TEST(FrameBudget, IsMetWithin120FramesWhateverTheSceneCosts) {
             }
 }
 
+// Something else has the device for five frames of thirty.
+TEST(FrameBudget, FramesThatWereInterruptedDoNotCount) {
+    for (const double share : {0.6, 1.0, 1.7, 4.0}) {
+        Model model{40, 1, 0.03};
+        BudgetController controller(40 * share, firstFullSizeStep());
+        Played r;
+        for (int i = 0; i < 240; ++i) {
+            model.mediumMs = i % 30 < 5 ? 60 : 40;
+            r = play(controller, model, 1, &r);
+        }
+        EXPECT_NEAR(r.median(90, 30) / (40 * share), 1, 0.1) << share;
+        EXPECT_EQ(r.changes(120), 0u) << share;
+    }
+}
+
 TEST(FrameBudget, ComesDownQuicklyAndUpSlowly) {
     Model model{50, 1};
     BudgetController controller(100, firstFullSizeStep());
@@ -120,6 +135,9 @@ TEST(FrameBudget, CountsWhatWasSkipped) {
     EXPECT_EQ(cost.add(std::array{pass("a", PassOutcome::kSkipped, 0), pass("b", PassOutcome::kRan, 5)}), 8);
     EXPECT_EQ(cost.add(std::array{pass("a", PassOutcome::kSkipped, 0), pass("b", PassOutcome::kDropped, 0)}),
               3);
+    EXPECT_EQ(cost.add(std::array{pass("a", PassOutcome::kRan, 1), pass("c", PassOutcome::kRan, 2)}, true), 5)
+        << "where a part was done all of it is as before";
+    EXPECT_EQ(cost.add(std::array{pass("a", PassOutcome::kRan, 1)}), 1);
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ class Budget {
         if (ms > 0) gi::applyQualityStep(gi::qualitySteps()[controller_.step()], gi);
     }
     void follow(gi::GiRenderer& renderer, gi::GiSettings& gi) {
-        lastMs_ = cost_.add(renderer.graph().report());
+        lastMs_ = cost_.add(renderer.graph().report(), renderer.timesArePartial());
         if (controller_.frame(lastMs_)) gi::applyQualityStep(gi::qualitySteps()[controller_.step()], gi);
     }
     void print() const {
