@@ -8,7 +8,7 @@ namespace ag::gi {
 struct RefreshSettings {
     // Frames from one time that lights are clustered to the next; 1: every frame, and nothing else is late.
     uint32_t lightFrames = 16;
-    uint32_t pixelFrames = 4;  // in which all pixels are gathered that are as they were
+    uint32_t pixelFrames = 8;  // in which all pixels are gathered that are as they were
     float small = 0.01f;       // of what the camera or a bounce light sees
 
     bool operator==(const RefreshSettings&) const = default;

@@ -122,7 +122,9 @@ TEST(Stream, NothingMovesNothingIsTold) {
     EXPECT_FALSE(s.scene().allInstancesChanged);
     s.world.advanceFrame();
     Entity mover;
-    View<const Mover>(s.world, {}).each([&](Entity e, const Mover&) { mover = e; });
+    View<const Mover, const MeshInstance>(s.world, {}).each([&](Entity e, const Mover&, const MeshInstance&) {
+        mover = e;
+    });
     s.world.write<Mover>(mover)->origin.y += 5;
     s.frame(0);
     ASSERT_EQ(s.scene().changedInstances.size(), 1u);
