@@ -138,10 +138,11 @@ WorkList addRestored(const Splat& s, const MapHistories& kept, const HistoryBuff
     return restored;
 }
 
-// What may move, over the still layer: only where it shows or showed in the frame before is anything done.
 struct MovingLayer {
     BufferHandle keys, chosen;
 };
+
+// What may move, over the still layer: only where it shows or showed in the frame before is anything done.
 MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle finishes,
                            const WorkList& restored, const io::IsmSplatPush& push) {
     const BufferHandle states =
