@@ -148,9 +148,11 @@ void FrameGraph::Impl::finishPass(const Pass& pass) {
     for (const Use& use : usesOf(pass))
         known.inputVersions.push_back(use.versionBefore);
     for (const Use& use : usesOf(pass))
-        if (writes(use.kind))
-            slots[resources[use.resource].slot].halves[resources[use.resource].half].version =
-                use.versionAfter;
+        if (writes(use.kind)) {
+            Memory& memory = *memoryOf(resources[use.resource]);
+            memory.version = use.versionAfter;
+            memory.stepVersion = use.stepVersionAfter;
+        }
 }
 
 namespace {

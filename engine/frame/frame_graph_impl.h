@@ -44,8 +44,9 @@ struct Memory {
     std::unique_ptr<gpu::Image> image;
     std::unique_ptr<gpu::Buffer> buffer;
     SyncState sync;
-    uint64_t version = 0;    // of the contents; 0: nothing
-    bool needsZero = false;  // histories start as zeroes
+    uint64_t version = 0;      // of the contents; 0: nothing
+    uint64_t stepVersion = 0;  // the same without what histories were before
+    bool needsZero = false;    // histories start as zeroes
     std::vector<Patch> patches;
     std::vector<GroupPart> parts;
 };
@@ -109,6 +110,7 @@ struct Use {
     bool keyed = true;      // false: its version reaches the key another way
     glm::vec4 clear{0};
     uint64_t versionBefore = 0, versionAfter = 0;  // of what it reads, of what it writes
+    uint64_t stepVersionAfter = 0;                 // see Memory
 };
 
 enum class PassKind : uint8_t { kCompute, kFullscreen, kRaster, kFill, kUpload, kCopyImage, kCopyBuffer };
@@ -205,7 +207,7 @@ struct FrameGraph::Impl {
     uint64_t ownKey(const Pass& pass) const;
     uint64_t passKey(const Pass& pass, bool withPrevious) const;
     void decideHeld();
-    uint64_t newestVersion(const Resource& resource) const;
+    const Memory& newest(const Resource& resource) const;
     const Use* earlierWrite(const Pass& pass, const Use& use) const;
     void walkVersions(bool withPrevious);
     void chooseHalves();

@@ -105,16 +105,16 @@ uint64_t FrameGraph::Impl::patchKey(const Pass& pass, size_t first, size_t end) 
     return key;
 }
 
-// What a resource held at the end of the frame before; 0: nothing.
-uint64_t FrameGraph::Impl::newestVersion(const Resource& r) const {
-    return slots[r.slot].halves[slots[r.slot].current].version;
+// As it was at the end of the frame before.
+const Memory& FrameGraph::Impl::newest(const Resource& r) const {
+    return slots[r.slot].halves[slots[r.slot].current];
 }
 
 // A pass can be held that has made all it writes.
 void FrameGraph::Impl::decideHeld() {
     for (Pass& pass : passes)
         for (const Use& use : usesOf(pass))
-            if (writes(use.kind)) pass.held = pass.held && newestVersion(resources[use.resource]) != 0;
+            if (writes(use.kind)) pass.held = pass.held && newest(resources[use.resource]).version != 0;
 }
 
 const Use* FrameGraph::Impl::earlierWrite(const Pass& pass, const Use& use) const {
@@ -146,8 +146,10 @@ void FrameGraph::Impl::walkVersions(bool withPrevious) {
             use.versionBefore = r.version;
             if (!writes(use.kind)) continue;
             const Use* same = earlierWrite(pass, use);  // of two bindings of one resource
-            const uint64_t made = pass.held ? newestVersion(r) : combineHash(key, index) | 1;  // never 0
+            const uint64_t kept = withPrevious ? newest(r).version : newest(r).stepVersion;
+            const uint64_t made = pass.held ? kept : combineHash(key, index) | 1;  // never 0
             use.versionAfter = same ? same->versionAfter : made;
+            if (!withPrevious) use.stepVersionAfter = use.versionAfter;
             r.version = use.versionAfter;
             if (!withPrevious && history && pass.held) heldSlots.push_back(r.slot);
         }

@@ -257,6 +257,32 @@ TEST_F(NullGraph, WhatIsHeldStaysThoughWhatItReadsChanges) {
     }
 }
 
+TEST_F(NullGraph, HistoriesBehindWhatIsHeldDoNotStep) {
+    const auto frame = [&](uint64_t version, bool hold) {
+        g.beginFrame(options);
+        g.hold(hold);
+        const HistoryBuffer first = g.historyBuffer("first", kBuffer),
+                            then = g.historyBuffer("then", kBuffer);
+        g.compute("first", "a.comp")
+            .read("source", g.importBuffer("source", kBuffer, version))
+            .readPrevious("before", first)
+            .write("sum", first.current);
+        g.hold(false);
+        g.compute("then", "b.comp")
+            .read("sum", first.current)
+            .readPrevious("before", then)
+            .write("total", then.current);
+        g.output(then.current);
+        return run().at("then");
+    };
+    frame(1, false);
+    EXPECT_EQ(frame(2, false), PassOutcome::kRan);
+    EXPECT_EQ(frame(3, true), PassOutcome::kSkipped) << "what it reads is as it was";
+    EXPECT_EQ(frame(4, true), PassOutcome::kSkipped);
+    EXPECT_EQ(frame(4, false), PassOutcome::kRan);
+    EXPECT_EQ(frame(4, false), PassOutcome::kSkipped);
+}
+
 TEST_F(NullGraph, OneResourceUnderTwoNamesIsMadeOnce) {
     const auto frame = [&](uint64_t version) {
         g.beginFrame(options);
