@@ -123,19 +123,20 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .dispatchIndirect(anew.groups);
 }
 
-// Regions where the still layer is to show again.
-WorkList addRestored(const Splat& s, const MapHistories& kept, const HistoryBuffer& finishes,
-                     const io::IsmSplatPush& push) {
-    const WorkList restored = addWorkList(s.graph, kRestored, s.regions(), {0, 1, 1});
-    s.graph.compute("ism_atlas.list_restored", "ism_atlas/list_restored.comp")
-        .read("places", kept.places.current)
+// Regions of maps, see list_regions.comp.
+WorkList addRegions(const Splat& s, std::string_view name, const WorkListNames& names, BufferHandle places,
+                    const HistoryBuffer& finishes, bool before, const io::IsmSplatPush& push) {
+    const WorkList regions = addWorkList(s.graph, names, s.regions(), {0, 1, 1});
+    s.graph.compute(name, "ism_atlas/list_regions.comp")
+        .read("places", places)
         .readPrevious("previousFinishes", finishes)
-        .write("finishes", finishes.current)
-        .write("listed", restored.items)
-        .readWrite("groups", restored.groups)
+        .readWrite("finishes", finishes.current)
+        .write("listed", regions.items)
+        .readWrite("groups", regions.groups)
+        .spec(0, before)
         .push(MapPush{push, s.atlas.mapCount})
         .dispatchThreads(s.atlas.mapCount);
-    return restored;
+    return regions;
 }
 
 struct MovingLayer {
@@ -175,16 +176,8 @@ MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle 
 }
 
 // From the nearest points to planes without holes, where maps may be otherwise than they were.
-void addFinish(const Splat& s, const MovingLayer& layer, const HistoryBuffer& finishes,
+void addFinish(const Splat& s, const MovingLayer& layer, const WorkList& finished,
                const io::IsmSplatPush& push) {
-    const WorkList finished = addWorkList(s.graph, kFinished, s.regions(), {0, 1, 1});
-    s.graph.compute("ism_atlas.list_finished", "ism_atlas/list_finished.comp")
-        .readPrevious("previousFinishes", finishes)
-        .read("finishes", finishes.current)
-        .write("listed", finished.items)
-        .readWrite("groups", finished.groups)
-        .push(MapPush{push, s.atlas.mapCount})
-        .dispatchThreads(s.atlas.mapCount);
     const BufferHandle resolved = s.settings.pullPush
                                       ? s.graph.buffer("ism_atlas.resolved", s.graph.info(s.atlas.planes))
                                       : s.atlas.planes;
@@ -248,11 +241,14 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
     addStillLayer(splat, kept, layerPush(push, points.still, 0, still, settings.splatScale));
     const HistoryBuffer finishes =
         graph.historyBuffer("ism_atlas.finishes", {.sizeBytes = atlas.mapCount * sizeof(io::IsmFinish)});
-    const WorkList restored = addRestored(splat, kept, finishes, push);
+    const WorkList restored =
+        addRegions(splat, "ism_atlas.list_restored", kRestored, kept.places.current, finishes, true, push);
     const io::IsmSplatPush movingPush = layerPush(push, points.moving, still, moving, settings.splatScale);
     MovingLayer all{kept.keys.current, atlas.chosen};
     if (moving > 0) all = addMovingLayer(splat, all.keys, finishes.current, restored, movingPush);
-    addFinish(splat, all, finishes, movingPush);
+    const WorkList finished =
+        addRegions(splat, "ism_atlas.list_finished", kFinished, kept.places.current, finishes, false, push);
+    addFinish(splat, all, finished, movingPush);
     return atlas;
 }
 

@@ -146,14 +146,13 @@ Refresh chooseRefresh(const SceneView& scene, const GiSettings& settings, Refres
     h.sinceMoved = count(moved, h.sinceMoved);
     // What settles does so undisturbed, and what waited comes before all is as it should be.
     const bool settled = h.sinceLarge > settings.valClustering.settleFrames;
-    const bool moves = moved || (h.patient && h.sinceMoved < s.lightFrames);
+    const bool waited = h.sincePatient == 0;
+    const bool moves = moved || (waited && h.sinceMoved < s.lightFrames);
     const bool patient = s.lightFrames > 1 && settled && moves;
-    const bool begins = patient && !h.patient;
-    h.patient = patient;
     h.sincePatient = count(patient, h.sincePatient);
     if (!patient) return {};
     const bool behind = leavesLightBehind(scene, h.places);
-    const bool lights = begins || behind || h.sinceLights + 1 >= s.lightFrames;
+    const bool lights = !waited || behind || h.sinceLights + 1 >= s.lightFrames;
     h.sinceLights = lights ? 0 : h.sinceLights + 1;
     if (lights) {
         h.places.clear();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gi/gi_settings.h"
-#include "gi/pixel_share.h"
+#include "gi/refresh_settings.h"
 
 namespace ag::gi {
 
@@ -25,8 +25,7 @@ struct RefreshHistory {
     uint32_t sinceMoved = 0;   // frames since anything moved
     uint32_t sinceLights = 0;  // frames since lights were clustered
     std::vector<Place> places;
-    bool patient = false;              // something may be late
-    uint32_t sincePatient = 1u << 20;  // frames
+    uint32_t sincePatient = 1u << 20;  // frames since something could be late
 };
 
 struct Refresh {

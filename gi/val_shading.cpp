@@ -11,9 +11,18 @@ namespace {
 constexpr ValTileNames kGlossTiles = {"val_gloss.classify", "val_gloss.lists", "val_gloss.counts",
                                       "val_gloss.lacking", "val_gloss.lacking_counts"};
 
-constexpr WorkListNames kGroupsAnew = {"val_shading.anew", "val_shading.groups", "val_shading.none"};
-constexpr WorkListNames kGlossyGroupsAnew = {"val_gloss.anew", "val_gloss.anew_groups",
-                                             "val_gloss.none_anew"};
+struct AnewNames {
+    std::string_view pass, digests, noDigests;
+    WorkListNames list;
+};
+constexpr AnewNames kPixelsAnew = {"val_shading.list",
+                                   "val_shading.digests",
+                                   "",
+                                   {"val_shading.anew", "val_shading.groups", "val_shading.none"}};
+constexpr AnewNames kCoatsAnew = {"val_gloss.list_anew",
+                                  "val_gloss.digests",
+                                  "val_gloss.no_digests",
+                                  {"val_gloss.anew", "val_gloss.anew_groups", "val_gloss.none_anew"}};
 constexpr WorkListNames kGlossyGroups = {"val_gloss.glossy", "val_gloss.groups", "val_gloss.none"};
 
 // A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks. Where pixels are
@@ -101,23 +110,29 @@ uint32_t groupsOf(const Gather& g) {
     return (g.blocks + 63) / 64;
 }
 
-HistoryBuffer addDigests(const Gather& g, std::string_view name) {
-    return g.graph.historyBuffer(name, {.sizeBytes = groupsOf(g) * sizeof(glm::uvec2)});
-}
-
-// Workgroups of a gathering of some pixels.
-WorkList addGroupsAnew(const Gather& g, const PixelShare& share) {
-    const HistoryBuffer digests = addDigests(g, "val_shading.digests");
-    const WorkList anew = addWorkList(g.graph, kGroupsAnew, groupsOf(g), {0, 1, 1});
-    g.graph.compute("val_shading.list", "val_shading/list_groups.comp")
-        .sample("normalMap", g.gbuffer.normal)
+// Of all workgroups those that are gathered anew, or of those that have a coat.
+WorkList addGroupsAnew(const Gather& g, const PixelShare& share, const AnewNames& names,
+                       const WorkList* glossy) {
+    const HistoryBuffer digests =
+        g.graph.historyBuffer(names.digests, {.sizeBytes = groupsOf(g) * sizeof(glm::uvec2)});
+    if (glossy) g.graph.fill(names.noDigests, digests.current, 0);  // of those without a coat
+    const WorkList anew = addWorkList(g.graph, names.list, groupsOf(g), {0, 1, 1});
+    PassBuilder pass = g.graph.compute(names.pass, "val_shading/list_groups.comp");
+    pass.sample("normalMap", g.gbuffer.normal)
         .sample("depthMap", g.gbuffer.depth)
+        .sample("albedoMap", glossy ? g.gbuffer.albedo : g.gbuffer.normal)  // else not looked at
+        .sample("reflectanceMap", glossy ? g.gbuffer.reflectance : g.gbuffer.normal)
+        .read("glossyGroups", glossy ? glossy->items : g.lists)
         .readPrevious("previousDigests", digests)
         .write("digests", digests.current)
         .write("listed", anew.items)
         .readWrite("groups", anew.groups)
-        .push(io::ValSharePush{g.push, share.index, share.count})
-        .dispatchThreads(g.blocks);
+        .spec(0, glossy != nullptr)
+        .push(io::ValSharePush{g.push, share.index, share.count});
+    if (glossy)
+        pass.dispatchIndirect(glossy->groups);
+    else
+        pass.dispatchThreads(g.blocks);
     return anew;
 }
 
@@ -132,26 +147,6 @@ WorkList addGlossyGroups(const Gather& g, ImageHandle coat) {
         .push(g.push)
         .dispatchThreads(g.blocks);
     return glossy;
-}
-
-// Those of them that are gathered anew.
-WorkList addGlossyGroupsAnew(const Gather& g, const WorkList& glossy, const PixelShare& share) {
-    const HistoryBuffer digests = addDigests(g, "val_gloss.digests");
-    g.graph.fill("val_gloss.no_digests", digests.current, 0);  // of those without a coat
-    const WorkList anew = addWorkList(g.graph, kGlossyGroupsAnew, groupsOf(g), {0, 1, 1});
-    g.graph.compute("val_gloss.list_anew", "val_shading/list_gloss_anew.comp")
-        .sample("normalMap", g.gbuffer.normal)
-        .sample("depthMap", g.gbuffer.depth)
-        .sample("albedoMap", g.gbuffer.albedo)
-        .sample("reflectanceMap", g.gbuffer.reflectance)
-        .readPrevious("previousDigests", digests)
-        .write("digests", digests.current)
-        .read("glossyGroups", glossy.items)
-        .write("listed", anew.items)
-        .readWrite("groups", anew.groups)
-        .push(io::ValSharePush{g.push, share.index, share.count})
-        .dispatchIndirect(glossy.groups);
-    return anew;
 }
 
 void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps,
@@ -183,7 +178,7 @@ Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& 
     // Compiled out, a binding takes any image of the same class.
     const auto orOther = [&](ImageHandle image, ImageHandle other) { return directed ? image : other; };
     const bool some = share.some && n == 1;
-    const WorkList anew = some ? addGroupsAnew(g, share) : WorkList{.items = g.lists};
+    const WorkList anew = some ? addGroupsAnew(g, share, kPixelsAnew, nullptr) : WorkList{.items = g.lists};
     const auto dispatch = [&](PassBuilder pass) {
         pass.read("listed", anew.items).spec(7, directed).spec(8, some);
         if (some)
@@ -218,7 +213,7 @@ ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& v
     const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
     const ImageHandle coat = graph.image("val_gloss.coat", graph.info(gbuffer.reflectance));
     const WorkList glossy = addGlossyGroups(g, coat);
-    const WorkList anew = share.some ? addGlossyGroupsAnew(g, glossy, share) : glossy;
+    const WorkList anew = share.some ? addGroupsAnew(g, share, kCoatsAnew, &glossy) : glossy;
     addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, anew, coat);
     addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, anew, coat);
     return coat;

@@ -6,7 +6,7 @@
 
 #include "gi/gbuffer.h"
 #include "gi/ism_atlas.h"
-#include "gi/pixel_share.h"
+#include "gi/refresh_settings.h"
 
 namespace ag::gi {
 
