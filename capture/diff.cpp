@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
+
+#include "engine/core/number.h"
 
 namespace ag::capture {
 namespace {
@@ -102,7 +103,7 @@ Result<Saved> readCapture(const std::string& folder) {
     if (pictures->header.size() != 10) return Error{folder + "/pictures.csv: not a table of pictures"};
     Saved saved{.passes = std::move(*passes)};
     for (const std::vector<std::string>& c : pictures->rows)
-        saved.pictures.push_back({c[0], c[1], c[9], std::atof(c[6].c_str())});
+        saved.pictures.push_back({c[0], c[1], c[9], parseNumber(c[6]).value_or(0)});
     return saved;
 }
 

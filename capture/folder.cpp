@@ -1,13 +1,35 @@
 #include "capture/folder.h"
 
 #include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 
+#include "engine/core/number.h"
 #include "engine/core/safe_file.h"
 
 namespace ag::capture {
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kWaiting = ".unfinished-";  // and the number of the process
+
+// What captures that were killed have left.
+void removeAbandoned(const std::string& path) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(kWaiting)) continue;
+        const auto process = parseNumber(name.substr(std::string_view(kWaiting).size()), 1, 1 << 30, true);
+        const bool runs = process && (::kill(pid_t(*process), 0) == 0 || errno == EPERM);
+        if (!runs || pid_t(*process) == ::getpid()) fs::remove_all(entry.path(), ignored);
+    }
+}
+
+}  // namespace
 
 Result<Folder> Folder::open(const std::string& path) {
     Folder folder;
@@ -16,8 +38,8 @@ Result<Folder> Folder::open(const std::string& path) {
     folder.made_ = !fs::exists(path, error);
     fs::create_directories(path, error);
     if (error) return Error{fmt::format("cannot make the folder {}: {}", path, error.message())};
-    const std::string waiting = path + "/.unfinished";
-    fs::remove_all(waiting, error);  // of a capture that was killed
+    removeAbandoned(path);
+    const std::string waiting = fmt::format("{}/{}{}", path, kWaiting, ::getpid());
     if (fs::create_directory(waiting, error); error)
         return Error{fmt::format("cannot write in {}: {}", path, error.message())};
     folder.waiting_ = waiting;

@@ -64,7 +64,7 @@ void recordView(gi::GiRenderer& renderer, const RenderScene& scene, const Record
     if (!shown) return;
     const std::string writer = writerOf(renderer.graph().describe(), source.index);
     if (writer.empty()) return;  // nothing in it that this frame made
-    capture.pictures.push_back({.name = "view." + std::string(gi::layerName(layer)),
+    capture.pictures.push_back({.name = "view." + std::string(gi::layerInfo(layer).name),
                                 .pass = writer,
                                 .format = "rgba32f",
                                 .pixels = gi::readImage(renderer, shown)});

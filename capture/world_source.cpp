@@ -20,11 +20,8 @@ void walkCamera(Res<const Walk> walk, Res<ActiveCamera> camera) {
 
 WorldSource::WorldSource(const SceneAsset& asset, const RenderScene& asked, glm::uvec2 size, glm::vec3 step) {
     spawnScene(world_, asset);
-    const RenderCamera& camera = asked.camera;
     ActiveCamera& active = world_.setResource<ActiveCamera>();
-    active.pose.position = glm::dvec3(camera.position) + asked.originWorld;
-    active.pose.forward = camera.forward;
-    active.pose.verticalFov = camera.verticalFov;
+    active.pose = poseOf(asked);
     active.size = size;
     world_.setResource<ExtractState>();
     world_.setResource<RenderScene>().geometry = &asset.geometry;

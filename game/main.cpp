@@ -2,8 +2,12 @@
 // menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world, F9 the
 // profiler; F10 captures frames.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "engine/core/log.h"
+#include "engine/core/number_option.h"
+#include "engine/core/program.h"
+#include "engine/core/safe_file.h"
 #include "game/demo_options.h"
 #include "game/save_game.h"
 
@@ -11,12 +15,6 @@ namespace ag::game {
 namespace {
 
 constexpr const char* kWalkthrough = AFTERGLOW_SOURCE_DIR "/game/level/walkthrough.replay";
-
-bool parseSize(const std::string& text, glm::uvec2& size) {
-    char end = 0;
-    return std::sscanf(text.c_str(), "%ux%u%c", &size.x, &size.y, &end) == 2 && size.x > 0 && size.y > 0 &&
-           size.x <= 8192 && size.y <= 8192;
-}
 
 void addOptions(CLI::App& program, DemoOptions& o) {
     // The last one counts, so that what follows a script's own options overrides them.
@@ -30,13 +28,13 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_option("--screenshot", o.screenshot, "save the last frame as PNG");
     program.add_option("--moments", o.moments, "save ten moments of a headless run as one PNG");
     program.add_option("--ticks-per-frame", o.ticksPerFrame, "headless: ticks of 1/60 s for each frame")
-        ->check(CLI::Range(1, 60))
+        ->check(numberFrom(1, 60))
         ->capture_default_str();
     program.add_option("--quality", o.quality, "low, medium, high, ultra or auto");
     program
         .add_option("--budget-ms", o.budgetMs,
                     "choose the quality so that a frame's passes take about so long; instead of --quality")
-        ->check(CLI::Range(0.1, 100000.0))
+        ->check(numberFrom(0.1, 100000))
         ->excludes("--quality");
     program.add_option("--user", o.userFolder, "folder of the save, the keys and the settings");
     program.add_flag("--continue", o.resume, "go on with the saved game");
@@ -46,7 +44,7 @@ void addOptions(CLI::App& program, DemoOptions& o) {
         ->allow_extra_args(false)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     program.add_option("--capture-frames", o.captureFrames, "how many frames F10 captures")
-        ->check(CLI::Range(1, 1000))
+        ->check(numberFrom(1, 1000))
         ->capture_default_str();
     program.add_flag("--renderdoc", o.renderDoc, "load RenderDoc, so that F10 leaves frame.rdc, too");
     program.add_flag("--serial", o.serial, "one thread, systems in order, each frame waits for the device");
@@ -70,6 +68,9 @@ Status loadIfThere(const std::string& path, Result<T> (*load)(const std::string&
 Status readUserFiles(Demo& demo) {
     const DemoOptions& o = demo.options;
     demo.files.folder = o.userFolder.empty() ? defaultUserFolder() : o.userFolder;
+    std::error_code ignored;
+    if (fileExists(demo.files.folder) && !std::filesystem::is_directory(demo.files.folder, ignored))
+        return Error{demo.files.folder + ": it is not a folder"};
     // Nobody's wishes change what a run without a window shows.
     if (!o.headless || !o.userFolder.empty()) {
         if (Status s = loadIfThere(demo.files.keys(), loadBindings, demo.keys); !s) return s;
@@ -104,8 +105,9 @@ Status prepare(Demo& demo) {
     gi::registerSettings(demo.settings, demo.gi);
     for (const std::string& assignment : o.assignments)
         if (Status set = demo.settings.set(assignment); !set) return set;
-    if (!parseSize(o.sizeText, demo.options.size))
-        return Error{"a size is WxH with 1 to 8192 pixels a side, not '" + o.sizeText + "'"};
+    const auto size = parseSize(o.sizeText);
+    if (!size) return size.error();
+    demo.options.size = *size;
     if (!o.view.empty()) {
         demo.layer = gi::layerFromName(o.view);
         if (!demo.layer) return Error{"there is no intermediate named '" + o.view + "'"};
@@ -115,6 +117,7 @@ Status prepare(Demo& demo) {
     demo.fault = *fault;
     if (o.resume && !o.record.empty()) return Error{"a recording starts with the level, not with --continue"};
     if (Status s = readUserFiles(demo); !s) return s;
+    if (Status s = checkWritable({o.record, o.screenshot, o.moments, o.report}); !s) return s;
     if (Status s = readReplay(demo); !s) return s;
     if (o.budgetMs > 0) demo.user.quality = Quality::kAutomatic;
     useQuality(demo, demo.user.quality, gi::qualitySteps()[gi::firstFullSizeStep()]);
@@ -123,7 +126,6 @@ Status prepare(Demo& demo) {
 }
 
 int run(int argc, char** argv) {
-    initLogging(false);
     Demo demo;
     CLI::App program("Afterglow: a gallery in the dark", "afterglow-demo");
     addOptions(program, demo.options);
@@ -134,7 +136,7 @@ int run(int argc, char** argv) {
         return refuse(error.what());
     }
     if (const Status ready = prepare(demo); !ready) return refuse(ready.error().message);
-    gpu::onDeviceFault([&demo] {
+    onProgramEnd([&demo] {
         if (const Status kept = finishRecording(demo); !kept) spdlog::error("{}", kept.error().message);
     });
     const int exitCode = demo.options.headless ? runHeadless(demo) : runWindowed(demo);
@@ -146,5 +148,5 @@ int run(int argc, char** argv) {
 }  // namespace ag::game
 
 int main(int argc, char** argv) {
-    return ag::game::run(argc, argv);
+    return ag::runProgram([&] { return ag::game::run(argc, argv); });
 }

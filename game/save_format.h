@@ -31,9 +31,17 @@ struct Saved {
     std::vector<SavedBody> bodies;
 };
 
-// Its first two lines; `level` is a hash of the level's things.
+// What a save of a level may say.
+struct SaveLimits {
+    uint64_t level = 0;                 // a hash of the level's things
+    glm::dvec3 least{-1e6}, most{1e6};  // m, of places
+    uint32_t nodes = 0;
+    int32_t mostRoom = -1;
+};
+
+// Its first two lines.
 std::string saveHead(uint64_t level);
 // The error names the file and the line that is damaged.
-Result<Saved> parseSave(const std::string& text, const std::string& path, uint64_t level);
+Result<Saved> parseSave(const std::string& text, const std::string& path, const SaveLimits& limits);
 
 }  // namespace ag::game

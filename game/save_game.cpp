@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "engine/core/hash.h"
 #include "engine/core/safe_file.h"
 #include "engine/physics/physics_system.h"
 #include "engine/scene/components.h"
+#include "engine/scene/static_scene.h"
 #include "game/save_format.h"
 
 namespace ag::game {
@@ -19,6 +21,20 @@ uint64_t levelHash(const SceneAsset& level) {
     for (const SceneNode& node : level.nodes)
         hash = combineHash(hash, hashBytes(std::as_bytes(std::span(node.name))));
     return hash;
+}
+
+constexpr double kMarginOfLevel = 50;  // m about it where things may have come to lie
+
+SaveLimits limitsOf(const Game& game) {
+    const SceneAsset& level = game.level();
+    SaveLimits limits{.level = levelHash(level), .nodes = uint32_t(level.nodes.size())};
+    for (const SceneNode& node : level.nodes)
+        limits.mostRoom = std::max(limits.mostRoom, node.extras.room);
+    const RenderScene scene = staticScene(level, likelyView(level));
+    if (scene.bounds.empty()) return limits;
+    limits.least = glm::dvec3(scene.bounds.min) + scene.originWorld - kMarginOfLevel;
+    limits.most = glm::dvec3(scene.bounds.max) + scene.originWorld + kMarginOfLevel;
+    return limits;
 }
 
 void apply(World& world, const Saved& saved) {
@@ -78,7 +94,7 @@ Status saveGame(Game& game, const std::string& path) {
 }
 
 Status checkSave(const Game& game, const std::string& text, const std::string& path) {
-    const auto saved = parseSave(text, path, levelHash(game.level()));
+    const auto saved = parseSave(text, path, limitsOf(game));
     if (!saved) return saved.error();
     return Ok{};
 }
@@ -97,7 +113,7 @@ Status putBrokenSaveAside(const Game& game, const std::string& path) {
 }
 
 Status restoreGame(Game& game, const std::string& text, const std::string& path) {
-    const auto saved = parseSave(text, path, levelHash(game.level()));
+    const auto saved = parseSave(text, path, limitsOf(game));
     if (!saved) return saved.error();
     apply(game.world(), *saved);
     return Ok{};

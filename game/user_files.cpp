@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "engine/core/number.h"
 #include "engine/core/safe_file.h"
 
 namespace ag::game {
@@ -42,9 +43,9 @@ bool readLine(const std::string& line, UserSettings& s) {
         }
     for (const Number& n : kNumbers)
         if (name == n.name) {
-            char* end = nullptr;
-            s.*n.value = std::strtof(value.c_str(), &end);
-            return *end == 0 && s.*n.value >= n.least && s.*n.value <= n.most;
+            const auto number = parseNumber(value, double(n.least), double(n.most));
+            if (number) s.*n.value = float(*number);
+            return number.has_value();
         }
     return false;
 }

@@ -13,6 +13,7 @@
 #include "engine/app/window.h"
 #include "engine/core/image.h"
 #include "engine/core/log.h"
+#include "engine/core/program.h"
 #include "engine/core/safe_file.h"
 #include "engine/scene/describe_components.h"
 #include "game/demo_options.h"
@@ -60,12 +61,12 @@ class WindowedRun {
         menu_.hasSave = fileExists(demo.files.save());
         if (!demo.replay.empty() || demo.options.resume) play();
         usePlayerSettings();
-        gpu::onDeviceFault([this] {
+        onProgramEnd([this] {
             autosave();
             if (const Status kept = finishRecording(demo_); !kept) spdlog::error("{}", kept.error().message);
         });
     }
-    ~WindowedRun() { gpu::onDeviceFault({}); }
+    ~WindowedRun() { onProgramEnd({}); }
 
     int loop() {
         auto last = Clock::now();
@@ -325,7 +326,8 @@ class WindowedRun {
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y,
                            automatic() ? fmt::format("auto ({})", quality().name)
                                        : std::string(qualityName(demo_.user.quality)),
-                           at.x, at.z, demo_.layer ? fmt::format("\n{}", gi::layerName(*demo_.layer)) : "");
+                           at.x, at.z,
+                           demo_.layer ? fmt::format("\n{}", gi::layerInfo(*demo_.layer).name) : "");
     }
     int saveScreenshot() {
         if (demo_.options.screenshot.empty() || !shown_) return 0;

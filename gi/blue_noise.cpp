@@ -1,20 +1,16 @@
 #include "gi/blue_noise.h"
 
-#include <fstream>
-#include <iterator>
-
 #include "engine/core/log.h"
+#include "engine/core/safe_file.h"
 
 namespace ag::gi {
 namespace {
 
 constexpr size_t kBytes = 64 * 64 * 4;
 
-std::vector<char> load() {
+std::string load() {
     const std::string path = AFTERGLOW_SHADER_DIR "/blue_noise_64.bin";
-    std::ifstream in(path, std::ios::binary);
-    std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
-    if (bytes.size() == kBytes) return bytes;
+    if (const auto bytes = readFile(path); bytes && bytes->size() == kBytes) return *bytes;
     spdlog::critical("{} is missing: build the target afterglow_blue_noise", path);
     std::abort();
 }
@@ -22,7 +18,7 @@ std::vector<char> load() {
 }  // namespace
 
 BufferHandle addBlueNoise(FrameGraph& graph) {
-    static const std::vector<char> bytes = load();
+    static const std::string bytes = load();
     const BufferHandle buffer =
         graph.buffer("blue_noise.pixels", {.sizeBytes = kBytes, .texelFormat = VK_FORMAT_R16G16_UNORM});
     graph.upload("blue_noise.pixels", buffer, std::as_bytes(std::span(bytes)));

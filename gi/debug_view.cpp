@@ -9,27 +9,30 @@ namespace {
 enum class Show : uint32_t { kLight, kReflectance, kDirection, kDistance, kDisplay };
 enum class Copy : uint32_t { kLight, kSum, kDepth, kDifference, kPlain };
 
-struct LayerInfo {
-    std::string_view name;
+struct Row {
+    LayerInfo info;
     Show show;
 };
 
-constexpr std::array<LayerInfo, size_t(Layer::kCount)> kLayers = {{{"final", Show::kDisplay},
-                                                                   {"radiance", Show::kLight},
-                                                                   {"direct", Show::kLight},
-                                                                   {"indirect", Show::kLight},
-                                                                   {"bounce1", Show::kLight},
-                                                                   {"bounce2", Show::kLight},
-                                                                   {"irradiance", Show::kLight},
-                                                                   {"albedo", Show::kReflectance},
-                                                                   {"normal", Show::kDirection},
-                                                                   {"depth", Show::kDistance},
-                                                                   {"rsm", Show::kLight},
-                                                                   {"importance", Show::kDisplay},
-                                                                   {"clusters", Show::kDisplay},
-                                                                   {"vals", Show::kDisplay},
-                                                                   {"lamp_clusters", Show::kDisplay},
-                                                                   {"ism", Show::kDistance}}};
+constexpr std::array<Row, size_t(Layer::kCount)> kLayers = {
+    {{{"final", "display values, 0 to 1", "the picture: radiance, exposed and tonemapped"}, Show::kDisplay},
+     {{"radiance", "W/(m² sr)", "light towards the camera"}, Show::kLight},
+     {{"direct", "W/m²", "irradiance straight from lights, before albedo", true}, Show::kLight},
+     {{"indirect", "W/m²", "irradiance of all bounces, before albedo", true}, Show::kLight},
+     {{"bounce1", "W/m²", "irradiance of the first bounce, before albedo", true}, Show::kLight},
+     {{"bounce2", "W/m²", "irradiance of all bounces after the first, before albedo", true}, Show::kLight},
+     {{"irradiance", "W/m²", "irradiance, direct and of all bounces, before albedo", true}, Show::kLight},
+     {{"albedo", "0 to 1", "diffuse reflectance"}, Show::kReflectance},
+     {{"normal", "unit vector", "shading normal in the world"}, Show::kDirection},
+     {{"depth", "m", "distance along the camera's axis"}, Show::kDistance},
+     {{"rsm", "W/m²", "radiosity over the light maps"}, Show::kLight},
+     {{"importance", "0 to 1", "importance over the light maps"}, Show::kDisplay},
+     {{"clusters", "display values, 0 to 1", "clusters as colours over the scene"}, Show::kDisplay},
+     {{"vals", "display values, 0 to 1", "area lights as polygons over the scene"}, Show::kDisplay},
+     {{"lamp_clusters", "display values, 0 to 1",
+       "lamps and what they light in the colours of shared shadow maps"},
+      Show::kDisplay},
+     {{"ism", "m", "imperfect shadow maps side by side"}, Show::kDistance}}};
 
 ImageHandle layerImage(FrameGraph& graph, glm::uvec2 size) {
     return graph.image("debug_view.layer", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size});
@@ -135,13 +138,13 @@ ImageHandle addImportanceView(FrameGraph& graph, const GiFrame& f) {
 
 }  // namespace
 
-std::string_view layerName(Layer layer) {
-    return kLayers[size_t(layer)].name;
+const LayerInfo& layerInfo(Layer layer) {
+    return kLayers[size_t(layer)].info;
 }
 
 std::optional<Layer> layerFromName(std::string_view name) {
     for (size_t i = 0; i < kLayers.size(); ++i)
-        if (kLayers[i].name == name) return Layer(i);
+        if (kLayers[i].info.name == name) return Layer(i);
     return std::nullopt;
 }
 
@@ -149,8 +152,66 @@ bool showsGloss(Layer layer) {
     return layer == Layer::kFinal || layer == Layer::kRadiance;
 }
 
+namespace {
+
+bool isMade(const GiFrame& f, Layer layer) {
+    switch (layer) {
+        case Layer::kDirect:
+            return bool(f.direct.image);
+        case Layer::kIndirect:
+            return bool(f.indirect.image);
+        case Layer::kBounce1:
+            return bool(f.bounce1.image);
+        case Layer::kBounce2:
+            return f.indirect.image && f.bounce1.image && f.indirect.image != f.bounce1.image;
+        case Layer::kIrradiance:
+            return f.direct.image || f.indirect.image;
+        case Layer::kRsm:
+            return !f.rsm.empty();
+        case Layer::kImportance:
+            return bool(f.importance.pyramid);
+        case Layer::kClusters:
+            return bool(f.clusters.slotOfTexel);
+        case Layer::kVals:
+            return f.vals.vals && f.vals.shapes;
+        case Layer::kLampClusters:
+            return bool(f.lampLists.lamps);
+        case Layer::kIsm:
+            return bool(f.isms.planes);
+        default:
+            return true;
+    }
+}
+
+// The graph would make others of the frame's resources for the view alone.
+bool isUsed(const GiSettings& settings, Layer layer) {
+    const FirstBounce technique = settings.firstBounce;
+    const bool stochastic = technique == FirstBounce::kStochasticRsm;
+    const bool lights = technique == FirstBounce::kAreaLights || technique == FirstBounce::kPointLights ||
+                        technique == FirstBounce::kSsvp || (stochastic && settings.stochasticRsm.visible);
+    switch (layer) {
+        case Layer::kRsm:
+            return technique != FirstBounce::kNone;
+        case Layer::kImportance:
+            return lights && technique != FirstBounce::kSsvp;
+        case Layer::kClusters:
+            return technique == FirstBounce::kAreaLights || (stochastic && lights);
+        case Layer::kVals:
+        case Layer::kIsm:
+            return lights;
+        default:
+            return true;
+    }
+}
+
+}  // namespace
+
+bool hasLayer(const GiFrame& frame, const GiSettings& settings, Layer layer) {
+    return isUsed(settings, layer) && isMade(frame, layer);
+}
+
 ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f, Layer layer) {
-    const bool lit = !f.rsm.empty();
+    if (!isMade(f, layer)) return {};
     const ImageHandle direct = f.direct.image, bounce = f.indirect.image;
     switch (layer) {
         case Layer::kFinal:
@@ -164,9 +225,7 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
         case Layer::kBounce1:
             return addCopy(graph, scene, f.bounce1.image, {}, Copy::kLight);
         case Layer::kBounce2:
-            return f.indirect.image != f.bounce1.image
-                       ? addCopy(graph, scene, f.indirect.image, f.bounce1.image, Copy::kDifference)
-                       : ImageHandle{};
+            return addCopy(graph, scene, f.indirect.image, f.bounce1.image, Copy::kDifference);
         case Layer::kIrradiance:
             return addCopy(graph, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
                            direct && bounce ? Copy::kSum : Copy::kLight);
@@ -177,17 +236,17 @@ ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f
         case Layer::kDepth:
             return addCopy(graph, scene, f.gbuffer.depth, {}, Copy::kDepth);
         case Layer::kRsm:
-            return lit ? addRsmView(graph, scene, f) : ImageHandle{};
+            return addRsmView(graph, scene, f);
         case Layer::kImportance:
-            return lit ? addImportanceView(graph, f) : ImageHandle{};
+            return addImportanceView(graph, f);
         case Layer::kClusters:
-            return lit ? addClusters(graph, scene, f) : ImageHandle{};
+            return addClusters(graph, scene, f);
         case Layer::kVals:
-            return lit ? addVals(graph, scene, f) : ImageHandle{};
+            return addVals(graph, scene, f);
         case Layer::kLampClusters:
-            return f.lampLists.lamps ? addLampClusters(graph, scene, f) : ImageHandle{};
+            return addLampClusters(graph, scene, f);
         case Layer::kIsm:
-            return f.isms.planes ? addIsmView(graph, scene, f.isms) : ImageHandle{};
+            return addIsmView(graph, scene, f.isms);
         case Layer::kCount:
             break;
     }

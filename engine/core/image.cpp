@@ -8,48 +8,26 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
+#include "engine/core/number.h"
 #include "engine/core/safe_file.h"
 
 namespace ag {
 namespace {
 
-namespace fs = std::filesystem;
-
-// Writes beside the target first, so that a fault never leaves half a file in its place.
-template <class F>
-Status writeWhole(const std::string& path, F&& write) {
-    const std::string temporary = path + ".part";
-    std::error_code error;
-    if (std::string fault = write(temporary); !fault.empty()) {
-        fs::remove(temporary, error);
-        return Error{fmt::format("cannot write {}: {}", path, fault)};
-    }
-    fs::rename(temporary, path, error);
-    if (!error) return Ok{};
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    return Error{fmt::format("cannot write {}: {}", path, error.message())};
-}
-
-Status savePfm(const Image& image, const std::string& path) {
+std::string pfmBytes(const Image& image) {
     static_assert(std::endian::native == std::endian::little);
-    return writeWhole(path, [&](const std::string& file) -> std::string {
-        std::ofstream out(file, std::ios::binary);
-        out << "PF\n" << image.width << ' ' << image.height << "\n-1.0\n";
-        for (int y = image.height - 1; y >= 0; --y)
-            out.write(reinterpret_cast<const char*>(&image.at(0, y)),
-                      std::streamsize(sizeof(glm::vec3)) * image.width);
-        out.flush();
-        return out ? "" : "the disk is full or the folder does not exist";
-    });
+    std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
+    for (int y = image.height - 1; y >= 0; --y)
+        bytes.append(reinterpret_cast<const char*>(&image.at(0, y)), sizeof(glm::vec3) * size_t(image.width));
+    return bytes;
 }
 
 // RGB in 32-bit floats, ZIP compression, attributes as strings.
-Status saveExr(const Image& image, const std::string& path) {
+Result<std::string> exrBytes(const Image& image) {
     std::vector<float> planes[3];
     for (size_t c = 0; c < 3; ++c)
         for (const glm::vec3& p : image.pixels)
@@ -86,57 +64,74 @@ Status saveExr(const Image& image, const std::string& path) {
     header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
     header.num_custom_attributes = int(attributes.size());
     header.custom_attributes = attributes.data();
-    return writeWhole(path, [&](const std::string& file) -> std::string {
-        const char* message = nullptr;
-        if (SaveEXRImageToFile(&pixels, &header, file.c_str(), &message) == TINYEXR_SUCCESS) return "";
-        const std::string text = message ? message : "the disk is full or the folder does not exist";
+    unsigned char* memory = nullptr;
+    const char* message = nullptr;
+    const size_t size = SaveEXRImageToMemory(&pixels, &header, &memory, &message);
+    if (size == 0) {
+        const std::string fault = message ? message : "the encoder failed";
         if (message) FreeEXRErrorMessage(message);
-        return text;
-    });
+        return Error{fault};
+    }
+    std::string bytes(reinterpret_cast<const char*>(memory), size);
+    std::free(memory);
+    return bytes;
 }
 
-Status savePng(const Image& image, const std::string& path) {
-    std::vector<uint8_t> bytes(image.pixels.size() * 3);
+Result<std::string> pngBytes(const Image& image) {
+    std::vector<uint8_t> texels(image.pixels.size() * 3);
     for (size_t i = 0; i < image.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            bytes[i * 3 + size_t(c)] = uint8_t(std::clamp(image.pixels[i][c], 0.0f, 1.0f) * 255.0f + 0.5f);
-    return writeWhole(path, [&](const std::string& file) -> std::string {
-        png_image png{};
-        png.version = PNG_IMAGE_VERSION;
-        png.width = png_uint_32(image.width);
-        png.height = png_uint_32(image.height);
-        png.format = PNG_FORMAT_RGB;
-        return png_image_write_to_file(&png, file.c_str(), 0, bytes.data(), 0, nullptr) ? "" : png.message;
-    });
+            texels[i * 3 + size_t(c)] = uint8_t(std::clamp(image.pixels[i][c], 0.0f, 1.0f) * 255.0f + 0.5f);
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = png_uint_32(image.width);
+    png.height = png_uint_32(image.height);
+    png.format = PNG_FORMAT_RGB;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);  // enough for any picture of this size
+    std::string bytes(size, '\0');
+    if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, texels.data(), 0, nullptr))
+        return Error{png.message};
+    bytes.resize(size);
+    return bytes;
 }
 
 constexpr int kMostSide = 1 << 15;
-constexpr uint64_t kMostTexels = uint64_t(1) << 28;
+constexpr double kMostTexels = 1 << 28;
 constexpr int kMostChannels = 32;
-constexpr uint64_t kMostExrBytes = uint64_t(1) << 30;
+constexpr uint64_t kMostImageBytes = uint64_t(1) << 32;  // of a file
 
-bool reasonable(int64_t width, int64_t height) {
+bool reasonable(double width, double height) {
     return width > 0 && height > 0 && width <= kMostSide && height <= kMostSide &&
-           uint64_t(width) * uint64_t(height) <= kMostTexels;
+           width * height <= kMostTexels;
+}
+
+// The text up to the next white space, of a short header; empty: there is none.
+std::string_view takeWord(std::string_view& text) {
+    const size_t begin = std::min(text.find_first_not_of(" \t\n\r"), text.size());
+    const size_t end = std::min(text.find_first_of(" \t\n\r", begin), text.size());
+    const std::string_view word = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    return word;
 }
 
 Result<Image> loadPfm(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return Error{path + " cannot be opened"};
-    std::string magic;
-    int width = 0, height = 0;
-    float scale = 0;
-    in >> magic >> width >> height >> scale;
-    if (!in || magic != "PF" || !reasonable(width, height) || !(scale < 0))
+    const auto bytes = readFile(path, kMostImageBytes);
+    if (!bytes) return bytes.error();
+    std::string_view text = *bytes;
+    const std::string_view magic = takeWord(text);
+    const double width = parseNumber(takeWord(text)).value_or(0),
+                 height = parseNumber(takeWord(text)).value_or(0),
+                 scale = parseNumber(takeWord(text)).value_or(0);
+    const bool whole = width == std::floor(width) && height == std::floor(height);
+    if (magic != "PF" || !whole || !reasonable(width, height) || !(scale < 0))
         return Error{path + " is not a little-endian colour PFM image"};
-    in.get();
-    std::error_code error;
-    const uint64_t bytes = uint64_t(width) * uint64_t(height) * sizeof(glm::vec3);
-    if (fs::file_size(path, error) < bytes || error) return Error{path + " is shorter than its header says"};
-    Image image(width, height);
-    for (int y = height - 1; y >= 0; --y)
-        in.read(reinterpret_cast<char*>(&image.at(0, y)), std::streamsize(sizeof(glm::vec3)) * width);
-    if (!in) return Error{path + " is shorter than its header says"};
+    Image image{int(width), int(height)};
+    const size_t size = image.pixels.size() * sizeof(glm::vec3);
+    if (text.size() < size + 1) return Error{path + " is shorter than its header says"};
+    text.remove_prefix(1);  // the one white space that ends the header
+    for (int y = image.height - 1; y >= 0; --y)
+        text.copy(reinterpret_cast<char*>(&image.at(0, y)), sizeof(glm::vec3) * size_t(width),
+                  sizeof(glm::vec3) * size_t(width) * size_t(image.height - 1 - y));
     return image;
 }
 
@@ -184,7 +179,7 @@ std::string_view exrPartType(std::string_view text) {
 // Why an image is not even tried: the decoder believes what the header says.
 const char* whyRefused(const EXRHeader& header) {
     const EXRBox2i& w = header.data_window;
-    if (!reasonable(int64_t(w.max_x) - w.min_x + 1, int64_t(w.max_y) - w.min_y + 1))
+    if (!reasonable(double(w.max_x) - w.min_x + 1, double(w.max_y) - w.min_y + 1))
         return "its size is larger than the limit or none";
     if (header.num_channels < 1 || header.num_channels > kMostChannels)
         return "it has too many channels or none";
@@ -235,7 +230,7 @@ std::string decodeExr(const std::string& text, ExrFile& exr) {
 }
 
 Result<Image> loadExr(const std::string& path) {
-    const auto text = readFile(path, kMostExrBytes);
+    const auto text = readFile(path, kMostImageBytes);
     if (!text) return text.error();
     ExrFile exr;
     const auto refuse = [&](const std::string& why) {
@@ -255,7 +250,14 @@ Result<Image> loadExr(const std::string& path) {
 }
 
 std::string extensionOf(const std::string& path) {
-    return fs::path(path).extension().string();
+    return std::filesystem::path(path).extension().string();
+}
+
+Result<std::string> encode(const Image& image, const std::string& extension) {
+    if (extension == ".exr") return exrBytes(image);
+    if (extension == ".pfm") return pfmBytes(image);
+    if (extension == ".png") return pngBytes(image);
+    return Error{"the name must end in .exr, .pfm or .png"};
 }
 
 bool finite(const Image& image) {
@@ -268,15 +270,12 @@ bool finite(const Image& image) {
 
 Status saveImage(const Image& image, const std::string& path) {
     if (image.pixels.empty()) return Error{"cannot write " + path + ": the image is empty"};
-    const std::string extension = extensionOf(path);
-    if (extension == ".exr") return saveExr(image, path);
-    if (extension == ".pfm") return savePfm(image, path);
-    if (extension == ".png") return savePng(image, path);
-    return Error{fmt::format("cannot write {}: the name must end in .exr, .pfm or .png", path)};
+    const auto bytes = encode(image, extensionOf(path));
+    if (!bytes) return Error{fmt::format("cannot write {}: {}", path, bytes.error().message)};
+    return writeFileSafely(path, *bytes);
 }
 
 Result<Image> loadImage(const std::string& path) {
-    if (!fs::exists(path)) return Error{path + " does not exist"};
     const std::string extension = extensionOf(path);
     if (extension == ".exr") return loadExr(path);
     if (extension == ".pfm") return loadPfm(path);

@@ -3,24 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+
+#include "engine/core/number.h"
 
 namespace ag {
 namespace {
 
 std::string fullName(const Setting& s) {
     return s.info.group + "." + s.info.name;
-}
-
-std::optional<double> parseNumber(std::string_view text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
 }
 
 std::optional<double> parseValue(const Setting& s, std::string_view text) {

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <fstream>
 
 #include "engine/core/hash.h"
+#include "engine/core/safe_file.h"
 
 namespace ag {
 namespace {
 
 constexpr char kMagic[8] = {'A', 'G', 'W', 'O', 'R', 'L', 'D', '\n'};
 constexpr uint32_t kFormat = 1;
+constexpr uint64_t kMostWorldBytes = uint64_t(4) << 30;
 
 class Writer {
   public:
@@ -269,18 +270,13 @@ Status restoreWorld(World& world, std::span<const std::byte> bytes) {
 
 Status saveWorldFile(const World& world, const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = saveWorld(world);
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    file.close();
-    if (!file) return Error{path.string() + ": the world cannot be written there"};
-    return Ok{};
+    return writeFileSafely(path.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Status loadWorldFile(World& world, const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return Error{path.string() + ": there is no such file to load a world from"};
-    std::vector<char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    const Status restored = restoreWorld(world, std::as_bytes(std::span(bytes)));
+    const auto bytes = readFile(path.string(), kMostWorldBytes);
+    if (!bytes) return bytes.error();
+    const Status restored = restoreWorld(world, std::as_bytes(std::span(*bytes)));
     if (!restored) return Error{path.string() + ": " + restored.error().message};
     return Ok{};
 }

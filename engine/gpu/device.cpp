@@ -8,9 +8,10 @@
 #include <cstring>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 
 #include "engine/core/log.h"
+#include "engine/core/program.h"
+#include "engine/core/safe_file.h"
 #include "engine/gpu/debug_name.h"
 #include "engine/gpu/device_choice.h"
 
@@ -69,6 +70,8 @@ void useExtensionNames() {
     vkQueueSubmit2 = vkQueueSubmit2KHR;
 }
 
+constexpr uint64_t kMostCacheBytes = uint64_t(1) << 30;
+
 std::filesystem::path cacheFile() {
     if (const char* dir = std::getenv("AFTERGLOW_CACHE_DIR")) return std::filesystem::path(dir) / "pipelines";
     if (const char* dir = std::getenv("XDG_CACHE_HOME"))
@@ -76,11 +79,6 @@ std::filesystem::path cacheFile() {
     if (const char* home = std::getenv("HOME"))
         return std::filesystem::path(home) / ".cache/afterglow/pipelines";
     return {};
-}
-
-std::vector<char> readFile(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace
@@ -186,10 +184,10 @@ Status Device::Impl::createDevice(const DeviceOptions& options) {
 }
 
 void Device::Impl::createPipelineCache() {
-    const std::vector<char> data = readFile(cacheFile());  // the driver checks the header itself
+    const auto data = readFile(cacheFile().string(), kMostCacheBytes);  // the driver checks the header itself
     VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
-                                   .initialDataSize = data.size(),
-                                   .pInitialData = data.data()};
+                                   .initialDataSize = data ? data->size() : 0,
+                                   .pInitialData = data ? data->data() : nullptr};
     AG_VK(vkCreatePipelineCache(device, &info, nullptr, &pipelineCache));
     gpu::setDebugName(device, VK_OBJECT_TYPE_PIPELINE_CACHE, pipelineCache, "device.pipelines");
 }
@@ -197,21 +195,19 @@ void Device::Impl::createPipelineCache() {
 void Device::Impl::savePipelineCache() const {
     size_t size = 0;
     vkGetPipelineCacheData(device, pipelineCache, &size, nullptr);
-    std::vector<char> data(size);
+    std::string data(size, 0);
     if (size == 0 || vkGetPipelineCacheData(device, pipelineCache, &size, data.data()) != VK_SUCCESS) return;
-    const std::filesystem::path path = cacheFile();
-    if (path.empty() || readFile(path) == data) return;
-    std::error_code ignored;  // a cache that cannot be written is only slower
-    std::filesystem::create_directories(path.parent_path(), ignored);
-    const std::filesystem::path temporary = path.string() + ".new";
-    if (std::ofstream out(temporary, std::ios::binary); !out.write(data.data(), std::streamsize(size)))
-        return;
-    std::filesystem::rename(temporary, path, ignored);
+    const std::string path = cacheFile().string();
+    const auto before = readFile(path, kMostCacheBytes);
+    if (path.empty() || (before && *before == data)) return;
+    // A cache that cannot be written is only slower.
+    if (makeFolderOf(path)) (void)bool(writeFileSafely(path, data));
 }
 
 Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
+    if (!hasRoom()) endProgram("out of memory: there is no room for a graphics driver");
     std::unique_ptr<Device> device(new Device(options));
     if (Status made = device->impl_->createInstance(options); !made) return made.error();
     if (Status made = device->impl_->createDevice(options); !made) return made.error();

@@ -5,16 +5,12 @@
 
 #include <array>
 #include <charconv>
-#include <cstdlib>
 #include <string_view>
 
-#include "engine/core/log.h"
+#include "engine/core/program.h"
 
 namespace ag::gpu {
 namespace {
-
-std::function<void()> gSave;
-std::atomic<bool> gEnding{false};
 
 std::string sentence(VkResult result, const char* call) {
     switch (result) {
@@ -40,17 +36,9 @@ constexpr std::array kFaults = {
 
 }  // namespace
 
-void onDeviceFault(std::function<void()> save) {
-    gSave = std::move(save);
-}
-
 void checkVk(VkResult result, const char* call) {
     if (result >= 0) return;  // success codes such as VK_INCOMPLETE are the caller's business
-    spdlog::critical("{}", sentence(result, call));
-    if (!gEnding.exchange(true) && gSave) gSave();
-    spdlog::shutdown();
-    // At once: destructors would call the device that failed.
-    std::_Exit(kDeviceFaultExit);
+    endProgram(sentence(result, call));
 }
 
 Result<FaultPlan> parseFaultPlan(const std::string& text) {

@@ -4,19 +4,11 @@
 #include <volk.h>
 
 #include <atomic>
-#include <functional>
 #include <string>
 
 #include "engine/core/result.h"
 
 namespace ag::gpu {
-
-// Exit code of a program whose device failed.
-constexpr int kDeviceFaultExit = 3;
-
-// Called once before a program ends because its device failed: the place to save what must not be lost. It
-// must not use the device. Empty: nothing is done.
-void onDeviceFault(std::function<void()> save);
 
 enum class Fault : uint32_t { kNone, kAllocation, kSubmit, kOutOfDate, kSurfaceLost };
 

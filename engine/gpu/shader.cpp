@@ -1,19 +1,18 @@
 #include "engine/gpu/shader.h"
 
-#include <fstream>
+#include <cstring>
+
+#include "engine/core/safe_file.h"
 
 namespace ag::gpu {
 
 Result<ShaderModule> loadShader(const std::string& path) {
     const std::string file = std::string(AFTERGLOW_SHADER_DIR "/") + path + ".spv";
-    std::ifstream in(file, std::ios::binary | std::ios::ate);
-    if (!in) return Error{"shader " + file + " is missing: build the target afterglow_shaders"};
-    const auto bytes = size_t(in.tellg());
-    if (bytes < 20 || bytes % 4 != 0) return Error{"shader " + file + " is not SPIR-V"};
-    std::vector<uint32_t> spirv(bytes / 4);
-    in.seekg(0);
-    in.read(reinterpret_cast<char*>(spirv.data()), std::streamsize(bytes));
-    if (!in) return Error{"shader " + file + " cannot be read"};
+    const auto bytes = readFile(file);
+    if (!bytes) return Error{"shader " + bytes.error().message + " (the target afterglow_shaders builds it)"};
+    if (bytes->size() < 20 || bytes->size() % 4 != 0) return Error{"shader " + file + " is not SPIR-V"};
+    std::vector<uint32_t> spirv(bytes->size() / 4);
+    std::memcpy(spirv.data(), bytes->data(), bytes->size());
     return reflectShader(path, std::move(spirv));
 }
 

@@ -79,23 +79,28 @@ std::vector<T> readAll(const tinygltf::Model& model, int index, int components) 
                      out.data());
     }
     if (!a.sparse.isSparse) return out;
-    const int indexType = a.sparse.indices.componentType;
-    const size_t indexSize = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(indexType)));
-    const unsigned char* indices =
-        viewData(model, a.sparse.indices.bufferView, size_t(a.sparse.indices.byteOffset));
+    const std::vector<uint32_t> rows = sparseRows(model, a);
     const unsigned char* values =
         viewData(model, a.sparse.values.bufferView, size_t(a.sparse.values.byteOffset));
     tinygltf::Accessor one = a;
     one.count = 1;
-    for (size_t i = 0; i < size_t(a.sparse.count); ++i) {
-        const auto row = size_t(component(indices + i * indexSize, indexType, false));
-        if (row < a.count)
-            readElements(one, values + i * element, element, components, &out[row * size_t(components)]);
-    }
+    for (size_t i = 0; i < rows.size(); ++i)
+        readElements(one, values + i * element, element, components, &out[rows[i] * size_t(components)]);
     return out;
 }
 
 }  // namespace
+
+std::vector<uint32_t> sparseRows(const tinygltf::Model& model, const tinygltf::Accessor& a) {
+    const int type = a.sparse.indices.componentType;
+    const size_t size = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(type)));
+    const unsigned char* indices =
+        viewData(model, a.sparse.indices.bufferView, size_t(a.sparse.indices.byteOffset));
+    std::vector<uint32_t> rows(size_t(a.sparse.count), 0);
+    for (size_t i = 0; i < rows.size(); ++i)
+        rows[i] = convert<uint32_t>(component(indices + i * size, type, false));
+    return rows;
+}
 
 std::vector<float> readFloats(const tinygltf::Model& model, int accessor, int components) {
     return readAll<float>(model, accessor, components);

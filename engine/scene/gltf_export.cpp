@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <span>
+#include <sstream>
+
+#include "engine/core/safe_file.h"
 
 namespace ag {
 namespace {
@@ -278,16 +280,11 @@ Status exportGlb(const SceneAsset& asset, const std::string& path) {
         model.extensionsUsed.push_back(name);
     model.scenes.push_back(scene);
     model.defaultScene = 0;
-    const std::string temporary = path + ".part";
+    std::ostringstream bytes;
     tinygltf::TinyGLTF writer;
-    std::error_code error;
-    if (!writer.WriteGltfSceneToFile(&model, temporary, true, true, false, true)) {
-        std::filesystem::remove(temporary, error);
-        return Error{path + ": the file cannot be written"};
-    }
-    std::filesystem::rename(temporary, path, error);
-    if (error) return Error{path + ": " + error.message()};
-    return Ok{};
+    if (!writer.WriteGltfSceneToStream(&model, bytes, false, true))
+        return Error{path + ": the scene cannot be encoded"};
+    return writeFileSafely(path, bytes.view());
 }
 
 }  // namespace ag

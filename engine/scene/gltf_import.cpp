@@ -5,8 +5,8 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
+#include "engine/core/safe_file.h"
 #include "engine/scene/gltf_internal.h"
 #include "engine/scene/split_primitives.h"
 
@@ -15,10 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What tinygltf's file callbacks know: the one folder they may read, and how much is left to be read.
+// What tinygltf's file callbacks know: the one folder they may read, how much is left to be read, what went
+// wrong.
 struct Folder {
     fs::path root;
     uint64_t bytesLeft;
+    std::string fault;
 };
 
 struct ImageBudget {
@@ -35,29 +37,27 @@ bool staysInside(const Folder& folder, const std::string& file) {
     return !relative.empty() && *relative.begin() != "..";
 }
 
-bool fileExists(const std::string& file, void* user) {
-    std::error_code error;
-    return staysInside(*static_cast<Folder*>(user), file) && fs::is_regular_file(file, error);
+// Whether a file is there is readWhole's to say, which knows why it is not.
+bool assumeExists(const std::string&, void*) {
+    return true;
 }
 
 std::string expandPath(const std::string& file, void*) {
     return file;
 }
 
-bool readWhole(std::vector<unsigned char>* out, std::string* error, const std::string& file, void* user) {
+bool readWhole(std::vector<unsigned char>* out, std::string*, const std::string& file, void* user) {
     Folder& folder = *static_cast<Folder*>(user);
-    std::error_code code;
-    const bool there = staysInside(folder, file) && fs::is_regular_file(file, code);
-    const uint64_t size = there ? fs::file_size(file, code) : 0;
-    if (!there || code || size > folder.bytesLeft) {
-        if (error) *error += file + " lies outside the file's folder, is missing or is too large\n";
+    const Result<std::string> bytes = staysInside(folder, file)
+                                          ? readFile(file, folder.bytesLeft)
+                                          : Error{file + ": it lies outside the scene's folder"};
+    if (!bytes) {
+        if (folder.fault.empty()) folder.fault = bytes.error().message;
         return false;
     }
-    folder.bytesLeft -= size;
-    std::ifstream in(file, std::ios::binary);
-    out->resize(size);
-    in.read(reinterpret_cast<char*>(out->data()), std::streamsize(size));
-    return bool(in);
+    folder.bytesLeft -= bytes->size();
+    out->assign(bytes->begin(), bytes->end());
+    return true;
 }
 
 bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
@@ -99,15 +99,26 @@ std::string firstLine(const std::string& text) {
     return line.empty() ? "it cannot be parsed" : line;
 }
 
+constexpr size_t kGlbHeader = 12;               // magic, version, length
+constexpr size_t kFirstChunk = kGlbHeader + 8;  // its length and type before it
+constexpr uint32_t kGlbVersion = 2;
+
+uint32_t wordAt(std::string_view bytes, size_t at) {
+    uint32_t word = 0;
+    std::memcpy(&word, bytes.data() + at, sizeof word);
+    return word;
+}
+
+// A GLB announces itself in its first four bytes.
+bool isBinary(std::string_view bytes) {
+    return bytes.starts_with("glTF");
+}
+
 // The JSON of either kind of file; of a broken GLB what there is.
-std::string_view jsonOf(const std::vector<unsigned char>& bytes, bool binary) {
-    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    constexpr size_t kHeader = 20;  // of the file and of its first chunk, whose length stands at 12
-    if (!binary) return all;
-    if (bytes.size() < kHeader) return {};
-    uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 12, sizeof length);
-    return all.substr(kHeader, length);
+std::string_view jsonOf(std::string_view bytes) {
+    if (!isBinary(bytes)) return bytes;
+    if (bytes.size() < kFirstChunk) return {};
+    return bytes.substr(kFirstChunk, wordAt(bytes, kGlbHeader));
 }
 
 // How deep brackets stand in brackets: those who read them call themselves as often.
@@ -125,40 +136,41 @@ uint32_t bracketDepth(std::string_view json) {
     return deepest;
 }
 
-// A GLB announces itself in its first four bytes.
-bool isBinary(const std::vector<unsigned char>& bytes) {
-    return bytes.size() >= 4 && bytes[0] == 'g' && bytes[1] == 'l' && bytes[2] == 'T' && bytes[3] == 'F';
+// What is wrong with the bytes before anything is parsed.
+gltf::Fault checkBytes(std::string_view bytes, const ImportLimits& limits) {
+    if (bytes.empty()) return "the file is empty";
+    if (bracketDepth(jsonOf(bytes)) > limits.jsonDepth)
+        return fmt::format("its JSON is nested deeper than {}", limits.jsonDepth);
+    if (!isBinary(bytes)) return std::nullopt;
+    if (bytes.size() < kFirstChunk) return "the GLB ends within its header";
+    if (wordAt(bytes, 4) != kGlbVersion)
+        return fmt::format("it is a GLB of version {}, not 2", wordAt(bytes, 4));
+    if (wordAt(bytes, 8) > bytes.size()) return "the GLB is shorter than its header says";
+    return std::nullopt;
 }
 
 Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limits) {
-    std::error_code code;
-    if (!fs::exists(path, code)) return Error{path + ": the file does not exist"};
-    if (!fs::is_regular_file(path, code)) return Error{path + ": it is not a file"};
+    const auto bytes = readFile(path, limits.fileBytes);
+    if (!bytes) return bytes.error();
+    if (const gltf::Fault fault = checkBytes(*bytes, limits))
+        return Error{fmt::format("{}: {}", path, *fault)};
     // A link to the file itself may lead elsewhere; what it names may not.
-    const fs::path whole = fs::canonical(path, code);
-    Folder folder{whole.parent_path(), limits.fileBytes};
-    std::vector<unsigned char> bytes;
-    if (fs::file_size(path, code) > limits.fileBytes)
-        return Error{path + ": the file is larger than the limit"};
-    if (!readWhole(&bytes, nullptr, whole.string(), &folder))
-        return Error{path + ": the file cannot be read"};
-    if (bytes.empty()) return Error{path + ": the file is empty"};
-    const bool binary = isBinary(bytes);
-    if (bracketDepth(jsonOf(bytes, binary)) > limits.jsonDepth)
-        return Error{fmt::format("{}: its JSON is nested deeper than {}", path, limits.jsonDepth)};
-
-    tinygltf::TinyGLTF loader;
+    std::error_code code;
+    Folder folder{fs::canonical(path, code).parent_path(), limits.fileBytes - bytes->size(), ""};
     ImageBudget images{limits.imageSide, limits.imageTexels};
+    tinygltf::TinyGLTF loader;
     loader.SetImageLoader(decodeImage, &images);
-    loader.SetFsCallbacks({fileExists, expandPath, readWhole, writeNothing, &folder});
+    loader.SetFsCallbacks({assumeExists, expandPath, readWhole, writeNothing, &folder});
     tinygltf::Model model;
     std::string error, warning;
     const std::string base = folder.root.string();
-    const auto size = static_cast<unsigned int>(bytes.size());
+    const auto size = static_cast<unsigned int>(bytes->size());
     const bool parsed =
-        binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
-               : loader.LoadASCIIFromString(&model, &error, &warning,
-                                            reinterpret_cast<const char*>(bytes.data()), size, base);
+        isBinary(*bytes)
+            ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                          reinterpret_cast<const unsigned char*>(bytes->data()), size, base)
+            : loader.LoadASCIIFromString(&model, &error, &warning, bytes->data(), size, base);
+    if (!folder.fault.empty()) return Error{fmt::format("{}: {}", path, folder.fault)};
     if (!parsed) return Error{fmt::format("{}: {}", path, firstLine(error))};
     return model;
 }

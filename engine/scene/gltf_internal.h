@@ -24,6 +24,9 @@ Fault checkAnimations(const tinygltf::Model& model, const ImportLimits& limits);
 std::vector<float> readFloats(const tinygltf::Model& model, int accessor, int components);
 std::vector<uint32_t> readUints(const tinygltf::Model& model, int accessor, int components);
 
+// Which elements an accessor's sparse values replace; its ranges are checked already.
+std::vector<uint32_t> sparseRows(const tinygltf::Model& model, const tinygltf::Accessor& accessor);
+
 void importMaterials(const tinygltf::Model& model, SceneAsset& asset);
 // After importMaterials: sets every material's class and layers.
 Fault importTextures(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits);

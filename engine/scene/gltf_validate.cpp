@@ -60,8 +60,14 @@ Fault checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& a, uin
     if (Fault f = checkRange(model, sparse.indices.bufferView, uint64_t(sparse.indices.byteOffset),
                              uint64_t(indexSize), count, uint64_t(indexSize), what + " (sparse indices)"))
         return f;
-    return checkRange(model, sparse.values.bufferView, uint64_t(sparse.values.byteOffset), element, count,
-                      element, what + " (sparse values)");
+    if (Fault f = checkRange(model, sparse.values.bufferView, uint64_t(sparse.values.byteOffset), element,
+                             count, element, what + " (sparse values)"))
+        return f;
+    const std::vector<uint32_t> rows = sparseRows(model, a);
+    const auto beyond = std::ranges::find_if(rows, [&](uint32_t row) { return row >= a.count; });
+    if (beyond != rows.end())
+        return fmt::format("{} has a sparse value for element {} of {}", what, *beyond, a.count);
+    return std::nullopt;
 }
 
 Fault checkAccessors(const tinygltf::Model& model, const ImportLimits& limits) {

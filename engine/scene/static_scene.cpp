@@ -68,6 +68,16 @@ void chooseBounceLights(std::vector<RenderLight>& lights) {
         lights[order[i]].bounces = true;
 }
 
+// Who looks along `up` itself has tilted the head down or up from looking along -Z, as a glTF camera does.
+glm::vec3 rightOf(glm::vec3 forward, glm::vec3 up) {
+    constexpr float kLeastSine = 1e-4f;
+    const glm::vec3 across = glm::cross(forward, up);
+    if (glm::length(across) > kLeastSine * glm::length(up)) return glm::normalize(across);
+    const glm::vec3 tilted(0, 0, forward.y > 0 ? 1 : -1);
+    const glm::vec3 right = glm::cross(forward, tilted);
+    return glm::length(right) > kLeastSine ? glm::normalize(right) : glm::vec3(1, 0, 0);
+}
+
 }  // namespace
 
 uint64_t triangleCount(const SceneAsset& asset) {
@@ -125,8 +135,11 @@ CameraPose cameraOf(const SceneAsset& asset, size_t index) {
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         if (asset.nodes[i].camera != int32_t(index)) continue;
         const SceneCamera& camera = asset.cameras[index];
-        return {places[i].translation, glm::normalize(places[i].linear * glm::vec3(0, 0, -1)),
-                camera.verticalFov, camera.near};
+        return {.position = places[i].translation,
+                .forward = glm::normalize(places[i].linear * glm::vec3(0, 0, -1)),
+                .up = places[i].linear * glm::vec3(0, 1, 0),
+                .verticalFov = camera.verticalFov,
+                .near = camera.near};
     }
     const RenderScene scene = staticScene(asset, likelyView(asset));
     CameraPose pose = framingCamera(scene.bounds);
@@ -168,8 +181,7 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
 void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size) {
     const float aspect = float(size.x) / float(size.y);
     const glm::vec3 position(pose.position - scene.originWorld);
-    const glm::vec3 up = std::abs(pose.forward.y) > 0.999f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
-    const glm::vec3 right = glm::normalize(glm::cross(pose.forward, up));
+    const glm::vec3 right = rightOf(pose.forward, pose.up);
     const glm::vec3 top = glm::cross(right, pose.forward);
     glm::dmat4 view(1);
     for (int i = 0; i < 3; ++i)
@@ -184,9 +196,19 @@ void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size) {
                     .worldFromClip = glm::mat4(glm::inverse(clip)),
                     .position = position,
                     .forward = pose.forward,
+                    .up = top,
                     .verticalFov = pose.verticalFov,
                     .near = pose.near};
     ++scene.cameraVersion;
+}
+
+CameraPose poseOf(const RenderScene& scene) {
+    const RenderCamera& c = scene.camera;
+    return {.position = glm::dvec3(c.position) + scene.originWorld,
+            .forward = c.forward,
+            .up = c.up,
+            .verticalFov = c.verticalFov,
+            .near = c.near};
 }
 
 }  // namespace ag

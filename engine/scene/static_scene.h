@@ -8,8 +8,9 @@
 namespace ag {
 
 struct CameraPose {
-    glm::dvec3 position{0};  // m
-    glm::vec3 forward{0, 0, -1};
+    glm::dvec3 position{0};       // m
+    glm::vec3 forward{0, 0, -1};  // unit
+    glm::vec3 up{0, 1, 0};     // the picture's top leans this way; need not be at right angles to `forward`
     float verticalFov = 0.8f;  // radians
     float near = 0.05f;        // m
 };
@@ -37,5 +38,6 @@ CameraPose framingCamera(const Bounds& bounds);
 // result.
 RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld = glm::dvec3(0));
 void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size);
+CameraPose poseOf(const RenderScene& scene);  // of its camera, in the world
 
 }  // namespace ag

@@ -76,6 +76,7 @@ void followPlayer(Res<const Player> player, Res<const Physics> physics, Res<Acti
                                 ? player->position
                                 : glm::mix(player->before, player->position, double(physics->share));
     camera->pose.forward = viewDirection(player->yaw, player->pitch);
+    camera->pose.up = glm::vec3(0, 1, 0);  // a level's camera may be tilted, heads are not
     camera->pose.verticalFov = player->verticalFov;
 }
 

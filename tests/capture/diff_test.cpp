@@ -127,7 +127,7 @@ TEST(Folder, LeavesNothingHalfWhenTheDiskIsFull) {
 
         setrlimit(RLIMIT_FSIZE, &before);
         ASSERT_FALSE(written);
-        EXPECT_EQ(written.error().message, path + "/trace.json: the file cannot be written");
+        EXPECT_EQ(written.error().message, "cannot write " + path + "/trace.json: File too large");
     }
     size_t files = 0;
     for (const auto& entry : fs::directory_iterator(path)) {

@@ -5,8 +5,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
     const std::string text(reinterpret_cast<const char*>(bytes), size);
-    constexpr uint64_t kLevel = 7;
-    (void)ag::game::parseSave(text, "save", kLevel);
-    (void)ag::game::parseSave(ag::game::saveHead(kLevel) + text, "save", kLevel);
+    const ag::game::SaveLimits limits{.level = 7, .nodes = 100, .mostRoom = 3};
+    (void)ag::game::parseSave(text, "save", limits);
+    (void)ag::game::parseSave(ag::game::saveHead(limits.level) + text, "save", limits);
     return 0;
 }

@@ -112,8 +112,12 @@ TEST(Save, ABrokenOneIsRefusedAndKept) {
     const std::string cut = good.substr(0, good.size() / 2);
     std::string damaged = good;
     damaged.replace(damaged.find("body"), 8, "body nan");
+    const std::string head = good.substr(0, good.find("player"));
     for (const std::string& text :
-         {std::string(), std::string("hello"), cut, damaged, good.substr(0, good.size() - 4)}) {
+         {std::string(), std::string("hello"), cut, damaged, good.substr(0, good.size() - 4), good + "more\n",
+          head + "player 1e30 0 0 0 0\nend\n", head + "player 0 0 0 nan 0\nend\n", head + "room -1 0\nend\n",
+          head + "room 1000 0\nend\n", head + "room 0 inf\nend\n", head + "flower 4000000000 1\nend\n",
+          head + "body 1 0 1e9 0 1 0 0 0\nend\n"}) {
         const uint64_t before = game.stateHash();
         const Status restored = restoreGame(game, text, path);
         ASSERT_FALSE(restored);

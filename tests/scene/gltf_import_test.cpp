@@ -1,6 +1,7 @@
 // What the importer must refuse, and with which words; what it must accept.
 #include "engine/scene/gltf_import.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -152,6 +153,41 @@ TEST(GltfImport, RefusesAccessorsPastTheirData) {
     EXPECT_TRUE(refusedWith(d, "sparse"));
 }
 
+TEST(GltfImport, RefusesSparseValuesOfElementsThatAreNotThere) {
+    json d = triangle();
+    d["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", 1}, {"componentType", 5123}, {"byteOffset", 4}}},
+        {"values", {{"bufferView", 0}}}};
+    EXPECT_EQ(faultOf(d), "") << "the last vertex takes the first's place";
+    d["accessors"][0]["sparse"]["indices"] = {{"bufferView", 1},
+                                              {"componentType", 5125}};  // two words as one
+    EXPECT_TRUE(refusedWith(d, "accessor 0 has a sparse value for element 65536 of 3"));
+}
+
+// A GLB of the document, of any version.
+std::string glb(const json& document, uint32_t version) {
+    std::string text = document.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string out = "glTF";
+    const auto word = [&](uint32_t w) { out.append(reinterpret_cast<const char*>(&w), 4); };
+    word(version), word(uint32_t(20 + text.size())), word(uint32_t(text.size()));
+    return out + "JSON" + text;
+}
+
+TEST(GltfImport, RefusesGlbsOfOtherVersions) {
+    const std::string good = glb(triangle(), 2);
+    EXPECT_TRUE(importGltf(write("two.glb", good)));
+    for (const uint32_t version : {0u, 1u, 3u}) {
+        const auto asset = importGltf(write("other.glb", glb(triangle(), version)));
+        ASSERT_FALSE(asset) << version;
+        EXPECT_NE(asset.error().message.find(fmt::format("GLB of version {}, not 2", version)),
+                  std::string::npos)
+            << asset.error().message;
+    }
+    EXPECT_FALSE(importGltf(write("cut.glb", good.substr(0, good.size() - 1))));
+}
+
 TEST(GltfImport, RefusesBadNodeTrees) {
     json d = triangle();
     d["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"children", {0}}}};
@@ -179,14 +215,16 @@ TEST(GltfImport, RefusesFilesOutsideItsFolderAndMissingOnes) {
     write("../outside.bin", std::string(42, 'x'));
     json d = triangle();
     d["buffers"][0]["uri"] = "../outside.bin";
-    EXPECT_NE(faultOf(d), "");
+    EXPECT_TRUE(refusedWith(d, "outside.bin: it lies outside the scene's folder"));
     d["buffers"][0]["uri"] = "missing.bin";
-    EXPECT_NE(faultOf(d), "");
+    EXPECT_TRUE(refusedWith(d, "missing.bin: the file does not exist"));
     d = triangle();
     d["images"] = {{{"uri", "missing.png"}}};
     d["textures"] = {{{"source", 0}}};
     d["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
-    EXPECT_TRUE(refusedWith(d, "image 0"));
+    EXPECT_TRUE(refusedWith(d, "missing.png: the file does not exist"));
+    d["images"] = {{{"uri", "../outside.bin"}}};
+    EXPECT_TRUE(refusedWith(d, "outside.bin: it lies outside the scene's folder"));
     d["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
     EXPECT_NE(faultOf(d), "");
 }

@@ -73,13 +73,7 @@ SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::strin
       options_(options),
       progress_(progress),
       rays_(scene) {
-    const RenderCamera& c = scene.camera;
-    setCamera(flickerScene_,
-              {.position = glm::dvec3(c.position) + scene.originWorld,
-               .forward = c.forward,
-               .verticalFov = c.verticalFov,
-               .near = c.near},
-              options.flickerSize);
+    setCamera(flickerScene_, poseOf(scene), options.flickerSize);
 }
 
 reference::ReferenceSettings SceneBench::referenceSettings(std::string_view term) const {

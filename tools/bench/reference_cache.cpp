@@ -7,6 +7,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/log.h"
+#include "engine/core/number.h"
 
 namespace ag::bench {
 namespace {
@@ -106,7 +107,7 @@ std::string defaultCacheFolder() {
 
 double noiseOf(const Image& reference) {
     const auto found = reference.attributes.find("noise");
-    return found == reference.attributes.end() ? 0 : std::strtod(found->second.c_str(), nullptr);
+    return found == reference.attributes.end() ? 0 : parseNumber(found->second).value_or(0);
 }
 
 }  // namespace ag::bench

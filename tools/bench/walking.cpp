@@ -38,13 +38,11 @@ void placeOnWalk(RenderScene& scene, const RenderScene& start, glm::uvec2 size, 
     const RenderCamera& from = start.camera;
     const float diagonal = glm::length(start.bounds.max - start.bounds.min);
     const glm::quat turn = glm::angleAxis(glm::radians(8.0f * share), glm::vec3(0, 1, 0));
-    const glm::vec3 position = from.position + from.forward * (diagonal * share / 200);
-    setCamera(scene,
-              {.position = glm::dvec3(position) + start.originWorld,
-               .forward = turn * from.forward,
-               .verticalFov = from.verticalFov,
-               .near = from.near},
-              size);
+    CameraPose pose = poseOf(start);
+    pose.position += glm::dvec3(from.forward * (diagonal * share / 200));
+    pose.forward = turn * from.forward;
+    pose.up = turn * from.up;
+    setCamera(scene, pose, size);
 }
 
 Walking compareWalk(const std::vector<Image>& walking, const std::vector<Image>& standing) {

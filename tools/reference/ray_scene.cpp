@@ -1,12 +1,14 @@
 #include "tools/reference/ray_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "common/brdf.h"
 #include "common/tonemap.h"
-#include "engine/core/check.h"
+#include "engine/core/program.h"
 
 namespace ag::reference {
 namespace {
@@ -45,11 +47,16 @@ glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t laye
                        at, srgb);
 }
 
+void onEmbreeError(void*, RTCError, const char* what) {
+    endProgram(fmt::format("Embree failed: {}", what));
+}
+
 }  // namespace
 
 RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformFigures(scene)) {
     device_ = rtcNewDevice(nullptr);
-    AG_CHECK(device_ != nullptr);
+    if (!device_) endProgram("Embree cannot begin: out of memory");
+    rtcSetDeviceErrorFunction(device_, onEmbreeError, nullptr);
     rtc_ = rtcNewScene(device_);
     rtcSetSceneFlags(rtc_, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(rtc_, RTC_BUILD_QUALITY_HIGH);

@@ -124,6 +124,8 @@ int runBench(BenchOptions o) {
     if (!techniques) return refuse(techniques.error().message);
     const bench::Technique budget = bench::budgetTechnique(o.budgets);
     if (!o.budgets.empty()) techniques->push_back(&budget);
+    if (const Status ready = prepareTextFiles({o.json, o.csv, o.plot, o.markdown}); !ready)
+        return refuse(ready.error().message);
     auto device = gpu::Device::create({});
     if (!device) return refuse(device.error().message);
     o.measure.size = *size;
@@ -158,11 +160,11 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
         ->add_option("--budget-ms", o->budgets,
                      "ms of a frame's passes, comma-separated: ours with the quality each allows")
         ->delimiter(',')
-        ->check(CLI::Range(0.1, 100000.0));
+        ->check(numberFrom(0.1, 100000));
     command->add_option("--param", o->param, "number of the built-in scenes that take one");
     command->add_option("--size", o->size, "pixels, WxH")->capture_default_str();
     command->add_option("--frames", o->measure.frames, "to time")
-        ->check(CLI::Range(1u, 10000u))
+        ->check(numberFrom(1, 10000))
         ->capture_default_str();
     command->add_option("--json", o->json, "FILE");
     command->add_option("--csv", o->csv, "FILE");
@@ -171,10 +173,10 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
     command->add_option("--cache", o->cache, "folder that keeps references")->capture_default_str();
     command
         ->add_option("--reference-error", o->measure.referenceError, "relative RMSE to trace references to")
-        ->check(CLI::PositiveNumber)
+        ->check(numberFrom(1e-6, 1000))
         ->capture_default_str();
     command->add_option("--reference-spp", o->measure.referenceSamples, "paths a pixel, at most")
-        ->check(CLI::Range(2u, 10000000u))
+        ->check(numberFrom(2, 1e7))
         ->capture_default_str();
     command->add_option("--flicker-size", o->flickerSize, "pixels of the flicker sequences")
         ->capture_default_str();

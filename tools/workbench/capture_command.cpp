@@ -49,12 +49,11 @@ Status readSettings(const CaptureOptions& o, capture::RecordSettings& settings, 
     settings.warmUp = o.warmUp;
     if (o.repeat.empty()) return Ok{};
     const size_t at = o.repeat.find('=');
-    const int times = at == std::string::npos ? 0 : std::atoi(o.repeat.c_str() + at + 1);
-    if (times < 1 || times > 10000)
-        return Error{fmt::format("--repeat takes PASS=N with N from 1 to 10000, not '{}'", o.repeat)};
+    const auto times = parseNumber(at == std::string::npos ? "" : o.repeat.substr(at + 1), 1, 10000, true);
+    if (!times) return Error{fmt::format("--repeat takes PASS=N with N from 1 to 10000, not '{}'", o.repeat)};
     repeatPass = o.repeat.substr(0, at);
     settings.graph.repeatPass = repeatPass;
-    settings.graph.repeats = uint32_t(times);
+    settings.graph.repeats = uint32_t(*times);
     return Ok{};
 }
 
@@ -176,12 +175,12 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
     command->get_option("scene")->required(false);
     command->add_option("-o,--output", o->output, "DIR to write into; made if need be");
     command->add_option("--frames", o->frames, "frames to measure")
-        ->check(CLI::Range(1u, 10000u))
+        ->check(numberFrom(1, 10000))
         ->capture_default_str();
     command
         ->add_option("--warm-up", o->warmUp,
                      "frames before them in which nothing is skipped, so that every pass gets a time")
-        ->check(CLI::Range(1u, 1000u))
+        ->check(numberFrom(1, 1000))
         ->capture_default_str();
     command->add_option("--preset", o->preset, fmt::format("{}", fmt::join(gi::presetNames(), ", ")))
         ->capture_default_str();
@@ -193,7 +192,7 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
                       "the scene as entities: a schedule moves the camera and extracts each frame");
     command->add_flag("--reference", o->reference, "the frame by path tracing, too, to compare with");
     command->add_option("--reference-spp", o->referenceSpp, "its paths a pixel")
-        ->check(CLI::Range(2u, 1000000u))
+        ->check(numberFrom(2, 1e6))
         ->capture_default_str();
     command
         ->add_option("--diff", o->diff,
@@ -203,7 +202,7 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
     command
         ->add_option("--diff-ratio", o->diffSettings.leastRatio,
                      "how many times slower than the other passes counts")
-        ->check(CLI::Range(1.0, 1000.0))
+        ->check(numberFrom(1, 1000))
         ->capture_default_str();
     command->add_flag(
         "--renderdoc", o->renderDoc,

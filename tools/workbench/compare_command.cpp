@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/flip.h"
+#include "engine/core/number_option.h"
+#include "engine/core/safe_file.h"
 #include "tools/workbench/commands.h"
 
 namespace ag::workbench {
@@ -32,6 +34,8 @@ Image heatmapOf(const Image& truth, const Image& test) {
 }
 
 int runCompare(const CompareOptions& o) {
+    if (const Status writable = checkWritable({o.heatmap}); !writable)
+        return refuse(writable.error().message);
     const auto truth = loadImage(o.truth);
     if (!truth) return refuse(truth.error().message);
     const auto test = loadImage(o.test);
@@ -48,7 +52,7 @@ int runCompare(const CompareOptions& o) {
                                   {"p99", difference->p99},
                                   {"flip", meanFlip(*truth, *test)}};
     if (const auto noise = truth->attributes.find("noise"); noise != truth->attributes.end())
-        out["noise_floor"] = std::strtod(noise->second.c_str(), nullptr);
+        out["noise_floor"] = parseNumber(noise->second).value_or(0);
     std::cout << out.dump(2) << '\n';
     if (!o.heatmap.empty())
         if (const Status saved = saveImage(heatmapOf(*truth, *test), o.heatmap); !saved)
@@ -63,7 +67,8 @@ void addCompareCommand(CLI::App& program, int& exitCode) {
     CLI::App* command = program.add_subcommand("compare", "differences of image B from image A as JSON");
     command->add_option("a", o->truth, "EXR or PFM, taken as the truth")->required();
     command->add_option("b", o->test, "EXR or PFM")->required();
-    command->add_option("--max-rel-rmse", o->most, "exit with 1 above this relative RMSE");
+    command->add_option("--max-rel-rmse", o->most, "exit with 1 above this relative RMSE")
+        ->check(numberFrom(0, 1e30));
     command->add_option("--heatmap", o->heatmap,
                         "FILE.png: red where B is too bright, blue where too dark, full at the mean of A");
     command->callback([o, &exitCode] { exitCode = runCompare(*o); });

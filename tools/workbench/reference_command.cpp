@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/core/image.h"
+#include "engine/core/safe_file.h"
 #include "tools/reference/ray_speed.h"
 #include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
@@ -33,6 +34,7 @@ int runReference(const ReferenceOptions& o) {
         return refuse("--method vpl traces exactly one bounce between Lambert surfaces");
     if (paths.unshadowed && (emitters || paths.bounces != 1 || paths.emission))
         return refuse("--unshadowed traces exactly one bounce by paths, without emission");
+    if (const Status writable = checkWritable(o.output); !writable) return refuse(writable.error().message);
     auto loaded = loadScene(o.scene);
     if (!loaded) return refuse(loaded.error().message);
     const reference::RayScene rays(loaded->scene);
@@ -79,19 +81,19 @@ void addReferenceCommand(CLI::App& program, int& exitCode) {
                      "radiance, irradiance, direct, bounce1 to bounce8, indirect, albedo, normal or depth")
         ->capture_default_str();
     command->add_option("--bounces", r.paths.bounces, "most bounces of a path")
-        ->check(CLI::Range(0u, 1000u))
+        ->check(numberFrom(0, 1000))
         ->capture_default_str();
     command->add_option("--spp", r.samplesPerPixel, "paths a pixel, at most")
-        ->check(CLI::Range(2u, 10000000u))
+        ->check(numberFrom(2, 1e7))
         ->capture_default_str();
     command->add_option("--max-error", r.maxError, "stop when the layer's estimated relative error is less")
-        ->check(CLI::PositiveNumber);
+        ->check(numberFrom(1e-6, 1000));
     command->add_option("--seed", r.seed, "of the random numbers")->capture_default_str();
     command->add_option("--method", r.method, "path, or vpl: light-map texels as point emitters")
         ->transform(CLI::CheckedTransformer(std::map<std::string, reference::Method>{
             {"path", reference::Method::kPaths}, {"vpl", reference::Method::kEmitters}}));
     command->add_option("--vpl-map", r.emitterMap, "texels along a light map's side")
-        ->check(CLI::Range(1u, 1024u))
+        ->check(numberFrom(1, 1024))
         ->capture_default_str();
     command->add_flag("--glossy", r.paths.glossy, "whole glTF materials instead of their Lambert part");
     command->add_flag("--unshadowed", r.paths.unshadowed,

@@ -1,16 +1,18 @@
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
 #include <map>
 
-#include "engine/core/log.h"
+#include "engine/core/safe_file.h"
 #include "engine/core/settings.h"
 #include "gi/frame_budget.h"
 #include "gi/gi_renderer.h"
 #include "tools/workbench/commands.h"
+#include "tools/workbench/layers.h"
+#include "tools/workbench/progress_line.h"
 #include "tools/workbench/scene_options.h"
 
 namespace ag::workbench {
@@ -135,6 +137,122 @@ class Budget {
     double lastMs_ = 0;
 };
 
+// LAYER or LAYER:radiance: an irradiance as the radiance that a Lambert surface sends on, albedo / pi times
+// it.
+struct AskedLayer {
+    gi::Layer layer{};
+    bool asRadiance = false;
+};
+
+Result<AskedLayer> parseLayer(const RenderOptions& options) {
+    const std::string text = layerOf(options);
+    const LayerName name = splitLayerName(text);
+    const auto layer = gi::layerFromName(name.layer);
+    if (!layer)
+        return Error{
+            fmt::format("there is no layer '{}' (there are: {})", name.layer, fmt::join(layerNames(), ", "))};
+    if (name.asRadiance && !gi::layerInfo(*layer).isIrradiance)
+        return Error{fmt::format("layer {} is no irradiance that ':radiance' could be taken of", name.layer)};
+    if (!name.known) return Error{fmt::format("a layer is NAME or NAME:radiance, not '{}'", text)};
+    return AskedLayer{*layer, name.asRadiance};
+}
+
+Status checkOptions(const RenderOptions& o) {
+    if (o.scene.scene.empty()) return Error{"render needs a SCENE"};
+    if (o.output.empty()) return Error{"render needs -o FILE.(exr|pfm|png)"};
+    const std::string extension = std::filesystem::path(o.output).extension();
+    if (extension != ".png" && extension != ".exr" && extension != ".pfm")
+        return Error{fmt::format("{} must end in .exr, .pfm or .png", o.output)};
+    if (extension == ".png" && o.layer.ends_with(":radiance"))
+        return Error{"radiance of a layer is written as .exr or .pfm"};
+    return checkWritable(o.output);
+}
+
+// Why a layer is not there; empty where it is, or where black is the truth.
+std::string whyMissing(const RenderOptions& o, const RenderScene& scene, const gi::GiFrame& frame,
+                       const gi::GiSettings& settings, gi::Layer layer) {
+    if (gi::hasLayer(frame, settings, layer)) return "";
+    const bool lit = std::ranges::any_of(scene.lights, [&](const RenderLight& l) {
+        return l.bounces || layer == gi::Layer::kDirect || layer == gi::Layer::kIrradiance;
+    });
+    const gi::LayerInfo& info = gi::layerInfo(layer);
+    if (!lit && info.isIrradiance) return "";
+    return lit ? fmt::format("preset {} makes no layer {} ({}) of {}", o.preset, info.name, info.meaning,
+                             o.scene.scene)
+               : fmt::format("{} has no light that bounces, so there is no layer {}", o.scene.scene,
+                             info.name);
+}
+
+// What the frames leave: handles to read back.
+struct Shown {
+    ImageHandle image, albedo;
+    std::string missing;  // why there is no image
+};
+
+class Rendering {
+  public:
+    Rendering(const RenderOptions& options, AskedLayer asked, gpu::Device& device, LoadedScene& loaded,
+              RenderSettings& settings)
+        : options_(options), asked_(asked), renderer_(device), loaded_(loaded), settings_(settings) {
+        renderer_.load(loaded.asset->geometry);
+    }
+
+    Status run() {
+        ProgressLine line("render ");
+        Budget budget(options_.budgetMs, settings_.gi);
+        const uint32_t frames = std::max(options_.frames, 1u);
+        for (uint32_t i = 0; i < frames; ++i) {
+            if (options_.budgetMs > 0 && i > 0) budget.follow(renderer_, settings_.gi);
+            renderFrame();
+            if (!shown_.missing.empty()) return Error{shown_.missing};
+            line(double(i + 1) / frames);
+        }
+        if (options_.budgetMs > 0) budget.print();
+        return Ok{};
+    }
+
+    Image image() {
+        Image out = shown_.image ? gi::readImage(renderer_, shown_.image)
+                                 : Image(int(loaded_.size.x), int(loaded_.size.y));
+        if (asked_.asRadiance) toRadiance(out, gi::readImage(renderer_, shown_.albedo));
+        const gi::LayerInfo& info = gi::layerInfo(asked_.layer);
+        out.attributes = layerAttributes(info, asked_.asRadiance);
+        out.attributes["scene"] = options_.scene.scene;
+        out.attributes["preset"] = options_.preset;
+        out.attributes["settings"] = fmt::format("{}", fmt::join(options_.assignments, " "));
+        out.attributes["frames"] = std::to_string(options_.frames);
+        out.attributes["device"] = renderer_.device().info().name;
+        out.attributes["filter"] = "center";
+        return out;
+    }
+
+    gi::GiRenderer& renderer() { return renderer_; }
+
+  private:
+    void renderFrame() {
+        const bool png = std::filesystem::path(options_.output).extension() == ".png";
+        renderer_.render(loaded_.scene, loaded_.size, settings_.gi, settings_.graph,
+                         [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
+                             shown_.missing =
+                                 whyMissing(options_, loaded_.scene, frame, settings_.gi, asked_.layer);
+                             shown_.image = png ? gi::addLayerView(graph, view, frame, asked_.layer,
+                                                                   loaded_.size, settings_.gi.composite)
+                                                : gi::addLayer(graph, view, frame, asked_.layer);
+                             if (asked_.asRadiance)
+                                 shown_.albedo = gi::addLayer(graph, view, frame, gi::Layer::kAlbedo);
+                             for (const ImageHandle image : {shown_.image, shown_.albedo})
+                                 if (image) graph.output(image);
+                         });
+    }
+
+    const RenderOptions& options_;
+    const AskedLayer asked_;
+    gi::GiRenderer renderer_;
+    LoadedScene& loaded_;
+    RenderSettings& settings_;
+    Shown shown_;
+};
+
 int runRender(const RenderOptions& options) {
     RenderSettings settings;
     if (!gi::applyPreset(options.preset, settings.gi))
@@ -146,14 +264,10 @@ int runRender(const RenderOptions& options) {
         std::cout << settings.registry.table();
         return 0;
     }
-    if (options.scene.scene.empty()) return refuse("render needs a SCENE");
-    if (options.output.empty()) return refuse("render needs -o FILE.(exr|pfm|png)");
-    const auto layer = gi::layerFromName(layerOf(options));
-    if (!layer) return refuse(fmt::format("there is no layer '{}'", options.layer));
-    if (!gi::showsGloss(*layer)) settings.gi.valShading.glossy = false;
-    const std::string extension = std::filesystem::path(options.output).extension();
-    if (extension != ".png" && extension != ".exr" && extension != ".pfm")
-        return refuse(fmt::format("{} must end in .exr, .pfm or .png", options.output));
+    if (const Status good = checkOptions(options); !good) return refuse(good.error().message);
+    const auto asked = parseLayer(options);
+    if (!asked) return refuse(asked.error().message);
+    if (!gi::showsGloss(asked->layer)) settings.gi.valShading.glossy = false;
     const auto walk = parseStep(options.walk);
     if (!walk) return refuse(walk.error().message);
     auto loaded = loadScene(options.scene);
@@ -164,36 +278,14 @@ int runRender(const RenderOptions& options) {
         gpu::Device::create({.validation = options.validate, .without = options.without, .fault = *fault});
     if (!device) return refuse(device.error().message);
 
-    gi::GiRenderer renderer(**device);
-    renderer.load(loaded->asset->geometry);
-    const bool png = extension == ".png";
-    ImageHandle shown;
-    const auto start = std::chrono::steady_clock::now();
-    auto lastLine = start;
-    Budget budget(options.budgetMs, settings.gi);
-    for (uint32_t i = 0; i < std::max(options.frames, 1u); ++i) {
-        if (options.budgetMs > 0 && i > 0) budget.follow(renderer, settings.gi);
-        renderer.render(loaded->scene, loaded->size, settings.gi, settings.graph,
-                        [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
-                            shown = png ? gi::addLayerView(graph, view, frame, *layer, loaded->size,
-                                                           settings.gi.composite)
-                                        : gi::addLayer(graph, view, frame, *layer);
-                            if (shown) graph.output(shown);
-                        });
-        const auto now = std::chrono::steady_clock::now();
-        if (now - lastLine > std::chrono::seconds(1)) {
-            spdlog::info("frame {} of {}", i + 1, options.frames);
-            lastLine = now;
-        }
-    }
-    if (options.budgetMs > 0) budget.print();
-    const Image image =
-        shown ? gi::readImage(renderer, shown) : Image(int(loaded->size.x), int(loaded->size.y));
-    if (const Status saved = saveImage(image, options.output); !saved) return refuse(saved.error().message);
+    Rendering rendering(options, *asked, **device, *loaded, settings);
+    if (const Status done = rendering.run(); !done) return refuse(done.error().message);
+    if (const Status saved = saveImage(rendering.image(), options.output); !saved)
+        return refuse(saved.error().message);
     if (options.times && *walk != glm::vec3(0))
-        printTimesOfWalk(renderer, *loaded, settings, *walk);
+        printTimesOfWalk(rendering.renderer(), *loaded, settings, *walk);
     else if (options.times)
-        printTimes(renderer, *loaded, settings);
+        printTimes(rendering.renderer(), *loaded, settings);
     return (*device)->validationMessageCount() == 0 ? 0 : 1;
 }
 
@@ -206,16 +298,17 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->get_option("scene")->required(false);
     command->add_option("-o,--output", options->output, "FILE.(exr|pfm|png)");
     command->add_option("--frames", options->frames, "frames to run first")
-        ->check(CLI::Range(1u, 100000u))
+        ->check(numberFrom(1, 100000))
         ->capture_default_str();
     command->add_option("--layer", options->layer,
                         "which intermediate; radiance (exr, pfm) or final (png) by default");
+    command->footer(layerTable());
     command->add_option("--preset", options->preset, fmt::format("{}", fmt::join(gi::presetNames(), ", ")))
         ->capture_default_str();
     command
         ->add_option("--budget-ms", options->budgetMs,
                      "choose the quality so that a frame's passes take about so long")
-        ->check(CLI::Range(0.1, 100000.0))
+        ->check(numberFrom(0.1, 100000))
         ->excludes("--preset");
     command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
     command->add_flag("--list-settings", options->listSettings,

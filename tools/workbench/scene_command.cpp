@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "engine/core/number_option.h"
+#include "engine/core/safe_file.h"
 #include "engine/scene/gltf_export.h"
 #include "tools/scenegen/scenes.h"
 #include "tools/workbench/commands.h"
@@ -11,9 +13,8 @@ namespace {
 
 int runScene(const std::string& name, uint32_t param, const std::string& output) {
     auto asset = scenegen::buildScene(name, param);
-    if (!asset)
-        return refuse(fmt::format("{} (there are: {})", asset.error().message,
-                                  fmt::join(scenegen::sceneNames(), ", ")));
+    if (!asset) return refuse(asset.error().message);
+    if (const Status writable = checkWritable(output); !writable) return refuse(writable.error().message);
     if (const Status saved = exportGlb(*asset, output); !saved) return refuse(saved.error().message);
     std::cout << fmt::format("{}: {} nodes, {} triangles\n", output, asset->nodes.size(),
                              triangleCount(*asset));

@@ -4,8 +4,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "engine/core/number.h"
+#include "engine/core/safe_file.h"
 
 namespace ag::workbench {
 namespace {
@@ -29,12 +31,11 @@ Result<std::optional<LibraryScene>> findInLibrary(const std::string& name) {
     const std::optional<LibraryScene> none;
     const size_t colon = name.find(':');
     const std::string folder = name.substr(0, colon);
-    const size_t view = colon == std::string::npos ? 0 : std::strtoul(name.c_str() + colon + 1, nullptr, 10);
     const fs::path list = libraryFolder() / "scenes.json";
-    std::ifstream in(list);
-    if (!in) return none;
+    const auto text = readFile(list.string());
+    if (!text) return none;
     try {
-        const json listed = json::parse(in);
+        const json listed = json::parse(*text);
         for (const json& scene : listed.at("scenes")) {
             const fs::path file = scene.at("file").get<std::string>();
             if (file.begin()->string() != folder) continue;
@@ -42,10 +43,15 @@ Result<std::optional<LibraryScene>> findInLibrary(const std::string& name) {
             if (scene.contains("sun_direction") && !scene["sun_direction"].is_null())
                 found.sun = triple(scene["sun_direction"]) + ",10";
             const json views = scene.value("views", json::array());
-            if (!views.empty() && view >= views.size())
-                return Error{fmt::format("scene {} has {} views", folder, views.size())};
-            if (!views.empty())
-                found.view = triple(views[view].at("position")) + "," + triple(views[view].at("target"));
+            const std::string number = colon == std::string::npos ? "0" : name.substr(colon + 1);
+            const auto view = parseNumber(number, 0, std::max(double(views.size()) - 1, 0.0), true);
+            if (!view)
+                return Error{fmt::format("scene {} has {} views, from 0 on, and no view '{}'", folder,
+                                         views.size(), number)};
+            if (!views.empty()) {
+                const json& chosen = views[size_t(*view)];
+                found.view = triple(chosen.at("position")) + "," + triple(chosen.at("target"));
+            }
             return std::optional(found);
         }
     } catch (const json::exception& e) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -17,19 +16,18 @@
 namespace ag::workbench {
 namespace {
 
-// Comma-separated finite numbers, `least` to `most` of them.
-std::optional<std::vector<double>> parseNumbers(const std::string& text, size_t least, size_t most) {
+constexpr double kMostNumber = 1e12;  // m or W/sr: beyond it, products of floats are not finite
+
+// Comma-separated numbers, `least` to `most` of them.
+std::optional<std::vector<double>> parseNumbers(std::string_view text, size_t least, size_t most) {
     std::vector<double> numbers;
-    const char* at = text.data();
-    const char* end = at + text.size();
-    while (at <= end) {
-        double value = 0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-        numbers.push_back(value);
-        if (next == end) break;
-        if (*next != ',') return std::nullopt;
-        at = next + 1;
+    for (size_t end = 0; end != std::string_view::npos;
+         text.remove_prefix(std::min(end, text.size() - 1) + 1)) {
+        end = text.find(',');
+        const auto value = parseNumber(text.substr(0, end), -kMostNumber, kMostNumber);
+        if (!value) return std::nullopt;
+        numbers.push_back(*value);
+        if (end == std::string_view::npos) break;
     }
     if (numbers.size() < least || numbers.size() > most) return std::nullopt;
     return numbers;
@@ -137,7 +135,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
     command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")
         ->allow_extra_args(false);
     command.add_option("--lamps", o.lamps, "hang so many points of light in the scene's free space")
-        ->check(CLI::Range(0u, kMostHungLamps));
+        ->check(numberFrom(0, kMostHungLamps));
     command.add_flag("--no-scene-lights", o.noSceneLights, "drop the file's own lights");
 }
 
@@ -146,18 +144,6 @@ Result<glm::vec3> parseStep(const std::string& text) {
     const auto n = parseNumbers(text, 3, 3);
     if (!n) return Error{fmt::format("--walk takes DX,DY,DZ, not '{}'", text)};
     return glm::vec3(vec3At(*n, 0));
-}
-
-Result<glm::uvec2> parseSize(const std::string& text) {
-    glm::uvec2 size(0);
-    const char* end = text.data() + text.size();
-    const auto [middle, error] = std::from_chars(text.data(), end, size.x);
-    const bool good = error == std::errc() && middle != end && *middle == 'x';
-    const auto [last, error2] = std::from_chars(good ? middle + 1 : end, end, size.y);
-    if (!good || error2 != std::errc() || last != end || size.x == 0 || size.y == 0 || size.x > 8192 ||
-        size.y > 8192)
-        return Error{fmt::format("a size is WxH with 1 to 8192 pixels a side, not '{}'", text)};
-    return size;
 }
 
 // A name from the library of scenes becomes its file, with its view and sun where none are given.

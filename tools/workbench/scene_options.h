@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/number_option.h"
 #include "engine/core/result.h"
 #include "engine/scene/static_scene.h"
 
@@ -38,8 +39,5 @@ Result<LoadedScene> loadScene(const SceneOptions& options);
 
 // "0.1,0,0" in m; nothing for an empty text
 Result<glm::vec3> parseStep(const std::string& text);
-
-// "640x360"
-Result<glm::uvec2> parseSize(const std::string& text);
 
 }  // namespace ag::workbench

@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "engine/core/number_option.h"
 #include "tools/stress/stress.h"
 #include "tools/workbench/commands.h"
 
@@ -53,7 +54,7 @@ void addStressCommand(CLI::App& program, int& exitCode) {
     command->add_flag("--quick", o->quick, "one scene, fewer frames, each case once");
     command->add_option("--only", o->stress.only, "cases whose name holds this text");
     command->add_option("--frames", o->stress.movingFrames, "of random motion")
-        ->check(CLI::Range(1u, 10'000'000u))
+        ->check(numberFrom(1, 1e7))
         ->capture_default_str();
     command->add_flag("--validate", o->validate, "with Vulkan validation; any message exits with 1");
     command->callback([o, &exitCode] { exitCode = runStress(*o); });

@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "engine/core/number_option.h"
 #include "tools/bench/spot_sweep.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/progress_line.h"
@@ -16,6 +17,7 @@ struct SweepArguments {
 };
 
 int runSweep(const SweepArguments& o) {
+    if (const Status ready = prepareTextFiles({o.csv, o.plot}); !ready) return refuse(ready.error().message);
     auto device = gpu::Device::create({});
     if (!device) return refuse(device.error().message);
     std::cout << (*device)->info().name << '\n';
@@ -40,13 +42,13 @@ void addSweepCommand(CLI::App& program, int& exitCode) {
     const auto o = std::make_shared<SweepArguments>();
     CLI::App* command = program.add_subcommand("sweep", "clusters while a spot sweeps from wall to wall");
     command->add_option("--frames", o->sweep.frames, "of the ten seconds")
-        ->check(CLI::Range(2u, 100000u))
+        ->check(numberFrom(2, 100000))
         ->capture_default_str();
     command->add_option("--every", o->sweep.every, "frames between two that are measured")
-        ->check(CLI::Range(1u, 100000u))
+        ->check(numberFrom(1, 100000))
         ->capture_default_str();
     command->add_option("--clusters", o->sweep.clusters, "")
-        ->check(CLI::Range(16u, 1024u))
+        ->check(numberFrom(16, 1024))
         ->capture_default_str();
     command->add_option("--csv", o->csv, "FILE");
     command->add_option("--plot", o->plot, "FILE.svg");

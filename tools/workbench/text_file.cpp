@@ -1,20 +1,21 @@
 #include "tools/workbench/text_file.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
+#include "engine/core/safe_file.h"
 
 namespace ag::workbench {
 
 Status writeTextFile(const std::string& path, const std::string& text) {
     if (path.empty()) return Ok{};
-    std::error_code ignored;
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) return Error{fmt::format("cannot write {}", path)};
+    if (const Status made = makeFolderOf(path); !made) return made;
+    return writeFileSafely(path, text);
+}
+
+Status prepareTextFiles(std::initializer_list<std::string> paths) {
+    for (const std::string& path : paths) {
+        if (path.empty()) continue;
+        if (const Status made = makeFolderOf(path); !made) return made;
+        if (const Status writable = checkWritable(path); !writable) return writable;
+    }
     return Ok{};
 }
 
