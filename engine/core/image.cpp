@@ -14,6 +14,7 @@
 
 #include "engine/core/number.h"
 #include "engine/core/safe_file.h"
+#include "engine/core/text.h"
 
 namespace ag {
 namespace {
@@ -68,7 +69,7 @@ Result<std::string> exrBytes(const Image& image) {
     const char* message = nullptr;
     const size_t size = SaveEXRImageToMemory(&pixels, &header, &memory, &message);
     if (size == 0) {
-        const std::string fault = message ? message : "the encoder failed";
+        const std::string fault = firstLine(message ? message : "", "the encoder failed");
         if (message) FreeEXRErrorMessage(message);
         return Error{fault};
     }
@@ -212,7 +213,7 @@ std::string decodeExr(const std::string& text, ExrFile& exr) {
     const bool lines = !version.multipart && !version.non_image && !version.tiled;
     if (!lines || !(type.empty() || type.starts_with("scanlineimage")))
         return "it is not one part of scan lines";
-    const auto said = [&](const char* otherwise) { return exr.message ? exr.message : otherwise; };
+    const auto said = [&](const char* otherwise) { return firstLine(exr.message ? exr.message : "", otherwise); };
     if (ParseEXRHeaderFromMemory(&exr.header, &version, bytes, text.size(), &exr.message) != TINYEXR_SUCCESS)
         return said("its header is broken");
     if (const char* why = whyRefused(exr.header)) return why;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "engine/core/safe_file.h"
+#include "engine/core/text.h"
 #include "engine/scene/gltf_internal.h"
 #include "engine/scene/split_primitives.h"
 
@@ -94,11 +95,6 @@ bool decodeImage(tinygltf::Image* image, const int index, std::string* error, st
     return true;
 }
 
-std::string firstLine(const std::string& text) {
-    const std::string line = text.substr(0, text.find('\n'));
-    return line.empty() ? "it cannot be parsed" : line;
-}
-
 constexpr size_t kGlbHeader = 12;               // magic, version, length
 constexpr size_t kFirstChunk = kGlbHeader + 8;  // its length and type before it
 constexpr uint32_t kGlbVersion = 2;
@@ -171,7 +167,7 @@ Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limit
                                           reinterpret_cast<const unsigned char*>(bytes->data()), size, base)
             : loader.LoadASCIIFromString(&model, &error, &warning, bytes->data(), size, base);
     if (!folder.fault.empty()) return Error{fmt::format("{}: {}", path, folder.fault)};
-    if (!parsed) return Error{fmt::format("{}: {}", path, firstLine(error))};
+    if (!parsed) return Error{fmt::format("{}: {}", path, firstLine(error, "it cannot be parsed"))};
     return model;
 }
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
+
+#include "engine/core/safe_file.h"
 
 namespace ag {
 namespace {
@@ -55,6 +58,24 @@ TEST(ImageFiles, RefuseWithASentenceAndLeaveNothing) {
     EXPECT_FALSE(loadImage(file("short.pfm")));
     std::ofstream(file("text.exr")) << "not an image";
     EXPECT_FALSE(loadImage(file("text.exr")));
+}
+
+TEST(ImageFiles, DamagedExrsAreRefusedInOneLine) {
+    ASSERT_TRUE(saveImage(ramp(9, 7), file("whole.exr")));
+    const std::string whole = *readFile(file("whole.exr"));
+    std::mt19937 random(5);
+    int refused = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::string damaged = whole;
+        for (int n = 0; n < 1 + i % 7; ++n)
+            damaged[random() % std::min<size_t>(whole.size(), 350)] = char(random());
+        ASSERT_TRUE(writeFileSafely(file("damaged.exr"), damaged));
+        const auto image = loadImage(file("damaged.exr"));
+        if (image) continue;
+        ++refused;
+        EXPECT_EQ(image.error().message.find('\n'), std::string::npos) << image.error().message;
+    }
+    EXPECT_GT(refused, 100);
 }
 
 TEST(ImageMetrics, KnownDifferences) {
