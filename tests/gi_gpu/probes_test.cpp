@@ -27,8 +27,7 @@ std::vector<ProbeReading> reference(const RenderScene& scene, std::span<const Re
         hits.directions[i] = -planes[i].normal;
     }
     reference::LightSums sums(hits.size, 1);
-    uint64_t count = 0;
-    reference::addPaths(rays, hits, {.bounces = 1}, {}, 7, 0, samples, runner, sums, count);
+    reference::addPaths(rays, hits, {.bounces = 1}, {.seed = 7, .count = samples}, runner, sums);
     std::vector<ProbeReading> out(planes.size());
     for (size_t i = 0; i < planes.size(); ++i) {
         out[i].bounced = sums.bounces[1].pixels[i] / float(samples);

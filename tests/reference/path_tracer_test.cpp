@@ -256,7 +256,7 @@ TEST(Reference, LightMapTexelsAgreeWithPaths) {
         LightSums halves[2] = {{t.size, 1}, {t.size, 1}}, paths(t.size, 1);
         for (uint32_t map = 0; map < kMaps; ++map) {
             const auto emitters = traceEmitters(rays, kMap, map + 1, count);
-            addEmitters(rays, hits, emitters, map, uint32_t(emitters.size()), runner, halves[map % 2], count);
+            addEmitters(rays, hits, emitters, map, uint32_t(emitters.size()), runner, halves[map % 2]);
             for (size_t i = 0; i < nearest.size(); ++i)
                 for (const Emitter& e : emitters)
                     if (io::vplTerm(hits.surfaces[i].position, hits.surfaces[i].normal, e.position,
@@ -264,7 +264,7 @@ TEST(Reference, LightMapTexelsAgreeWithPaths) {
                         nearest[i] = std::min(nearest[i],
                                               double(glm::distance(e.position, hits.surfaces[i].position)));
         }
-        addPaths(rays, hits, {}, {}, 5, 0, kPaths, runner, paths, count);
+        addPaths(rays, hits, {}, {.seed = 5, .count = kPaths}, runner, paths);
         double sum = 0, truth = 0, squares = 0, noise = 0;
         int compared = 0;
         for (size_t i = 0; i < nearest.size(); ++i) {

@@ -245,7 +245,7 @@ void SceneBench::measureEmitters(Row& row, Image& image) {
     reference::traceFirstHits(rays_, {}, {}, runner_, hits, count);
     const auto emitters = reference::traceEmitters(rays_, kEmitterMap, 1, count);
     reference::LightSums sums(options_.size, 1);
-    reference::addEmitters(rays_, hits, emitters, 1, uint32_t(emitters.size()), runner_, sums, count);
+    reference::addEmitters(rays_, hits, emitters, 1, uint32_t(emitters.size()), runner_, sums);
     row.gpuMsMedian = row.gpuMsP99 = secondsSince(start) * 1e3;
     row.frames = 1;
     row.settings["emitter_map"] = std::to_string(kEmitterMap);

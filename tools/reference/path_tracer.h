@@ -1,9 +1,12 @@
-// Path tracing with next-event estimation: the estimator behind the reference. Exact bounce counts, pixel
-// centres, Lambert surfaces or the whole glTF material.
+// Path tracing with next-event estimation, joined with lit points found from the lights (lit_points.h): the
+// estimator behind the reference. Exact bounce counts, pixel centres or a filter, Lambert surfaces or the
+// whole glTF material.
 #pragma once
 
 #include "engine/core/image.h"
 #include "engine/jobs/job_graph.h"
+#include "tools/reference/lit_points.h"
+#include "tools/reference/pixel_filter.h"
 #include "tools/reference/ray_scene.h"
 
 namespace ag::reference {
@@ -14,6 +17,8 @@ struct PathSettings {
     bool unshadowed = false;   // bounced light passes through surfaces; one bounce, no emission
     bool emission = false;     // emissive surfaces light others, too
     glm::vec3 environment{0};  // radiance from where rays meet nothing, W/(m² sr)
+    PixelFilter filter = PixelFilter::kCenter;
+    bool litPoints = true;  // bounced light is looked for from the lights, too
 };
 
 // Bounces that are kept apart; further ones only count in `indirect`.
@@ -28,13 +33,15 @@ struct FirstHits {
     Image irradiance, radiance;         // direct, W/m² and W/(m² sr)
 };
 
-// Sums over `samples` of each pixel. Irradiance on the shading normal, before albedo.
+// Sums over `samples` of each pixel. Irradiance on the shading normal, before albedo. At pixel centres direct
+// light is FirstHits' and not in here; with a filter all is here.
 struct LightSums {
     LightSums(glm::uvec2 size, uint32_t bounces);
-    std::vector<Image> bounces;  // [n]: exactly n bounces; [0] holds only emission and environment
+    std::vector<Image> bounces;  // [n]: exactly n bounces; [0] holds also emission and environment
     Image indirect;              // all from the first on
-    Image radiance;              // reflected to the camera, without the punctual lights' direct part
+    Image radiance;              // towards the camera
     uint32_t samples = 0;
+    uint64_t rays = 0;
 };
 
 // Every `step`-th pixel both ways from `offset`: 1 takes them all.
@@ -43,13 +50,19 @@ struct Lattice {
     glm::uvec2 offset{0};
 };
 
+// Which paths: numbers `first` to `first + count` of the stream `seed`, at each pixel of the lattice.
+struct PathRange {
+    uint32_t seed = 1, first = 0, count = 1;
+    Lattice lattice;
+};
+
 void traceFirstHits(const RayScene& scene, const PathSettings& settings, const Lattice& lattice,
                     JobRunner& runner, FirstHits& hits, uint64_t& rays);
 
-// Adds paths number `first` to `first + count` of the stream `seed` to each pixel of the lattice.
+// Adds the paths to each pixel. `lit`: with the points drawn for them; null: paths alone. What the points
+// brought is noted there. Results do not depend on the number of threads.
 void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& settings,
-              const Lattice& lattice, uint32_t seed, uint32_t first, uint32_t count, JobRunner& runner,
-              LightSums& sums, uint64_t& rays);
+              const PathRange& range, JobRunner& runner, LightSums& sums, LitPoints* lit = nullptr);
 
 // A point that leaves a surface without meeting it again.
 glm::vec3 leaveSurface(const RayScene& scene, const Surface& surface);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "common/brdf.h"
@@ -141,18 +142,24 @@ bool RayScene::intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface
     rtcIntersect1(rtc_, &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
-    surface.distance = ray.ray.tfar;
-    surface.position = origin + direction * ray.ray.tfar;
-    surface.geometricNormal = glm::normalize(glm::vec3(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z));
-    const bool behind = glm::dot(surface.geometricNormal, direction) > 0;
-    if (behind) surface.geometricNormal = -surface.geometricNormal;
-    surface.part = ray.hit.geomID;
-    surface.hidden = behind != parts_[surface.part]->mirrored && !parts_[surface.part]->doubleSided;
+    takeHit(origin, direction, ray.ray.tfar, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, ray.hit.geomID,
+            surface);
     surface.triangle = ray.hit.primID;
     surface.u = ray.hit.u;
     surface.v = ray.hit.v;
-    surface.resolved = false;
     return true;
+}
+
+void RayScene::takeHit(glm::vec3 origin, glm::vec3 direction, float distance, glm::vec3 normal, uint32_t part,
+                       Surface& s) const {
+    s.distance = distance;
+    s.position = origin + direction * distance;
+    s.geometricNormal = glm::normalize(normal);
+    const bool behind = glm::dot(s.geometricNormal, direction) > 0;
+    if (behind) s.geometricNormal = -s.geometricNormal;
+    s.part = part;
+    s.hidden = behind != parts_[part]->mirrored && !parts_[part]->doubleSided;
+    s.resolved = false;
 }
 
 void RayScene::resolve(Surface& s) const {
@@ -229,6 +236,71 @@ bool RayScene::visible(glm::vec3 origin, glm::vec3 direction, float distance) co
     rtcInitIntersectContext(&context);
     rtcOccluded1(rtc_, &context, &ray);
     return ray.tfar > 0;
+}
+
+namespace {
+
+bool isSingle(uint32_t lanes) {
+    return (lanes & (lanes - 1)) == 0;
+}
+
+void setRays(const RayLanes& from, int* valid, RTCRay8& to) {
+    for (uint32_t i = 0; i < RayLanes::kCount; ++i) {
+        valid[i] = from.active >> i & 1 ? -1 : 0;
+        to.org_x[i] = from.origin[i].x, to.org_y[i] = from.origin[i].y, to.org_z[i] = from.origin[i].z;
+        to.dir_x[i] = from.direction[i].x, to.dir_y[i] = from.direction[i].y,
+        to.dir_z[i] = from.direction[i].z;
+        to.tnear[i] = 0, to.tfar[i] = from.reach[i];
+        to.time[i] = 0, to.mask[i] = ~0u, to.id[i] = 0, to.flags[i] = 0;
+    }
+}
+
+}  // namespace
+
+uint32_t RayScene::intersect(const RayLanes& rays, Surface* surfaces) const {
+    if (rays.active == 0) return 0;
+    if (isSingle(rays.active)) {
+        const auto i = uint32_t(std::countr_zero(rays.active));
+        return intersect(rays.origin[i], rays.direction[i], surfaces[i]) ? rays.active : 0;
+    }
+    RTCRayHit8 r;
+    alignas(32) int valid[RayLanes::kCount];
+    setRays(rays, valid, r.ray);
+    for (uint32_t i = 0; i < RayLanes::kCount; ++i)
+        r.hit.geomID[i] = r.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect8(valid, rtc_, &context, &r);
+    uint32_t met = 0;
+    for (uint32_t i = 0; i < RayLanes::kCount; ++i) {
+        if (!valid[i] || r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+        met |= 1u << i;
+        Surface& s = surfaces[i];
+        takeHit(rays.origin[i], rays.direction[i], r.ray.tfar[i],
+                {r.hit.Ng_x[i], r.hit.Ng_y[i], r.hit.Ng_z[i]}, r.hit.geomID[i], s);
+        s.triangle = r.hit.primID[i];
+        s.u = r.hit.u[i];
+        s.v = r.hit.v[i];
+    }
+    return met;
+}
+
+uint32_t RayScene::visible(const RayLanes& rays) const {
+    if (rays.active == 0) return 0;
+    if (isSingle(rays.active)) {
+        const auto i = uint32_t(std::countr_zero(rays.active));
+        return visible(rays.origin[i], rays.direction[i], rays.reach[i]) ? rays.active : 0;
+    }
+    RTCRay8 r;
+    alignas(32) int valid[RayLanes::kCount];
+    setRays(rays, valid, r);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded8(valid, rtc_, &context, &r);
+    uint32_t free = 0;
+    for (uint32_t i = 0; i < RayLanes::kCount; ++i)
+        if (valid[i] && r.tfar[i] > 0) free |= 1u << i;
+    return free;
 }
 
 }  // namespace ag::reference

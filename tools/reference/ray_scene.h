@@ -34,6 +34,20 @@ struct PreparedLight {
     float cosInner = 0, cosOuter = 0;
 };
 
+// Rays traced together: as many as a CPU's vectors are wide. Those of one place, or towards one, are traced
+// faster so.
+struct RayLanes {
+    static constexpr uint32_t kCount = 8;
+    glm::vec3 origin[kCount], direction[kCount];  // directions are unit
+    float reach[kCount];                          // m
+    uint32_t active = 0;                          // a bit a lane
+
+    void set(uint32_t lane, glm::vec3 from, glm::vec3 along, float distance) {
+        origin[lane] = from, direction[lane] = along, reach[lane] = distance;
+        active |= 1u << lane;
+    }
+};
+
 class RayScene {
   public:
     // The scene and its geometry must outlive this. Alpha-masked holes let rays through; blended surfaces are
@@ -49,6 +63,9 @@ class RayScene {
     void resolve(Surface& surface) const;
     // Whether nothing stands between origin and origin + direction x distance.
     bool visible(glm::vec3 origin, glm::vec3 direction, float distance) const;
+    // The same for many at once; bits of the lanes that met a surface, or nothing.
+    uint32_t intersect(const RayLanes& rays, Surface* surfaces) const;
+    uint32_t visible(const RayLanes& rays) const;
 
     const RenderScene& scene() const { return scene_; }
     const std::vector<PreparedLight>& lights() const { return lights_; }
@@ -64,6 +81,8 @@ class RayScene {
         glm::mat3 worldFromLocal, normalFromLocal;
         bool mirrored, doubleSided;
     };
+    void takeHit(glm::vec3 origin, glm::vec3 direction, float distance, glm::vec3 normal, uint32_t part,
+                 Surface& s) const;
     glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
     glm::vec3 shadingNormal(const Part& part, uint32_t triangle, float u, float v,
                             glm::vec3 geometricNormal) const;

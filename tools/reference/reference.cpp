@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "common/sampling.h"
 #include "tools/reference/vpl_tracer.h"
@@ -38,21 +40,23 @@ Reference assemble(const FirstHits& hits, const LightSums& sums, const PathSetti
                    glm::vec3 forward) {
     Reference r;
     const double n = sums.samples;
+    const bool centers = settings.filter == PixelFilter::kCenter;  // else the sums have direct light in them
     for (const Image& bounce : sums.bounces)
         r.bounces.push_back(scaled(bounce, n));
-    r.bounces[0] = plus(r.bounces[0], hits.irradiance);
+    if (centers) r.bounces[0] = plus(r.bounces[0], hits.irradiance);
     r.indirect = scaled(sums.indirect, n);
     r.irradiance = plus(r.bounces[0], r.indirect);
-    r.radiance = plus(scaled(sums.radiance, n), hits.radiance);
+    r.radiance = scaled(sums.radiance, n);
+    if (centers) r.radiance = plus(r.radiance, hits.radiance);
     for (Image* image : {&r.albedo, &r.normal, &r.depth})
         *image = Image(int(hits.size.x), int(hits.size.y));
     for (size_t i = 0; i < hits.surfaces.size(); ++i) {
         const Surface& s = hits.surfaces[i];
         if (s.distance <= 0) {
-            r.radiance.pixels[i] += settings.environment;
+            if (centers) r.radiance.pixels[i] += settings.environment;
             continue;
         }
-        r.radiance.pixels[i] += s.emissive;
+        if (centers) r.radiance.pixels[i] += s.emissive;
         r.albedo.pixels[i] = s.albedo;
         r.normal.pixels[i] = s.normal;
         r.depth.pixels[i] = glm::vec3(s.distance * glm::dot(hits.directions[i], forward));
@@ -119,44 +123,98 @@ double noiseOf(const Image& a, const Image& b) {
     return mean > 0 ? std::sqrt(squares / count) / (mean / count) : 0;
 }
 
+namespace {
+
+// One of two independent estimates of the picture.
+class Half {
+  public:
+    Half(const RayScene& scene, const FirstHits& hits, const ReferenceSettings& settings, uint32_t half)
+        : scene_(scene),
+          hits_(hits),
+          settings_(settings),
+          seed_(settings.seed * 2 + half),
+          sums_(hits.size, settings.paths.bounces) {}
+
+    // Adds `count` samples a pixel, or more if the method takes more; how many it added.
+    uint32_t add(uint32_t count, LitPoints* lit, JobRunner& runner) {
+        const uint32_t done = sums_.samples;
+        if (settings_.method == Method::kPaths) {
+            const auto pixels = uint32_t(hits_.surfaces.size());
+            if (lit)
+                lit->draw(std::clamp(pixels, kLeastPoints, kMostPoints), io::hashUint(seed_) + done,
+                          sums_.rays);
+            addPaths(scene_, hits_, settings_.paths, {.seed = seed_, .first = done, .count = count}, runner,
+                     sums_, lit);
+            return count;
+        }
+        const uint32_t mapSeed = io::hashUint(seed_) + done;
+        const auto emitters = traceEmitters(scene_, settings_.emitterMap, mapSeed, sums_.rays);
+        count = std::min(count, std::max(uint32_t(emitters.size()), 1u));
+        addEmitters(scene_, hits_, emitters, mapSeed, count, runner, sums_);
+        return count;
+    }
+    const LightSums& sums() const { return sums_; }
+
+  private:
+    static constexpr uint32_t kLeastPoints = 2048, kMostPoints = 8192;  // drawn for each round of samples
+    const RayScene& scene_;
+    const FirstHits& hits_;
+    const ReferenceSettings& settings_;
+    uint32_t seed_;
+    LightSums sums_;
+};
+
+constexpr uint32_t kSamplesToLearnFrom = 64;  // a pixel of each half
+
+// Samples a pixel of each half; one is enough where there is nothing to draw.
+uint32_t samplesOfHalf(const ReferenceSettings& s) {
+    const PathSettings& p = s.paths;
+    const bool draws =
+        p.bounces > 0 || p.emission || p.environment != glm::vec3(0) || p.filter != PixelFilter::kCenter;
+    return draws ? std::max(s.samplesPerPixel / 2, 1u) : 0;
+}
+
+bool usesLitPoints(const ReferenceSettings& s) {
+    return s.method == Method::kPaths && s.paths.litPoints && s.paths.bounces > 0 && !s.paths.unshadowed;
+}
+
+}  // namespace
+
 Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
                         JobRunner& runner, FunctionRef<void(double)> progress) {
     const PathSettings& paths = settings.paths;
     uint64_t rays = 0;
     FirstHits hits(size);
     traceFirstHits(scene, paths, {}, runner, hits, rays);
-    LightSums halves[2] = {{size, paths.bounces}, {size, paths.bounces}};
+    std::optional<LitPoints> points;
+    if (usesLitPoints(settings)) points.emplace(scene);
+    LitPoints* lit = points ? &*points : nullptr;
+    Half halves[2] = {{scene, hits, settings, 0}, {scene, hits, settings, 1}};
     const glm::vec3 forward = scene.scene().camera.forward;
     const auto result = [&] {
-        return meanOf(assemble(hits, halves[0], paths, forward), assemble(hits, halves[1], paths, forward),
-                      settings.layer);
+        return meanOf(assemble(hits, halves[0].sums(), paths, forward),
+                      assemble(hits, halves[1].sums(), paths, forward), settings.layer);
     };
-    const bool sources = paths.emission || paths.environment != glm::vec3(0);
-    const uint32_t target = paths.bounces == 0 && !sources ? 0 : std::max(settings.samplesPerPixel / 2, 1u);
-    uint32_t done = 0, nextCheck = 8;
+    const uint32_t target = samplesOfHalf(settings);
+    uint32_t done = 0, nextCheck = 8, nextLesson = RayLanes::kCount;
     while (done < target) {
-        uint32_t count = std::min(4u, target - done);
-        for (uint32_t half = 0; half < 2; ++half) {
-            const uint32_t seed = settings.seed * 2 + half;
-            if (settings.method == Method::kPaths) {
-                addPaths(scene, hits, paths, {}, seed, done, count, runner, halves[half], rays);
-                continue;
-            }
-            const uint32_t mapSeed = io::hashUint(seed) + done;
-            const auto emitters = traceEmitters(scene, settings.emitterMap, mapSeed, rays);
-            count = std::min(target - done, std::max(uint32_t(emitters.size()), 1u));
-            addEmitters(scene, hits, emitters, mapSeed, count, runner, halves[half], rays);
-        }
-        done += count;
+        const uint32_t count = std::min(RayLanes::kCount, target - done);
+        halves[1].add(halves[0].add(count, lit, runner), lit, runner);
+        done = halves[0].sums().samples;
         progress(double(done) / target);
+        if (lit && done >= nextLesson) {
+            lit->learn();
+            nextLesson = 2 * done;
+            if (done >= kSamplesToLearnFrom) lit->stopLearning();
+        }
         if (settings.maxError > 0 && done >= nextCheck) {
             if (result().noise < settings.maxError) break;
             nextCheck = done + std::max(done / 2, 1u);
         }
     }
     Reference out = result();
-    out.samples = halves[0].samples + halves[1].samples;
-    out.rays = rays;
+    out.samples = halves[0].sums().samples + halves[1].sums().samples;
+    out.rays = rays + halves[0].sums().rays + halves[1].sums().rays;
     return out;
 }
 
@@ -175,7 +233,7 @@ Reference traceForSeconds(const RayScene& scene, glm::uvec2 size, const PathSett
         if (offset.x >= size.x || offset.y >= size.y) continue;
         const Lattice lattice{kStep, offset};
         if (pass < kCells) traceFirstHits(scene, settings, lattice, runner, hits, rays);
-        addPaths(scene, hits, settings, lattice, 1, samples[cell]++, 1, runner, sums, rays);
+        addPaths(scene, hits, settings, {1, samples[cell]++, 1, lattice}, runner, sums);
     }
     // Each pixel takes the value of the nearest cell of its block that was reached.
     Reference out;
@@ -202,7 +260,7 @@ Reference traceForSeconds(const RayScene& scene, glm::uvec2 size, const PathSett
         }
     out = assemble(hits, sums, settings, scene.scene().camera.forward);
     out.samples = samples[0];
-    out.rays = rays;
+    out.rays = rays + sums.rays;
     return out;
 }
 

@@ -7,52 +7,11 @@
 
 #include "common/form_factors.h"
 #include "common/lights.h"
-#include "common/rsm_math.h"
 #include "common/sampling.h"
+#include "tools/reference/light_beams.h"
 
 namespace ag::reference {
 namespace {
-
-struct Beam {  // through one texel of a light map
-    glm::vec3 origin{0}, direction{0};
-    glm::vec3 power{0};  // W that travel along it, before any range window
-};
-
-// Of a square map that opens by `tanHalf` about `axis`.
-Beam perspectiveBeam(const RenderLight& light, glm::vec3 axis, float tanHalf, glm::vec2 ndc,
-                     uint32_t resolution) {
-    glm::vec3 t, b;
-    io::orthonormalBasis(axis, t, b);
-    const glm::vec3 through = axis + tanHalf * (ndc.x * t + ndc.y * b);
-    const float cosine = 1 / glm::length(through);
-    const glm::vec3 direction = through * cosine;
-    float share = 1;
-    if (light.kind == LightKind::kSpot)
-        share = io::spotFalloff(glm::dot(direction, light.direction), std::cos(light.innerConeAngle),
-                                std::cos(light.outerConeAngle));
-    return {light.position, direction,
-            light.intensity * share * io::perspectiveTexelSolidAngle(tanHalf, float(resolution), cosine)};
-}
-
-// Of a square map over the whole scene.
-Beam sunBeam(const RenderLight& light, const Bounds& bounds, glm::vec2 ndc, uint32_t resolution) {
-    glm::vec3 t, b;
-    io::orthonormalBasis(light.direction, t, b);
-    const glm::vec3 center = 0.5f * (bounds.min + bounds.max);
-    const float half = 0.501f * glm::length(bounds.max - bounds.min);
-    return {center + half * (ndc.x * t + ndc.y * b - 1.01f * light.direction), light.direction,
-            light.intensity * io::orthoTexelArea(2 * half, float(resolution))};
-}
-
-Beam beamOf(const RenderLight& light, uint32_t face, const Bounds& bounds, glm::vec2 ndc,
-            uint32_t resolution) {
-    if (light.kind == LightKind::kDirectional) return sunBeam(light, bounds, ndc, resolution);
-    if (light.kind == LightKind::kSpot)
-        return perspectiveBeam(light, light.direction, std::tan(light.outerConeAngle), ndc, resolution);
-    glm::vec3 axis(0);
-    axis[int(face) / 2] = face % 2 ? 1.0f : -1.0f;
-    return perspectiveBeam(light, axis, 1, ndc, resolution);
-}
 
 float mean(glm::vec3 v) {
     return (v.x + v.y + v.z) / 3;
@@ -78,13 +37,12 @@ std::vector<Emitter> traceEmitters(const RayScene& scene, uint32_t resolution, u
     double total = 0;
     Random random{uint64_t(io::hashUint(seed)) << 32 | seed};
     for (const RenderLight& light : scene.scene().lights) {
-        const uint32_t faces = light.kind == LightKind::kPoint ? 6 : 1;
-        for (uint32_t i = 0; i < faces * resolution * resolution; ++i) {
+        for (uint32_t i = 0; i < faceCount(light) * resolution * resolution; ++i) {
             const glm::vec2 texel(i % resolution, i / resolution % resolution);
             const glm::vec2 jitter(random.next(), random.next());
             const glm::vec2 ndc = (texel + jitter) / float(resolution) * 2.0f - 1.0f;
             const Beam beam =
-                beamOf(light, i / (resolution * resolution), scene.scene().bounds, ndc, resolution);
+                beamAt(light, scene.scene().bounds, i / (resolution * resolution), ndc, resolution);
             Surface surface;
             if (mean(beam.power) <= 0) continue;
             ++rays;
@@ -104,7 +62,7 @@ std::vector<Emitter> traceEmitters(const RayScene& scene, uint32_t resolution, u
 }
 
 void addEmitters(const RayScene& scene, const FirstHits& hits, const std::vector<Emitter>& emitters,
-                 uint32_t seed, uint32_t count, JobRunner& runner, LightSums& sums, uint64_t& rays) {
+                 uint32_t seed, uint32_t count, JobRunner& runner, LightSums& sums) {
     std::atomic<uint64_t> total{0};
     const bool all = count == emitters.size();
     runner.parallelFor(hits.size.y, 1, [&](uint32_t begin, uint32_t end) {
@@ -136,7 +94,7 @@ void addEmitters(const RayScene& scene, const FirstHits& hits, const std::vector
         total += rowRays;
     });
     sums.samples += count;
-    rays += total;
+    sums.rays += total;
 }
 
 }  // namespace ag::reference

@@ -21,6 +21,6 @@ std::vector<Emitter> traceEmitters(const RayScene& scene, uint32_t resolution, u
 // Adds the first bounce from `count` of the emitters, evenly spread over their flux (all of them once each if
 // `count` is their number), as `count` samples.
 void addEmitters(const RayScene& scene, const FirstHits& hits, const std::vector<Emitter>& emitters,
-                 uint32_t seed, uint32_t count, JobRunner& runner, LightSums& sums, uint64_t& rays);
+                 uint32_t seed, uint32_t count, JobRunner& runner, LightSums& sums);
 
 }  // namespace ag::reference

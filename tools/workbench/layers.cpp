@@ -20,15 +20,39 @@ std::vector<std::string_view> layerNames() {
     return names;
 }
 
+namespace {
+
+std::string tableLine(const gi::LayerInfo& info) {
+    return fmt::format("  {:<14} {:<23} {}\n", info.name, info.unit, info.meaning);
+}
+
+constexpr const char* kProducts =
+    "  NAME:radiance  W/(m² sr)               an irradiance times albedo / pi: what Lambert surfaces send on";
+
+}  // namespace
+
 std::string layerTable() {
     std::string out = "Layers:\n";
-    for (uint32_t i = 0; i < uint32_t(gi::Layer::kCount); ++i) {
-        const gi::LayerInfo& info = gi::layerInfo(gi::Layer(i));
-        out += fmt::format("  {:<14} {:<23} {}\n", info.name, info.unit, info.meaning);
-    }
-    return out +
-           "  NAME:radiance  W/(m² sr)               an irradiance times albedo / pi: what Lambert surfaces "
-           "send on";
+    for (uint32_t i = 0; i < uint32_t(gi::Layer::kCount); ++i)
+        out += tableLine(gi::layerInfo(gi::Layer(i)));
+    return out + kProducts;
+}
+
+gi::LayerInfo referenceLayerInfo(std::string_view name) {
+    if (name.starts_with("bounce"))
+        return {name, "W/m²", "irradiance of exactly that many bounces, before albedo", true};
+    const auto layer = gi::layerFromName(name);
+    return layer ? gi::layerInfo(*layer) : gi::LayerInfo{name, "", ""};
+}
+
+std::string referenceLayerTable() {
+    std::string out = "Layers:\n";
+    for (const std::string_view name :
+         {"radiance", "direct", "indirect", "irradiance", "albedo", "normal", "depth"})
+        out += tableLine(referenceLayerInfo(name));
+    gi::LayerInfo bounces = referenceLayerInfo("bounce1");
+    bounces.name = "bounce1 to 8";
+    return out + tableLine(bounces) + kProducts;
 }
 
 std::map<std::string, std::string> layerAttributes(const gi::LayerInfo& info, bool asRadiance) {

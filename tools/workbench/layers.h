@@ -22,6 +22,10 @@ LayerName splitLayerName(const std::string& text);
 std::vector<std::string_view> layerNames();  // of the renderer
 std::string layerTable();                    // one line each: name, unit, meaning
 
+// The reference's layers; bounceN is exactly the N-th bounce there.
+gi::LayerInfo referenceLayerInfo(std::string_view name);
+std::string referenceLayerTable();
+
 // For an image file: layer, unit, meaning.
 std::map<std::string, std::string> layerAttributes(const gi::LayerInfo& info, bool asRadiance);
 

@@ -80,9 +80,8 @@ gi::ProbeReading referenceLight(const LitFlower& lit, bool unshadowed) {
     JobRunner runner(2);
     const reference::FirstHits hits = planesAround(lit.probe.position);
     reference::LightSums sums(hits.size, 1);
-    uint64_t count = 0;
-    reference::addPaths(rays, hits, {.bounces = 1, .unshadowed = unshadowed}, {}, 3, 0, kSamples, runner,
-                        sums, count);
+    reference::addPaths(rays, hits, {.bounces = 1, .unshadowed = unshadowed}, {.seed = 3, .count = kSamples},
+                        runner, sums);
     gi::ProbeReading mean;
     for (const glm::vec3& e : sums.bounces[1].pixels)
         mean.bounced += e / float(kSamples * kDirections);

@@ -1,0 +1,133 @@
+// Lit surface points found from the lights: a second way to sample bounced light beside looking for it from
+// the camera. Where little of what a camera's path meets is lit (a room that the sun enters through a
+// window), the first way finds light that the other hardly ever meets; both are weighted by the balance
+// heuristic (Veach and Guibas 1995), so that each counts where it is the better one. A point is one texel of
+// a light's map, drawn by a chance that is learned from what earlier points brought to the picture.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "tools/reference/light_beams.h"
+
+namespace ag::reference {
+
+struct Random;
+
+// What is asked of every candidate, kept small: the rest is LitPoints::surface and arriving.
+struct LitPoint {
+    glm::vec3 position{0};
+    glm::vec3 normal{0};   // geometric, on the light's side
+    glm::vec3 toLight{0};  // unit
+    float density = 0;     // of points on the surface, 1/m²
+    float brightness = 0;  // about what it sends, W/sr over the density; 0: the ray met nothing that reflects
+    uint32_t texel = 0;    // of all maps
+};
+
+// About how much a surface gets from a point a unit of its brightness, before anything hides it; never 0 in
+// front of it. `spread`: m, over how much space surfaces are taken to be alike.
+inline float roughGeometry(const LitPoint& p, glm::vec3 position, glm::vec3 normal, float spread) {
+    constexpr float kLeastCosine = 0.2f;  // of surfaces turned otherwise nearby
+    const glm::vec3 d = p.position - position;
+    const float square = glm::dot(d, d), scale = 1 / std::sqrt(std::max(square, 1e-20f));
+    const float sent = -glm::dot(p.normal, d) * scale, received = glm::dot(normal, d) * scale;
+    return std::max(sent, 0.0f) * (kLeastCosine + std::max(received, 0.0f)) / (square + spread * spread);
+}
+
+// What a point brought to the picture: for learning.
+struct LitPointWorth {
+    uint32_t texel = 0;
+    float worth = 0;
+};
+
+class LitPoints {
+  public:
+    // Lights that cast no shadow are left out: their rays do not end at the first surface.
+    explicit LitPoints(const RayScene& scene);
+
+    bool empty() const { return total_ <= 0; }
+    // What a place lit by a light would be if it were drawn; density 0: it cannot be. `irradiance` is the
+    // light's there.
+    LitPoint pointOn(uint32_t light, const Surface& at, glm::vec3 irradiance) const;
+    // Draws `count` points, evenly over their chances. `rays` counts theirs.
+    void draw(uint32_t count, uint32_t seed, uint64_t& rays);
+    std::span<const LitPoint> points() const { return points_; }
+    const Surface& surface(uint32_t point) const { return surfaces_[point]; }  // resolved
+    // Irradiance there over the density, W: the mean of all draws is the lights' power.
+    glm::vec3 arriving(uint32_t point) const { return arriving_[point]; }
+
+    // Whether points' worths are still asked for.
+    bool learns() const { return learns_ && !empty(); }
+    void stopLearning() { learns_ = false; }
+    // Notes how often texels were drawn and what that brought, in the order given: the sums do not depend on
+    // threads.
+    void note(std::span<const LitPointWorth> worths);
+    // Chances anew from what was noted.
+    void learn();
+
+    // Usual sums of the picture's tiles, see TilePoints.
+    void setTileCount(uint32_t count) { tiles_.resize(count); }
+    double usualSum(uint32_t tile) const {
+        return tiles_[tile].draws ? tiles_[tile].sum / tiles_[tile].draws : 0;
+    }
+    void addTileSum(uint32_t tile, double sum) { tiles_[tile].sum += sum, tiles_[tile].draws += 1; }
+
+  private:
+    struct Tile {
+        double sum = 0;
+        uint32_t draws = 0;
+    };
+    struct Map {
+        LightMap shape;
+        uint32_t firstTexel = 0;
+        bool used = false;
+    };
+    void setChances(std::span<const double> weights);
+    void addPoint(uint32_t texel, glm::vec2 inTexel, uint64_t& rays);
+    double chanceOf(uint32_t texel) const {
+        return cumulative_[texel] - (texel ? cumulative_[texel - 1] : 0);
+    }
+    double smoothed(const std::vector<double>& values, uint32_t texel) const;
+
+    const RayScene& scene_;
+    std::vector<Map> maps_;  // by light
+    std::vector<uint32_t> lightOfTexel_;
+    std::vector<double> power_;       // W, of each texel's rays: the chances before anything is learned
+    std::vector<double> cumulative_;  // of the chances
+    std::vector<double> worth_;
+    double noted_ = 0;
+    double total_ = 0;  // W
+    bool learns_ = true;
+    std::vector<Tile> tiles_;
+    std::vector<LitPoint> points_;
+    std::vector<Surface> surfaces_;  // of the points
+    std::vector<glm::vec3> arriving_;
+};
+
+// The points that matter to one tile of the picture come oftener among its candidates than others.
+class TilePoints {
+  public:
+    // `surface`: one of the tile's; null: all points alike. `spread`: the tile's size there, m. `usualSum`:
+    // of the rough geometry times brightness over points, the mean of earlier draws, so that weights do not
+    // depend on this draw; 0: none yet.
+    void choose(const LitPoints& lit, const Surface* surface, float spread, double usualSum, uint32_t seed);
+    double sum() const { return sum_; }  // of this draw, a point
+
+    // A candidate of two numbers in [0, 1).
+    uint32_t candidate(float which, float place) const;
+    // How much oftener than by chance the point is drawn.
+    float oftener(uint32_t point) const { return table_.empty() ? 1 : 0.5f + 0.5f * shares_[point]; }
+    // About the same for any lit place, the same function in every draw: for weights.
+    float usuallyOftener(const LitPoint& point) const;
+
+  private:
+    const LitPoints* lit_ = nullptr;
+    glm::vec3 position_{0}, normal_{0};
+    float spread_ = 0;
+    double sum_ = 0, usualSum_ = 0;
+    std::vector<float> shares_;    // by point; mean 1
+    std::vector<uint32_t> table_;  // points as often as their shares ask
+};
+
+}  // namespace ag::reference
