@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, starts the game in a window; without a display it plays the recorded walkthrough
 # headless and leaves ten moments of it, its last picture and a frame report in out/.
+targets=(afterglow-demo)
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 if [[ -n ${DISPLAY:-} ]]; then
   exec "$build/bin/afterglow-demo" "$@"

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised when the tracer's results change.
-constexpr uint64_t kTracerVersion = 2;
+constexpr uint64_t kTracerVersion = 3;
 
 template <class T>
 uint64_t hashArray(const std::vector<T>& items, uint64_t seed) {
@@ -46,7 +46,8 @@ uint64_t hashLight(const RenderLight& l, uint64_t h) {
 uint64_t hashSettings(const reference::ReferenceSettings& s, uint64_t h) {
     h = hashText(s.layer, h);
     for (const uint64_t v : {uint64_t(s.paths.bounces), uint64_t(s.paths.glossy), uint64_t(s.paths.emission),
-                             uint64_t(s.paths.unshadowed), uint64_t(s.method), uint64_t(s.samplesPerPixel),
+                             uint64_t(s.paths.unshadowed), uint64_t(s.paths.filter),
+                             uint64_t(s.paths.litPoints), uint64_t(s.method), uint64_t(s.samplesPerPixel),
                              uint64_t(s.seed), uint64_t(s.emitterMap), kTracerVersion})
         h = combineHash(h, v);
     return hashValue(s.maxError, hashValue(s.paths.environment, h));

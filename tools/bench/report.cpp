@@ -46,36 +46,71 @@ void markPareto(Report& report) {
     }
 }
 
+nlohmann::ordered_json rowToJson(const Row& r) {
+    return {{"scene", r.scene},
+            {"technique", r.technique},
+            {"variant", r.variant},
+            {"settings", r.settings},
+            {"size", {r.size.x, r.size.y}},
+            {"vals", r.vals},
+            {"frames", r.frames},
+            {"gpu_ms_median", r.gpuMsMedian},
+            {"gpu_ms_p99", r.gpuMsP99},
+            {"gbuffer_ms_median", r.gbufferMs},
+            {"indirect_ms_median", r.indirectMs()},
+            {"cpu_ms_median", r.cpuMsMedian},
+            {"passes", r.passes},
+            {"skipped", r.skipped},
+            {"gpu_bytes", r.gpuBytes},
+            {"term", r.term},
+            {"mean_ratio", r.error.meanRatio},
+            {"rmse", r.error.rmse},
+            {"rel_rmse", r.error.relativeRmse},
+            {"rel_mse", r.error.relMse},
+            {"p99", r.error.p99},
+            {"flip", r.flip},
+            {"noise_floor", r.noiseFloor},
+            {"flicker_still", orNull(r.flickerStill)},
+            {"flicker_moving", orNull(r.flickerMoving)},
+            {"flicker_walking", orNull(r.flickerWalking)},
+            {"ghosting", orNull(r.ghosting)},
+            {"equal_time_path_tracing_rel_rmse", r.pathTracingRelRmse},
+            {"pareto", r.pareto}};
+}
+
+Result<Row> rowFromJson(const nlohmann::json& j) {
+    const auto optional = [&](const char* name) {
+        return j.at(name).is_null() ? std::optional<double>() : std::optional(j.at(name).get<double>());
+    };
+    try {
+        Row r;
+        j.at("scene").get_to(r.scene), j.at("technique").get_to(r.technique),
+            j.at("variant").get_to(r.variant);
+        j.at("settings").get_to(r.settings);
+        r.size = {j.at("size").at(0).get<uint32_t>(), j.at("size").at(1).get<uint32_t>()};
+        j.at("vals").get_to(r.vals), j.at("frames").get_to(r.frames);
+        j.at("gpu_ms_median").get_to(r.gpuMsMedian), j.at("gpu_ms_p99").get_to(r.gpuMsP99);
+        j.at("gbuffer_ms_median").get_to(r.gbufferMs), j.at("cpu_ms_median").get_to(r.cpuMsMedian);
+        j.at("passes").get_to(r.passes), j.at("skipped").get_to(r.skipped);
+        j.at("gpu_bytes").get_to(r.gpuBytes), j.at("term").get_to(r.term);
+        j.at("mean_ratio").get_to(r.error.meanRatio), j.at("rmse").get_to(r.error.rmse);
+        j.at("rel_rmse").get_to(r.error.relativeRmse), j.at("rel_mse").get_to(r.error.relMse);
+        j.at("p99").get_to(r.error.p99), j.at("flip").get_to(r.flip),
+            j.at("noise_floor").get_to(r.noiseFloor);
+        r.flickerStill = optional("flicker_still"), r.flickerMoving = optional("flicker_moving");
+        r.flickerWalking = optional("flicker_walking"), r.ghosting = optional("ghosting");
+        j.at("equal_time_path_tracing_rel_rmse").get_to(r.pathTracingRelRmse);
+        j.at("pareto").get_to(r.pareto);
+        return r;
+    } catch (const nlohmann::json::exception& e) {
+        return Error{std::string("a row of the benchmark cannot be read: ") + e.what()};
+    }
+}
+
 std::string toJson(const Report& report) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const Row& r : report.rows)
-        rows.push_back({{"scene", r.scene},
-                        {"technique", r.technique},
-                        {"variant", r.variant},
-                        {"settings", r.settings},
-                        {"size", {r.size.x, r.size.y}},
-                        {"vals", r.vals},
-                        {"frames", r.frames},
-                        {"gpu_ms_median", r.gpuMsMedian},
-                        {"gpu_ms_p99", r.gpuMsP99},
-                        {"indirect_ms_median", r.indirectMs()},
-                        {"cpu_ms_median", r.cpuMsMedian},
-                        {"passes", r.passes},
-                        {"skipped", r.skipped},
-                        {"gpu_bytes", r.gpuBytes},
-                        {"term", r.term},
-                        {"mean_ratio", r.error.meanRatio},
-                        {"rel_rmse", r.error.relativeRmse},
-                        {"rel_mse", r.error.relMse},
-                        {"p99", r.error.p99},
-                        {"flip", r.flip},
-                        {"noise_floor", r.noiseFloor},
-                        {"flicker_still", orNull(r.flickerStill)},
-                        {"flicker_moving", orNull(r.flickerMoving)},
-                        {"flicker_walking", orNull(r.flickerWalking)},
-                        {"ghosting", orNull(r.ghosting)},
-                        {"equal_time_path_tracing_rel_rmse", r.pathTracingRelRmse},
-                        {"pareto", r.pareto}});
+    for (const Row& row : report.rows)
+        rows.push_back(rowToJson(row));
     const nlohmann::ordered_json out = {
         {"device", report.device}, {"driver", report.driver}, {"commit", report.commit}, {"rows", rows}};
     return out.dump(1) + "\n";

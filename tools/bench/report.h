@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,6 +47,8 @@ struct Report {
 // Per scene and term: rows that no other beats in time and error.
 void markPareto(Report& report);
 
+nlohmann::ordered_json rowToJson(const Row& row);
+Result<Row> rowFromJson(const nlohmann::json& json);
 std::string toJson(const Report& report);
 std::string toCsv(const Report& report);
 std::string toMarkdown(const Report& report);

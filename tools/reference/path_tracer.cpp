@@ -491,28 +491,64 @@ class PixelTracer {
         paths_.trace(pixel, worths_);
     }
 
-    void fromFilter(glm::uvec2 at, uint32_t first, uint32_t count, PixelSums& pixel) {
+    // Rays through every `stride`-th place of the pixel; bits of those that see a surface.
+    uint32_t lookThrough(glm::uvec2 at, uint32_t first, uint32_t stride, uint32_t count, glm::vec3* toViewer,
+                         Lit* lit) {
         const RenderCamera& camera = scene_.scene().camera;
         RayLanes rays;
-        glm::vec3 toViewer[RayLanes::kCount];
         for (uint32_t s = 0; s < count; ++s) {
-            const glm::vec2 offset = filterOffset(settings_.filter, evenPair(first + s, shift()).place);
+            const glm::vec2 offset =
+                filterOffset(settings_.filter, evenPair(first + s * stride, shift()).place);
             const glm::vec3 direction = cameraDirection(camera, hits_.size, glm::vec2(at) + 0.5f + offset);
             rays.set(s, camera.position, direction, INFINITY);
             toViewer[s] = -direction;
         }
         const uint32_t seen = seeSurfaces(scene_, rays, seen_, rays_);
-        Lit lit[RayLanes::kCount];
         directLight(scene_, settings_.glossy, seen, seen_, toViewer, lit, rays_, kAllCounts);
-        forEachLane(rays.active & ~seen,
-                    [&](uint32_t) { pixel.radiance += glm::dvec3(settings_.environment); });
+        return seen;
+    }
+
+    // Direct light at `count` places, each counted `share` times.
+    uint32_t addDirect(glm::uvec2 at, uint32_t first, uint32_t stride, uint32_t count, float share,
+                       glm::vec3* toViewer, PixelSums& pixel) {
+        Lit lit[RayLanes::kCount];
+        const uint32_t seen = lookThrough(at, first, stride, count, toViewer, lit);
+        for (uint32_t s = 0; s < count; ++s) {
+            const bool there = seen >> s & 1;
+            pixel.add(0, lit[s].irradiance * share,
+                      (there ? lit[s].radiance + seen_[s].emissive : settings_.environment) * share);
+        }
+        return seen;
+    }
+
+    // Where direct light changes within a pixel, a shadow's edge or a sunlit thing's, more places are looked
+    // at than paths begin: such light can be hundreds of times what bounces.
+    void fromFilter(glm::uvec2 at, uint32_t first, uint32_t count, PixelSums& pixel) {
+        const uint32_t places = isEdge(at) ? kPlacesAtEdges : 1;
+        glm::vec3 toViewer[RayLanes::kCount];
+        uint32_t seen = 0;
+        for (uint32_t p = places; p-- > 0;)  // the paths' own places last
+            seen = addDirect(at, first * places + p, places, count, 1 / float(places), toViewer, pixel);
         forEachLane(seen, [&](uint32_t s) {
-            pixel.add(0, lit[s].irradiance, lit[s].radiance + seen_[s].emissive);
             paths_.begin(s, &seen_[s], toViewer[s], evenPair(first + s, shift()).direction,
                          randomOf(first + s));
         });
         paths_.trace(pixel, worths_);
     }
+
+    // By what the centres of the pixel and its neighbours have: the same for every sample.
+    bool isEdge(glm::uvec2 at) const {
+        float least = INFINITY, most = 0;
+        for (uint32_t y = at.y - (at.y > 0); y <= std::min(at.y + 1, hits_.size.y - 1); ++y)
+            for (uint32_t x = at.x - (at.x > 0); x <= std::min(at.x + 1, hits_.size.x - 1); ++x) {
+                const glm::vec3 r = hits_.radiance.at(int(x), int(y));
+                least = std::min(least, r.x + r.y + r.z), most = std::max(most, r.x + r.y + r.z);
+            }
+        return most - least > kLeastEdge * most;
+    }
+
+    static constexpr uint32_t kPlacesAtEdges = 8;
+    static constexpr float kLeastEdge = 0.2f;
 
     const RayScene& scene_;
     const FirstHits& hits_;

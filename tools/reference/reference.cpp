@@ -125,6 +125,9 @@ double noiseOf(const Image& a, const Image& b) {
 
 namespace {
 
+constexpr uint32_t kLeastPoints = 2048, kMostPoints = 8192;  // drawn for each round of samples
+constexpr uint32_t kSamplesToLearnFrom = 64;                 // a pixel of each half
+
 // One of two independent estimates of the picture.
 class Half {
   public:
@@ -156,15 +159,12 @@ class Half {
     const LightSums& sums() const { return sums_; }
 
   private:
-    static constexpr uint32_t kLeastPoints = 2048, kMostPoints = 8192;  // drawn for each round of samples
     const RayScene& scene_;
     const FirstHits& hits_;
     const ReferenceSettings& settings_;
     uint32_t seed_;
     LightSums sums_;
 };
-
-constexpr uint32_t kSamplesToLearnFrom = 64;  // a pixel of each half
 
 // Samples a pixel of each half; one is enough where there is nothing to draw.
 uint32_t samplesOfHalf(const ReferenceSettings& s) {
@@ -180,6 +180,28 @@ bool usesLitPoints(const ReferenceSettings& s) {
 
 }  // namespace
 
+namespace {
+
+// The first chances of points know nothing of what the picture sees: some paths that count nowhere teach
+// them.
+void teach(const RayScene& scene, const FirstHits& hits, const ReferenceSettings& settings, JobRunner& runner,
+           LitPoints& lit, uint64_t& rays) {
+    constexpr uint32_t kLessons = 3, kPupils = 4096;  // pixels, about
+    const auto step = uint32_t(std::sqrt(double(hits.surfaces.size()) / kPupils));
+    LightSums ignored(hits.size, settings.paths.bounces);
+    for (uint32_t lesson = 0; lesson < kLessons; ++lesson) {
+        const uint32_t seed = io::hashUint(settings.seed ^ io::hashUint(lesson + 1));
+        lit.draw(kMostPoints, seed, rays);
+        addPaths(scene, hits, settings.paths,
+                 {.seed = seed, .count = RayLanes::kCount, .lattice = {std::max(step, 1u), {0, 0}}}, runner,
+                 ignored, &lit);
+        lit.learn();
+    }
+    rays += ignored.rays;
+}
+
+}  // namespace
+
 Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
                         JobRunner& runner, FunctionRef<void(double)> progress) {
     const PathSettings& paths = settings.paths;
@@ -189,6 +211,7 @@ Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceS
     std::optional<LitPoints> points;
     if (usesLitPoints(settings)) points.emplace(scene);
     LitPoints* lit = points ? &*points : nullptr;
+    if (lit) teach(scene, hits, settings, runner, *lit, rays);
     Half halves[2] = {{scene, hits, settings, 0}, {scene, hits, settings, 1}};
     const glm::vec3 forward = scene.scene().camera.forward;
     const auto result = [&] {

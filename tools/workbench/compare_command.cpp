@@ -53,6 +53,9 @@ int runCompare(const CompareOptions& o) {
                                   {"flip", meanFlip(*truth, *test)}};
     if (const auto noise = truth->attributes.find("noise"); noise != truth->attributes.end())
         out["noise_floor"] = parseNumber(noise->second).value_or(0);
+    for (const auto& [name, image] : {std::pair("filter_a", &*truth), {"filter_b", &*test}})
+        if (const auto filter = image->attributes.find("filter"); filter != image->attributes.end())
+            out[name] = filter->second;
     std::cout << out.dump(2) << '\n';
     if (!o.heatmap.empty())
         if (const Status saved = saveImage(heatmapOf(*truth, *test), o.heatmap); !saved)
