@@ -7,11 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/core/safe_file.h"
 #include "engine/core/settings.h"
 #include "engine/scene/static_scene.h"
 #include "gi/gi_settings.h"
 #include "tools/bench/moving_light.h"
 #include "tools/bench/report.h"
+#include "tools/bench/row_cache.h"
 #include "tools/bench/techniques.h"
 #include "tools/bench/walking.h"
 #include "tools/scenegen/scenes.h"
@@ -131,7 +133,8 @@ TEST(Bench, TrendTakesTheTruthsOwnMotionAway) {
     ReferenceCache cache(folder);
     JobRunner runner(2);
     const auto silent = [](double) {};
-    const reference::ReferenceSettings settings{.samplesPerPixel = 64, .layer = "bounce1"};
+    const reference::ReferenceSettings settings{
+        .paths = {.litPoints = false}, .samplesPerPixel = 64, .layer = "bounce1"};
     const auto trend = ReferenceTrend::make(cache, scene, size, settings, runner, silent);
     ASSERT_TRUE(trend);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 5) << "each key is kept";
@@ -157,6 +160,35 @@ TEST(Bench, CacheKnowsWhatAReferenceDependsOn) {
     RenderScene nudged = staticScene(asset);
     nudged.instances[0].worldFromLocal[3].x += 1e-3f;
     EXPECT_NE(before, sceneHash(nudged));
+}
+
+TEST(Bench, RowsAreKeptAsTheyWere) {
+    const std::string folder = (std::filesystem::path(testing::TempDir()) / "rows").string();
+    std::filesystem::remove_all(folder);
+    Row row{.scene = "cornell",
+            .technique = "afterglow",
+            .variant = "128",
+            .size = {64, 36},
+            .vals = 128,
+            .term = "bounce1"};
+    row.settings["val_clustering.count"] = "128";
+    row.passes["rsm.render"] = 1.5;
+    row.gpuMsMedian = 30.25, row.gbufferMs = 2.5, row.error.relativeRmse = 0.047, row.flickerMoving = 0.01;
+    Row paths = row;
+    paths.technique = kPathTracing;
+    const RowCache cache(folder);
+    EXPECT_FALSE(cache.find(7));
+    cache.keep(7, {row, paths});
+    const auto back = cache.find(7);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(toJson({.rows = *back}), toJson({.rows = {row, paths}}));
+    EXPECT_EQ(toCsv({.rows = *back}), toCsv({.rows = {row, paths}}));
+    EXPECT_FALSE((*back)[0].flickerStill);
+    EXPECT_FALSE(cache.find(8));
+    // A damaged row is measured anew.
+    ASSERT_TRUE(writeFileSafely(folder + "/row-0000000000000007.json", "[{\"scene\": 3}]"));
+    EXPECT_FALSE(cache.find(7));
+    EXPECT_EQ(RowCache::programHash(), RowCache::programHash());
 }
 
 }  // namespace

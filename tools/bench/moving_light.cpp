@@ -28,6 +28,9 @@ Result<ReferenceTrend> ReferenceTrend::make(ReferenceCache& cache, RenderScene s
                                             reference::ReferenceSettings settings, JobRunner& runner,
                                             FunctionRef<void(double)> progress) {
     ReferenceTrend trend;
+    // Paths of one seed alone err alike from key to key, which no deviation over time sees; what is learned
+    // of each key's light would make them differ.
+    settings.paths.litPoints = false;
     const RenderScene still = scene;
     for (uint32_t key = 0; key < kKeys; ++key) {
         scene.lights = movedLights(still, double(key) / (kKeys - 1));

@@ -4,8 +4,10 @@
 #include <iostream>
 #include <optional>
 
+#include "engine/core/hash.h"
 #include "engine/core/log.h"
 #include "tools/bench/measure.h"
+#include "tools/bench/row_cache.h"
 #include "tools/scenegen/scenes.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/progress_line.h"
@@ -23,7 +25,7 @@ struct BenchOptions {
     std::string json, csv, plot, markdown;
     std::string cache = bench::defaultCacheFolder();
     uint32_t param = 0;
-    bool noFlicker = false, noPathTracing = false;
+    bool noFlicker = false, noPathTracing = false, again = false;
     bench::MeasureOptions measure;
 };
 
@@ -97,6 +99,27 @@ SceneOptions sceneArguments(const BenchOptions& o, std::string name) {
     return arguments;
 }
 
+// Of everything that a row depends on but its scene and technique.
+uint64_t hashRun(const BenchOptions& o, const bench::Report& report) {
+    uint64_t h = hashText(report.driver, hashText(report.device, bench::RowCache::programHash()));
+    const bench::MeasureOptions& m = o.measure;
+    h = hashValue(m.flickerSize, hashValue(m.size, h));
+    for (const uint32_t v : {m.frames, m.referenceSamples, uint32_t(m.flicker), uint32_t(m.pathTracing)})
+        h = combineHash(h, v);
+    return hashValue(m.referenceError, hashValue(m.secondsPerTiming, h));
+}
+
+uint64_t hashRow(uint64_t run, uint64_t scene, const std::string& name, const bench::Technique& t,
+                 const bench::Variant& v) {
+    uint64_t h = hashText(name, combineHash(run, scene));
+    for (const std::string_view text :
+         {std::string_view(t.name), t.preset, t.term, std::string_view(v.label)})
+        h = hashText(text, h);
+    for (const std::string& assignment : v.settings)
+        h = hashText(assignment, h);
+    return hashValue(v.budgetMs, h);
+}
+
 Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& device,
                   std::span<const bench::Technique* const> techniques, bench::ReferenceCache& cache,
                   JobRunner& runner, bench::Report& report) {
@@ -105,10 +128,19 @@ Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& d
     ProgressLine line(name + ", reference: ");
     const auto progress = [&](double share) { line(share); };
     bench::SceneBench scene(device, loaded->scene, name, cache, runner, o.measure, progress);
+    const bench::RowCache kept(o.again ? "" : o.cache + "/rows");
+    const uint64_t run = hashRun(o, report), sceneHash = bench::sceneHash(loaded->scene);
     for (const bench::Technique* technique : techniques)
         for (const bench::Variant& variant : technique->variants) {
-            auto rows = scene.measure(*technique, variant);
-            if (!rows) return rows.error();
+            const uint64_t key = hashRow(run, sceneHash, name, *technique, variant);
+            Result<std::vector<bench::Row>> rows = std::vector<bench::Row>();
+            if (auto found = kept.find(key)) {
+                *rows = std::move(*found);
+            } else {
+                rows = scene.measure(*technique, variant);
+                if (!rows) return rows.error();
+                kept.keep(key, *rows);
+            }
             printRow(rows->front());
             report.rows.insert(report.rows.end(), rows->begin(), rows->end());
             if (const Status written = writeAll(o, report); !written) return written;
@@ -180,6 +212,8 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
         ->capture_default_str();
     command->add_option("--flicker-size", o->flickerSize, "pixels of the flicker sequences")
         ->capture_default_str();
+    command->add_flag("--again", o->again,
+                      "measure rows anew that were measured by this very program before");
     command->add_flag("--no-flicker", o->noFlicker, "leave the flicker sequences out");
     command->add_flag("--no-path-tracing", o->noPathTracing, "leave path tracing for the same time out");
     command->callback([o, &exitCode] { exitCode = runBench(*o); });
