@@ -213,7 +213,9 @@ std::string decodeExr(const std::string& text, ExrFile& exr) {
     const bool lines = !version.multipart && !version.non_image && !version.tiled;
     if (!lines || !(type.empty() || type.starts_with("scanlineimage")))
         return "it is not one part of scan lines";
-    const auto said = [&](const char* otherwise) { return firstLine(exr.message ? exr.message : "", otherwise); };
+    const auto said = [&](const char* otherwise) {
+        return firstLine(exr.message ? exr.message : "", otherwise);
+    };
     if (ParseEXRHeaderFromMemory(&exr.header, &version, bytes, text.size(), &exr.message) != TINYEXR_SUCCESS)
         return said("its header is broken");
     if (const char* why = whyRefused(exr.header)) return why;

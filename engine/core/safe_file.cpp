@@ -165,7 +165,8 @@ Result<std::string> readFile(const std::string& path, uint64_t mostBytes) {
     if (!file) return refuse("the file cannot be opened: " + reason(errno));
     struct stat status {};
     if (::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode)) return refuse("it is not a file");
-    const std::string tooLarge = fmt::format("the file is larger than the limit, {:.3g} MiB", double(mostBytes) / 1048576.0);
+    const std::string tooLarge =
+        fmt::format("the file is larger than the limit, {:.3g} MiB", double(mostBytes) / 1048576.0);
     if (uint64_t(status.st_size) > mostBytes) return refuse(tooLarge);
     // A file may grow while it is read, and one of the system's may be endless though its size says 0.
     std::string bytes(size_t(status.st_size) + 1, '\0');
