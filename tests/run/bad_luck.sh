@@ -1,27 +1,7 @@
 #!/usr/bin/env bash
 # What the programs do when the world fails them: full disks, no memory, nonsense on the command line, files that never
 # end. A sentence, an exit code, and what was there before is there still.
-set -u
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-
-# expect CODE WORDS COMMAND...: the exit code, one line on stderr, and the words in it.
-expect() {
-  local code=$1 words=$2
-  shift 2
-  timeout 60 "$@" >"$work/out" 2>"$work/err"
-  local got=$?
-  [[ $got == "$code" ]] || fail "$* exited with $got instead of $code: $(head -c 300 "$work/err")"
-  grep -qF -- "$words" "$work/err" || fail "$* did not say '$words' but: $(head -c 300 "$work/err")"
-  [[ $(grep -c . "$work/err") == 1 ]] || fail "$* said more than one sentence: $(head -c 600 "$work/err")"
-}
+source "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 
 # Counts are bounded before anything is made.
 expect 2 "scene lamps takes a number up to 100000, not 4294967295" "$bin/afterglow" render lamps --param 4294967295 -o "$work/a.png"
@@ -36,6 +16,16 @@ expect 2 "'-nan' is not a number" "$bin/afterglow" compare a.exr b.exr --max-rel
 expect 2 "--view takes" "$bin/afterglow" render cornell -o "$work/a.png" --view 1e300,0,0,0,0,0
 expect 2 "a size is WxH" "$bin/afterglow-demo" --headless --size -1x5
 expect 2 "it is not a folder" "$bin/afterglow-demo" --headless --user "$0"
+
+# A view of the scene library is a number that it has.
+mkdir -p "$work/library/box"
+"$bin/afterglow" scene cornell -o "$work/library/box/box.glb" >/dev/null || fail "scene cornell"
+echo '{"scenes": [{"file": "box/box.glb", "views": [{"position": [0, 1, 4], "target": [0, 1, 0]}]}]}' >"$work/library/scenes.json"
+export AFTERGLOW_SCENES=$work/library
+for view in zz -1 1 0.5 ""; do
+  expect 2 "no view '$view'" "$bin/afterglow" render "box:$view" -o "$work/a.png" --size 32x18
+done
+expect 0 "" "$bin/afterglow" render box:0 -o "$work/a.png" --size 32x18 --frames 1
 
 # A layer that a technique does not make is no black picture.
 expect 2 "preset high makes no layer bounce2" "$bin/afterglow" render cornell -o "$work/a.exr" --preset high --layer bounce2 --size 32x18
@@ -67,7 +57,6 @@ done
 
 # A full disk leaves what was there, whole: files of 16 KiB at most are one.
 full() { (trap '' XFSZ; ulimit -f 16; AFTERGLOW_CACHE_DIR=/proc/none MESA_SHADER_CACHE_DISABLE=true "$@"); }
-export -f full
 kept() {  # FILE COMMAND...: FILE is what the command would replace
   local file=$1
   shift
@@ -76,12 +65,10 @@ kept() {  # FILE COMMAND...: FILE is what the command would replace
   [[ $(cat "$file") == old ]] || fail "$* damaged $file"
   [[ $(find "$(dirname "$file")" -name '*.part' | wc -l) == 0 ]] || fail "$* left a temporary file"
 }
-timeout() { shift; "$@"; }  # a function cannot be run by the program of that name
 kept "$work/g.glb" "$bin/afterglow" scene gallery -o "$work/g.glb"
 for kind in exr pfm png; do
   kept "$work/r.$kind" "$bin/afterglow" reference cornell --spp 2 --size 160x90 -o "$work/r.$kind"
 done
-unset -f timeout
 
 # Too little memory, at every size of it: never a crash.
 for mib in 80 150 250 330 420 520 640 800 900 920 940; do
