@@ -126,10 +126,11 @@ Result<Image> loadPfm(const std::string& path) {
     const bool whole = width == std::floor(width) && height == std::floor(height);
     if (magic != "PF" || !whole || !reasonable(width, height) || !(scale < 0))
         return Error{path + " is not a little-endian colour PFM image"};
-    Image image{int(width), int(height)};
-    const size_t size = image.pixels.size() * sizeof(glm::vec3);
+    // Before anything is made: a header may promise what the file does not hold.
+    const size_t size = size_t(width) * size_t(height) * sizeof(glm::vec3);
     if (text.size() < size + 1) return Error{path + " is shorter than its header says"};
     text.remove_prefix(1);  // the one white space that ends the header
+    Image image{int(width), int(height)};
     for (int y = image.height - 1; y >= 0; --y)
         text.copy(reinterpret_cast<char*>(&image.at(0, y)), sizeof(glm::vec3) * size_t(width),
                   sizeof(glm::vec3) * size_t(width) * size_t(image.height - 1 - y));
@@ -154,9 +155,10 @@ struct ExrFile {
     ExrFile& operator=(const ExrFile&) = delete;
 };
 
-// The attribute "type" of a file's header, empty if it has none. The decoder ends the program at one it does
-// not know, so that one has to look first. Attributes are name, type (both ended by a zero), size, bytes.
-std::string_view exrPartType(std::string_view text) {
+// Whether each attribute "type" of a file's header says scan lines; a file may have none. The decoder ends
+// the program at one it does not know, so that one has to look first. Attributes are name, type (both ended
+// by a zero), size, bytes.
+bool hasOnlyScanLines(std::string_view text) {
     size_t at = 8;  // after the magic number and the version
     const auto word = [&] {
         const size_t end = std::min(text.find('\0', std::min(at, text.size())), text.size());
@@ -166,15 +168,16 @@ std::string_view exrPartType(std::string_view text) {
     };
     for (std::string_view name = word(); !name.empty(); name = word()) {
         word();
-        if (at + 4 > text.size()) break;
+        if (at + 4 > text.size()) return true;
         uint32_t size = 0;
         std::memcpy(&size, text.data() + at, 4);
         at += 4;
-        if (size > text.size() - at) break;
-        if (name == "type") return text.substr(at, size);
+        if (size > text.size() - at) return true;
+        const std::string_view value = text.substr(at, size);
+        if (name == "type" && value.substr(0, value.find('\0')) != "scanlineimage") return false;
         at += size;
     }
-    return {};
+    return true;
 }
 
 // Why an image is not even tried: the decoder believes what the header says.
@@ -209,10 +212,8 @@ std::string decodeExr(const std::string& text, ExrFile& exr) {
     EXRVersion version;
     if (ParseEXRVersionFromMemory(&version, bytes, text.size()) != TINYEXR_SUCCESS)
         return "its first bytes are others";
-    const std::string_view type = exrPartType(text);
     const bool lines = !version.multipart && !version.non_image && !version.tiled;
-    if (!lines || !(type.empty() || type.starts_with("scanlineimage")))
-        return "it is not one part of scan lines";
+    if (!lines || !hasOnlyScanLines(text)) return "it is not one part of scan lines";
     const auto said = [&](const char* otherwise) {
         return firstLine(exr.message ? exr.message : "", otherwise);
     };

@@ -5,6 +5,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "engine/core/safe_file.h"
 #include "engine/core/text.h"
@@ -145,6 +147,24 @@ gltf::Fault checkBytes(std::string_view bytes, const ImportLimits& limits) {
     return std::nullopt;
 }
 
+// The library throws where a file's parts name others that are not there.
+bool loadModel(tinygltf::TinyGLTF& loader, const std::string& bytes, const std::string& folder,
+               tinygltf::Model& model, std::string& error) {
+    std::string warning;
+    const auto size = static_cast<unsigned int>(bytes.size());
+    try {
+        if (!isBinary(bytes))
+            return loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder);
+        const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+        return loader.LoadBinaryFromMemory(&model, &error, &warning, data, size, folder);
+    } catch (const std::logic_error&) {
+        error = "its parts do not fit together";
+    } catch (const nlohmann::json::exception&) {
+        error = "its JSON is not that of a glTF";
+    }
+    return false;
+}
+
 Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limits) {
     const auto bytes = readFile(path, limits.fileBytes);
     if (!bytes) return bytes.error();
@@ -158,14 +178,8 @@ Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limit
     loader.SetImageLoader(decodeImage, &images);
     loader.SetFsCallbacks({assumeExists, expandPath, readWhole, writeNothing, &folder});
     tinygltf::Model model;
-    std::string error, warning;
-    const std::string base = folder.root.string();
-    const auto size = static_cast<unsigned int>(bytes->size());
-    const bool parsed =
-        isBinary(*bytes)
-            ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                          reinterpret_cast<const unsigned char*>(bytes->data()), size, base)
-            : loader.LoadASCIIFromString(&model, &error, &warning, bytes->data(), size, base);
+    std::string error;
+    const bool parsed = loadModel(loader, *bytes, folder.root.string(), model, error);
     if (!folder.fault.empty()) return Error{fmt::format("{}: {}", path, folder.fault)};
     if (!parsed) return Error{fmt::format("{}: {}", path, firstLine(error, "it cannot be parsed"))};
     return model;

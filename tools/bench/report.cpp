@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace ag::bench {
@@ -78,6 +79,18 @@ nlohmann::ordered_json rowToJson(const Row& r) {
             {"pareto", r.pareto}};
 }
 
+namespace {
+
+// Numbers of a file may be any: what is no count fails like what is not there.
+template <class T>
+void readCount(const nlohmann::json& json, T& count) {
+    if (!json.is_number_unsigned() || json.get<uint64_t>() > std::numeric_limits<T>::max())
+        throw nlohmann::json::other_error::create(501, json.dump() + " is not a count", &json);
+    count = json.get<T>();
+}
+
+}  // namespace
+
 Result<Row> rowFromJson(const nlohmann::json& j) {
     const auto optional = [&](const char* name) {
         return j.at(name).is_null() ? std::optional<double>() : std::optional(j.at(name).get<double>());
@@ -87,12 +100,13 @@ Result<Row> rowFromJson(const nlohmann::json& j) {
         j.at("scene").get_to(r.scene), j.at("technique").get_to(r.technique),
             j.at("variant").get_to(r.variant);
         j.at("settings").get_to(r.settings);
-        r.size = {j.at("size").at(0).get<uint32_t>(), j.at("size").at(1).get<uint32_t>()};
-        j.at("vals").get_to(r.vals), j.at("frames").get_to(r.frames);
+        readCount(j.at("size").at(0), r.size.x), readCount(j.at("size").at(1), r.size.y);
+        readCount(j.at("vals"), r.vals), readCount(j.at("frames"), r.frames);
         j.at("gpu_ms_median").get_to(r.gpuMsMedian), j.at("gpu_ms_p99").get_to(r.gpuMsP99);
         j.at("gbuffer_ms_median").get_to(r.gbufferMs), j.at("cpu_ms_median").get_to(r.cpuMsMedian);
         j.at("passes").get_to(r.passes), j.at("skipped").get_to(r.skipped);
-        j.at("gpu_bytes").get_to(r.gpuBytes), j.at("term").get_to(r.term);
+        readCount(j.at("gpu_bytes"), r.gpuBytes);
+        j.at("term").get_to(r.term);
         j.at("mean_ratio").get_to(r.error.meanRatio), j.at("rmse").get_to(r.error.rmse);
         j.at("rel_rmse").get_to(r.error.relativeRmse), j.at("rel_mse").get_to(r.error.relMse);
         j.at("p99").get_to(r.error.p99), j.at("flip").get_to(r.flip),
