@@ -269,9 +269,9 @@ TEST(Reference, LightMapTexelsAgreeWithPaths) {
         int compared = 0;
         for (size_t i = 0; i < nearest.size(); ++i) {
             if (hits.surfaces[i].distance <= 0 || nearest[i] < 0.15) continue;
-            const double a = double(halves[0].bounces[1].pixels[i].x) / halves[0].samples,
-                         b = double(halves[1].bounces[1].pixels[i].x) / halves[1].samples,
-                         p = double(paths.bounces[1].pixels[i].x) / paths.samples;
+            const double a = double(halves[0].bounces[1].pixels[i].x) / halves[0].counts[i].paths.samples,
+                         b = double(halves[1].bounces[1].pixels[i].x) / halves[1].counts[i].paths.samples,
+                         p = double(paths.bounces[1].pixels[i].x) / paths.counts[i].paths.samples;
             sum += (a + b) / 2;
             truth += p;
             squares += ((a + b) / 2 - p) * ((a + b) / 2 - p);
@@ -286,6 +286,59 @@ TEST(Reference, LightMapTexelsAgreeWithPaths) {
         EXPECT_NEAR(sum / truth, 1, 0.003) << name;
         EXPECT_LT(std::sqrt(squares / compared) / mean, 0.03) << name;
     }
+}
+
+// Samples placed by the noise bring the same means as samples everywhere.
+TEST(SamplingPlan, KeepsTheMean) {
+    Traced t(*scenegen::buildScene("cornell", 0), {64, 36});
+    const RayScene rays(t.scene);
+    JobRunner runner(2);
+    FirstHits hits(t.size);
+    uint64_t count = 0;
+    traceFirstHits(rays, {}, {}, runner, hits, count);
+    constexpr uint32_t kPaths = 1024, kTrue = 1 << 14, kSeeds = 4;
+    LightSums everywhere(t.size, 1);
+    addPaths(rays, hits, {}, {.seed = 99, .count = kTrue}, runner, everywhere);
+    const double truth = meanOf(everywhere.bounces[1]) / kTrue;
+    double mean = 0;
+    for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
+        ReferenceSettings settings{.samplesPerPixel = kPaths, .seed = seed, .layer = "bounce1"};
+        settings.paths.litPoints = false;
+        const Reference r = t.run(settings);
+        EXPECT_NEAR(r.samples, kPaths, kPaths / 10.0);
+        mean += meanOf(r.bounces[1]) / kSeeds;
+    }
+    EXPECT_NEAR(mean / truth, 1, 0.003);
+}
+
+// Neyman's allocation: samples as the deviation asks, cut at the bounds; places where direct light varies.
+TEST(SamplingPlan, FollowsTheNoise) {
+    constexpr glm::uvec2 kSize{64, 64};
+    const FirstHits hits(kSize);
+    LightSums sums(kSize, 1);
+    for (uint32_t y = 0; y < kSize.y; ++y)
+        for (uint32_t x = 0; x < kSize.x; ++x) {
+            PixelCount& c = sums.counts[y * kSize.x + x];
+            const bool left = x < 32, top = y < 32;
+            for (int packet = 0; packet < 4; ++packet) {
+                const float sign = packet % 2 ? 1 : -1;  // about a mean of 0
+                c.paths.add(8, glm::vec3(sign * (left ? 1.0f : 4.0f)));
+                c.places.add(8, glm::vec3(top ? sign * 20 : 0));
+            }
+        }
+    SamplingPlan plan(hits, {.bounces = 1});
+    plan.adapt(sums);
+    const auto at = [&](uint32_t x, uint32_t y) { return plan.of(y * kSize.x + x); };
+    EXPECT_EQ(at(48, 10).every, 1u) << "direct light and paths vary most";
+    EXPECT_EQ(at(48, 48).every, 1u) << "less, but a packet costs less, too";
+    EXPECT_EQ(at(10, 48).every, 4u) << "a quarter of the deviation at the same cost";
+    EXPECT_EQ(at(10, 48).places, 1u);
+    EXPECT_EQ(at(48, 10).places, 7u) << "root of 20²/4² times the cost of a path, 2.1 places";
+    EXPECT_EQ(at(10, 10).places, 8u);
+    uint32_t due = 0;
+    for (uint32_t round = 0; round < 16; ++round)
+        due += plan.isDue(48 * kSize.x + 10, round, 3);
+    EXPECT_EQ(due, 4u);
 }
 
 TEST(Reference, StopsAtTheErrorAskedFor) {

@@ -251,7 +251,7 @@ void SceneBench::measureEmitters(Row& row, Image& image) {
     row.settings["emitter_map"] = std::to_string(kEmitterMap);
     image = sums.bounces[1];
     for (glm::vec3& p : image.pixels)
-        p /= float(std::max(sums.samples, 1u));
+        p /= float(std::max(emitters.size(), size_t(1)));
 }
 
 Row SceneBench::tracePaths(const Row& row, const Image& truth) {

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised when the tracer's results change.
-constexpr uint64_t kTracerVersion = 3;
+constexpr uint64_t kTracerVersion = 4;
 
 template <class T>
 uint64_t hashArray(const std::vector<T>& items, uint64_t seed) {

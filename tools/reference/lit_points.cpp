@@ -7,7 +7,7 @@
 
 #include "common/lights.h"
 #include "common/sampling.h"
-#include "tools/reference/path_tracer.h"
+#include "tools/reference/random.h"
 
 namespace ag::reference {
 namespace {
@@ -76,11 +76,11 @@ LitPoint LitPoints::pointOn(uint32_t light, const Surface& at, glm::vec3 irradia
     if (!place.inside) return point;
     const uint32_t n = map.shape.resolution;
     const glm::uvec2 t = glm::min(glm::uvec2((place.ndc * 0.5f + 0.5f) * float(n)), glm::uvec2(n - 1));
-    point.texel = map.firstTexel + (place.face * n + t.y) * n + t.x;
+    const uint32_t texel = map.firstTexel + (place.face * n + t.y) * n + t.x;
     const glm::vec3 d = at.position - l.position;
     const bool sun = l.kind == LightKind::kDirectional;
     const float cosine = std::abs(glm::dot(at.geometricNormal, sun ? l.direction : glm::normalize(d)));
-    point.density = float(chanceOf(point.texel)) / place.spread * cosine / (sun ? 1 : glm::dot(d, d));
+    point.density = float(chanceOf(texel)) / place.spread * cosine / (sun ? 1 : glm::dot(d, d));
     if (point.density > 0) point.brightness = brightnessOf(irradiance / point.density, at);
     return point;
 }
@@ -93,9 +93,11 @@ void LitPoints::addPoint(uint32_t texel, glm::vec2 inTexel, uint64_t& rays) {
     const glm::vec2 at(inFace % n, inFace / n);
     const glm::vec2 ndc = (at + inTexel) / float(n) * 2.0f - 1.0f;
     const Beam beam = beamAt(light, scene_.scene().bounds, inMap / (n * n), ndc, n);
-    LitPoint& point = points_.emplace_back(LitPoint{.texel = texel});
-    Surface& s = surfaces_.emplace_back();
-    glm::vec3& arriving = arriving_.emplace_back(0);
+    LitPoint& point = points_.emplace_back();
+    LitPointSource& source = sources_.emplace_back();
+    source.toLight = -beam.direction;
+    source.texel = texel;
+    Surface& s = source.surface;
     if (mean(beam.power) <= 0) return;
     ++rays;
     if (!scene_.intersect(beam.origin, beam.direction, s) || s.hidden) return;
@@ -105,20 +107,17 @@ void LitPoints::addPoint(uint32_t texel, glm::vec2 inTexel, uint64_t& rays) {
     if (!(cosine > 0) || !(shading > 0)) return;
     const bool sun = light.kind == LightKind::kDirectional;
     const auto chance = float(chanceOf(texel));
-    arriving = beam.power / chance * (shading / cosine);
-    if (!sun) arriving *= io::rangeWindow(s.distance, light.range);
+    source.arriving = beam.power / chance * (shading / cosine);
+    if (!sun) source.arriving *= io::rangeWindow(s.distance, light.range);
     point.position = s.position;
     point.normal = s.geometricNormal;
-    point.toLight = -beam.direction;
     point.density = chance / beam.spread * cosine / (sun ? 1 : s.distance * s.distance);
-    point.brightness =
-        mean(arriving * (s.albedo + kGlossOfTarget * s.baseColor)) * std::numbers::inv_pi_v<float>;
+    point.brightness = brightnessOf(source.arriving, s);
 }
 
 void LitPoints::draw(uint32_t count, uint32_t seed, uint64_t& rays) {
     points_.clear();
-    surfaces_.clear();
-    arriving_.clear();
+    sources_.clear();
     if (empty()) return;
     Random random{uint64_t(io::hashUint(seed)) << 32 | seed};
     random.next();
@@ -191,8 +190,8 @@ void TilePoints::choose(const LitPoints& lit, const Surface* surface, float spre
             table_.push_back(i);
 }
 
-uint32_t TilePoints::candidate(float which, float place) const {
-    const bool chosen = !table_.empty() && which < 0.5f;
+uint32_t TilePoints::candidate(bool matters, float place) const {
+    const bool chosen = matters && !table_.empty();
     const size_t size = chosen ? table_.size() : lit_->points().size();
     const auto at = std::min(size_t(place * float(size)), size - 1);
     return chosen ? table_[at] : uint32_t(at);

@@ -13,16 +13,20 @@
 
 namespace ag::reference {
 
-struct Random;
-
-// What is asked of every candidate, kept small: the rest is LitPoints::surface and arriving.
-struct LitPoint {
+// What is asked of every candidate, half a cache line: the rest is LitPoints::source.
+struct alignas(32) LitPoint {
     glm::vec3 position{0};
-    glm::vec3 normal{0};   // geometric, on the light's side
-    glm::vec3 toLight{0};  // unit
     float density = 0;     // of points on the surface, 1/m²
+    glm::vec3 normal{0};   // geometric, on the light's side
     float brightness = 0;  // about what it sends, W/sr over the density; 0: the ray met nothing that reflects
-    uint32_t texel = 0;    // of all maps
+};
+
+// What is asked of those that are taken.
+struct LitPointSource {
+    Surface surface;        // resolved
+    glm::vec3 toLight{0};   // unit
+    glm::vec3 arriving{0};  // irradiance over the density, W: the mean of all draws is the lights' power
+    uint32_t texel = 0;     // of all maps
 };
 
 // About how much a surface gets from a point a unit of its brightness, before anything hides it; never 0 in
@@ -53,9 +57,7 @@ class LitPoints {
     // Draws `count` points, evenly over their chances. `rays` counts theirs.
     void draw(uint32_t count, uint32_t seed, uint64_t& rays);
     std::span<const LitPoint> points() const { return points_; }
-    const Surface& surface(uint32_t point) const { return surfaces_[point]; }  // resolved
-    // Irradiance there over the density, W: the mean of all draws is the lights' power.
-    glm::vec3 arriving(uint32_t point) const { return arriving_[point]; }
+    const LitPointSource& source(uint32_t point) const { return sources_[point]; }
 
     // Whether points' worths are still asked for.
     bool learns() const { return learns_ && !empty(); }
@@ -101,8 +103,7 @@ class LitPoints {
     bool learns_ = true;
     std::vector<Tile> tiles_;
     std::vector<LitPoint> points_;
-    std::vector<Surface> surfaces_;  // of the points
-    std::vector<glm::vec3> arriving_;
+    std::vector<LitPointSource> sources_;  // of the points
 };
 
 // The points that matter to one tile of the picture come oftener among its candidates than others.
@@ -114,12 +115,15 @@ class TilePoints {
     void choose(const LitPoints& lit, const Surface* surface, float spread, double usualSum, uint32_t seed);
     double sum() const { return sum_; }  // of this draw, a point
 
-    // A candidate of two numbers in [0, 1).
-    uint32_t candidate(float which, float place) const;
-    // How much oftener than by chance the point is drawn.
+    // A point by a number in [0, 1): of those that matter here, or of all.
+    uint32_t candidate(bool matters, float place) const;
+    // How much oftener than by chance the point is drawn when every other candidate is one that matters.
     float oftener(uint32_t point) const { return table_.empty() ? 1 : 0.5f + 0.5f * shares_[point]; }
-    // About the same for any lit place, the same function in every draw: for weights.
-    float usuallyOftener(const LitPoint& point) const;
+    // About the same, the same function of the lit place in every draw: for weights.
+    float usuallyOftener(uint32_t point) const {
+        return usualSum_ > 0 ? 0.5f + float(0.5 * sum_ / usualSum_) * shares_[point] : 1;
+    }
+    float usuallyOftener(const LitPoint& place) const;
 
   private:
     const LitPoints* lit_ = nullptr;

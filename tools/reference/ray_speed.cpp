@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/sampling.h"
+#include "tools/reference/random.h"
 
 namespace ag::reference {
 namespace {

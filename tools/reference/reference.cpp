@@ -16,10 +16,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Image scaled(const Image& sums, double samples) {
+// Means over the pixels' paths, or over their places.
+Image meansOf(const Image& sums, const std::vector<PixelCount>& counts, SampleCount PixelCount::*kind) {
     Image out = sums;
-    for (glm::vec3& p : out.pixels)
-        p = glm::vec3(glm::dvec3(p) / std::max(samples, 1.0));
+    for (size_t i = 0; i < out.pixels.size(); ++i)
+        out.pixels[i] /= float(std::max((counts[i].*kind).samples, 1u));
     return out;
 }
 
@@ -39,15 +40,17 @@ Image halfway(const Image& a, const Image& b) {
 Reference assemble(const FirstHits& hits, const LightSums& sums, const PathSettings& settings,
                    glm::vec3 forward) {
     Reference r;
-    const double n = sums.samples;
-    const bool centers = settings.filter == PixelFilter::kCenter;  // else the sums have direct light in them
+    const bool centers = settings.filter == PixelFilter::kCenter;
+    const auto ofPaths = [&](const Image& image) { return meansOf(image, sums.counts, &PixelCount::paths); };
+    const auto ofPlaces = [&](const Image& image) {
+        return meansOf(image, sums.counts, &PixelCount::places);
+    };
     for (const Image& bounce : sums.bounces)
-        r.bounces.push_back(scaled(bounce, n));
-    if (centers) r.bounces[0] = plus(r.bounces[0], hits.irradiance);
-    r.indirect = scaled(sums.indirect, n);
+        r.bounces.push_back(ofPaths(bounce));
+    r.bounces[0] = plus(r.bounces[0], centers ? hits.irradiance : ofPlaces(sums.directIrradiance));
+    r.indirect = ofPaths(sums.indirect);
     r.irradiance = plus(r.bounces[0], r.indirect);
-    r.radiance = scaled(sums.radiance, n);
-    if (centers) r.radiance = plus(r.radiance, hits.radiance);
+    r.radiance = plus(ofPaths(sums.radiance), centers ? hits.radiance : ofPlaces(sums.directRadiance));
     for (Image* image : {&r.albedo, &r.normal, &r.depth})
         *image = Image(int(hits.size.x), int(hits.size.y));
     for (size_t i = 0; i < hits.surfaces.size(); ++i) {
@@ -126,7 +129,8 @@ double noiseOf(const Image& a, const Image& b) {
 namespace {
 
 constexpr uint32_t kLeastPoints = 2048, kMostPoints = 8192;  // drawn for each round of samples
-constexpr uint32_t kSamplesToLearnFrom = 64;                 // a pixel of each half
+constexpr double kSamplesToLearnFrom = 64;                   // a pixel of each half
+constexpr double kSamplesToPlanBy = 32;                      // then whenever there are four times as many
 
 // One of two independent estimates of the picture.
 class Half {
@@ -136,33 +140,33 @@ class Half {
           hits_(hits),
           settings_(settings),
           seed_(settings.seed * 2 + half),
-          sums_(hits.size, settings.paths.bounces) {}
+          plan_(hits, settings.paths),
+          sums_(hits.size, settings.paths.bounces, MeasuredLayer(settings.layer)) {}
 
-    // Adds `count` samples a pixel, or more if the method takes more; how many it added.
-    uint32_t add(uint32_t count, LitPoints* lit, JobRunner& runner) {
-        const uint32_t done = sums_.samples;
+    // Adds `count` samples to the pixels that are due, or more if the method takes more.
+    void add(uint32_t count, LitPoints* lit, JobRunner& runner) {
+        const uint32_t seed = io::hashUint(seed_) + round_ * RayLanes::kCount;
         if (settings_.method == Method::kPaths) {
             const auto pixels = uint32_t(hits_.surfaces.size());
-            if (lit)
-                lit->draw(std::clamp(pixels, kLeastPoints, kMostPoints), io::hashUint(seed_) + done,
-                          sums_.rays);
-            addPaths(scene_, hits_, settings_.paths, {.seed = seed_, .first = done, .count = count}, runner,
-                     sums_, lit);
-            return count;
+            if (lit) lit->draw(std::clamp(pixels, kLeastPoints, kMostPoints), seed, sums_.rays);
+            addPaths(scene_, hits_, settings_.paths,
+                     {.seed = seed_, .number = round_, .count = count, .plan = &plan_}, runner, sums_, lit);
+        } else {
+            const auto emitters = traceEmitters(scene_, settings_.emitterMap, seed, sums_.rays);
+            count = std::min(count, std::max(uint32_t(emitters.size()), 1u));
+            addEmitters(scene_, hits_, emitters, seed, count, runner, sums_);
         }
-        const uint32_t mapSeed = io::hashUint(seed_) + done;
-        const auto emitters = traceEmitters(scene_, settings_.emitterMap, mapSeed, sums_.rays);
-        count = std::min(count, std::max(uint32_t(emitters.size()), 1u));
-        addEmitters(scene_, hits_, emitters, mapSeed, count, runner, sums_);
-        return count;
+        round_ += 1;
     }
+    void planBy(const Half& other) { plan_.adapt(other.sums_); }
     const LightSums& sums() const { return sums_; }
 
   private:
     const RayScene& scene_;
     const FirstHits& hits_;
     const ReferenceSettings& settings_;
-    uint32_t seed_;
+    uint32_t seed_, round_ = 0;
+    SamplingPlan plan_;
     LightSums sums_;
 };
 
@@ -177,10 +181,6 @@ uint32_t samplesOfHalf(const ReferenceSettings& s) {
 bool usesLitPoints(const ReferenceSettings& s) {
     return s.method == Method::kPaths && s.paths.litPoints && s.paths.bounces > 0 && !s.paths.unshadowed;
 }
-
-}  // namespace
-
-namespace {
 
 // The first chances of points know nothing of what the picture sees: some paths that count nowhere teach
 // them.
@@ -218,71 +218,88 @@ Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceS
         return meanOf(assemble(hits, halves[0].sums(), paths, forward),
                       assemble(hits, halves[1].sums(), paths, forward), settings.layer);
     };
-    const uint32_t target = samplesOfHalf(settings);
-    uint32_t done = 0, nextCheck = 8, nextLesson = RayLanes::kCount;
+    const double target = samplesOfHalf(settings);
+    double done = 0, nextCheck = 8, nextLesson = RayLanes::kCount, nextPlan = kSamplesToPlanBy;
     while (done < target) {
-        const uint32_t count = std::min(RayLanes::kCount, target - done);
-        halves[1].add(halves[0].add(count, lit, runner), lit, runner);
-        done = halves[0].sums().samples;
-        progress(double(done) / target);
+        const auto count = uint32_t(std::min(std::ceil(target - done), double(RayLanes::kCount)));
+        for (Half& half : halves)
+            half.add(count, lit, runner);
+        const double before = done;
+        done = halves[0].sums().meanPaths();
+        if (done == before) break;  // nothing to see
+        progress(std::min(done / target, 1.0));
         if (lit && done >= nextLesson) {
             lit->learn();
             nextLesson = 2 * done;
             if (done >= kSamplesToLearnFrom) lit->stopLearning();
         }
+        if (settings.method == Method::kPaths && done >= nextPlan) {
+            halves[0].planBy(halves[1]);
+            halves[1].planBy(halves[0]);
+            nextPlan = 4 * done;
+        }
         if (settings.maxError > 0 && done >= nextCheck) {
             if (result().noise < settings.maxError) break;
-            nextCheck = done + std::max(done / 2, 1u);
+            nextCheck = done + std::max(done / 2, 1.0);
         }
     }
     Reference out = result();
-    out.samples = halves[0].sums().samples + halves[1].sums().samples;
+    out.samples = uint32_t(std::lround(halves[0].sums().meanPaths() + halves[1].sums().meanPaths()));
     out.rays = rays + halves[0].sums().rays + halves[1].sums().rays;
     return out;
 }
 
+namespace {
+
+constexpr uint32_t kStep = 8, kCells = kStep * kStep;  // pixels a side of a block, and of all
+
+// Each pixel takes the sums of the nearest cell of its block that was reached.
+void fillFromReached(glm::uvec2 size, uint32_t cells, LightSums& sums) {
+    const LightSums reached = sums;
+    const auto nearest = [&](glm::uvec2 pixel) {
+        const glm::uvec2 block = pixel / kStep * kStep;
+        glm::uvec2 best = block;
+        uint32_t bestDistance = ~0u;
+        for (uint32_t cell = 0; cell < cells; ++cell) {
+            const glm::uvec2 at = block + spreadOffset(cell);
+            const glm::ivec2 d = glm::ivec2(at) - glm::ivec2(pixel);
+            const auto distance = uint32_t(d.x * d.x + d.y * d.y);
+            if (at.x < size.x && at.y < size.y && distance < bestDistance) bestDistance = distance, best = at;
+        }
+        return size_t(best.y) * size.x + best.x;
+    };
+    for (uint32_t y = 0; y < size.y; ++y)
+        for (uint32_t x = 0; x < size.x; ++x) {
+            const size_t to = size_t(y) * size.x + x, from = nearest({x, y});
+            for (size_t b = 0; b < sums.bounces.size(); ++b)
+                sums.bounces[b].pixels[to] = reached.bounces[b].pixels[from];
+            sums.indirect.pixels[to] = reached.indirect.pixels[from];
+            sums.radiance.pixels[to] = reached.radiance.pixels[from];
+            sums.counts[to] = reached.counts[from];
+        }
+}
+
+}  // namespace
+
 Reference traceForSeconds(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
                           double seconds, JobRunner& runner) {
-    constexpr uint32_t kStep = 8, kCells = kStep * kStep;
     const auto start = Clock::now();
     const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
     uint64_t rays = 0;
     FirstHits hits(size);
     LightSums sums(size, settings.bounces);
-    std::vector<uint32_t> samples(kCells, 0);  // by cell of the block
+    uint32_t passes = 0;
     for (uint32_t pass = 0; pass == 0 || spent() < seconds; ++pass) {
-        const uint32_t cell = pass % kCells;
-        const glm::uvec2 offset = spreadOffset(cell);
+        const glm::uvec2 offset = spreadOffset(pass % kCells);
         if (offset.x >= size.x || offset.y >= size.y) continue;
         const Lattice lattice{kStep, offset};
         if (pass < kCells) traceFirstHits(scene, settings, lattice, runner, hits, rays);
-        addPaths(scene, hits, settings, {1, samples[cell]++, 1, lattice}, runner, sums);
+        addPaths(scene, hits, settings, {.number = pass / kCells, .lattice = lattice}, runner, sums);
+        passes = pass + 1;
     }
-    // Each pixel takes the value of the nearest cell of its block that was reached.
-    Reference out;
-    sums.samples = 1;
-    const LightSums reached = sums;
-    for (uint32_t y = 0; y < size.y; ++y)
-        for (uint32_t x = 0; x < size.x; ++x) {
-            uint32_t best = 0, bestDistance = ~0u;
-            for (uint32_t cell = 0; cell < kCells; ++cell) {
-                const glm::uvec2 at = spreadOffset(cell);
-                const glm::ivec2 d = glm::ivec2(at) - glm::ivec2(x % kStep, y % kStep);
-                const glm::uvec2 pixel = glm::uvec2(x, y) / kStep * kStep + at;
-                const bool there = samples[cell] > 0 && pixel.x < size.x && pixel.y < size.y;
-                const auto distance = uint32_t(d.x * d.x + d.y * d.y);
-                if (there && distance < bestDistance) bestDistance = distance, best = cell;
-            }
-            const glm::uvec2 from = glm::uvec2(x, y) / kStep * kStep + spreadOffset(best);
-            const size_t to = size_t(y) * size.x + x, source = size_t(from.y) * size.x + from.x;
-            const float scale = 1 / float(std::max(samples[best], 1u));
-            for (size_t b = 0; b < sums.bounces.size(); ++b)
-                sums.bounces[b].pixels[to] = reached.bounces[b].pixels[source] * scale;
-            sums.indirect.pixels[to] = reached.indirect.pixels[source] * scale;
-            sums.radiance.pixels[to] = reached.radiance.pixels[source] * scale;
-        }
-    out = assemble(hits, sums, settings, scene.scene().camera.forward);
-    out.samples = samples[0];
+    fillFromReached(size, std::min(passes, kCells), sums);
+    Reference out = assemble(hits, sums, settings, scene.scene().camera.forward);
+    out.samples = (passes + kCells - 1) / kCells;
     out.rays = rays + sums.rays;
     return out;
 }

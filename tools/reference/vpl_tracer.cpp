@@ -9,6 +9,7 @@
 #include "common/lights.h"
 #include "common/sampling.h"
 #include "tools/reference/light_beams.h"
+#include "tools/reference/random.h"
 
 namespace ag::reference {
 namespace {
@@ -87,13 +88,13 @@ void addEmitters(const RayScene& scene, const FirstHits& hits, const std::vector
                 }
             }
             const glm::vec3 added = glm::vec3(sum * double(count));
+            sums.counts[i].paths.samples += count;
             sums.bounces[1].pixels[i] += added;
             sums.indirect.pixels[i] += added;
             sums.radiance.pixels[i] += added * at.albedo * std::numbers::inv_pi_v<float>;
         }
         total += rowRays;
     });
-    sums.samples += count;
     sums.rays += total;
 }
 

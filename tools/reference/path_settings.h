@@ -1,0 +1,24 @@
+// What is traced.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "tools/reference/pixel_filter.h"
+
+namespace ag::reference {
+
+struct PathSettings {
+    uint32_t bounces = 1;      // most; 0: direct light alone
+    bool glossy = false;       // metallic-roughness with its GGX coat; else the diffuse part as Lambert
+    bool unshadowed = false;   // bounced light passes through surfaces; one bounce, no emission
+    bool emission = false;     // emissive surfaces light others, too
+    glm::vec3 environment{0};  // radiance from where rays meet nothing, W/(m² sr)
+    PixelFilter filter = PixelFilter::kCenter;
+    bool litPoints = true;  // bounced light is looked for from the lights, too
+};
+
+// Bounces that are kept apart; further ones only count in `indirect`.
+constexpr uint32_t kBouncesApart = 8;
+
+}  // namespace ag::reference
