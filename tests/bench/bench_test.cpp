@@ -12,6 +12,7 @@
 #include "engine/scene/static_scene.h"
 #include "gi/gi_settings.h"
 #include "tools/bench/moving_light.h"
+#include "tools/bench/path_tracing.h"
 #include "tools/bench/report.h"
 #include "tools/bench/row_cache.h"
 #include "tools/bench/techniques.h"
@@ -189,6 +190,15 @@ TEST(Bench, RowsAreKeptAsTheyWere) {
     ASSERT_TRUE(writeFileSafely(folder + "/row-0000000000000007.json", "[{\"scene\": 3}]"));
     EXPECT_FALSE(cache.find(7));
     EXPECT_EQ(RowCache::programHash(), RowCache::programHash());
+}
+
+TEST(Bench, PathTracingsErrorBetweenTheTimesItWasLookedAt) {
+    const std::vector<Row> curve = {row("path-tracing", 10, 0.8), row("path-tracing", 40, 0.4)};
+    EXPECT_NEAR(errorAfter(curve, 20), 0.8 / std::sqrt(2.0), 1e-6) << "halfway in logarithms";
+    EXPECT_NEAR(errorAfter(curve, 10), 0.8, 1e-6);
+    EXPECT_NEAR(errorAfter(curve, 5), 0.8, 1e-6) << "less than one pass";
+    EXPECT_NEAR(errorAfter(curve, 160), 0.2, 1e-6) << "by the root of time";
+    EXPECT_EQ(errorAfter({}, 10), 0);
 }
 
 }  // namespace

@@ -48,11 +48,12 @@ std::vector<Series> seriesOf(const Report& report, const std::string& scene) {
                 continue;
             if (row.error.relativeRmse > 0 && row.indirectMs() > 0)
                 series.points.push_back({row.indirectMs(), row.error.relativeRmse, row.variant, row.pareto});
-            if (row.pathTracingRelRmse > 0)
-                paths.points.push_back({row.gpuMsMedian, row.pathTracingRelRmse, "", false});
         }
         all.push_back(series);
     }
+    for (const Row& row : report.rows)
+        if (row.isPathTracing() && row.scene == scene)
+            paths.points.push_back({row.gpuMsMedian, row.error.relativeRmse, "", false});
     all.push_back(paths);
     for (Series& series : all)
         std::ranges::sort(series.points, {}, &Point::ms);

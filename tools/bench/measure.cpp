@@ -7,9 +7,11 @@
 #include <chrono>
 
 #include "engine/core/flip.h"
+#include "engine/core/hash.h"
 #include "engine/core/settings.h"
 #include "engine/scene/static_scene.h"
 #include "gi/frame_budget.h"
+#include "tools/bench/path_tracing.h"
 #include "tools/bench/walking.h"
 #include "tools/reference/vpl_tracer.h"
 
@@ -254,25 +256,24 @@ void SceneBench::measureEmitters(Row& row, Image& image) {
         p /= float(std::max(emitters.size(), size_t(1)));
 }
 
-Row SceneBench::tracePaths(const Row& row, const Image& truth) {
-    Row paths;
-    paths.scene = row.scene;
-    paths.technique = kPathTracing;
-    paths.variant = fmt::format("as long as {} {}", row.technique, row.variant);
-    paths.size = row.size;
-    paths.term = row.term;
-    paths.noiseFloor = row.noiseFloor;
-    const auto traced = reference::traceForSeconds(rays_, options_.size, referenceSettings(row.term).paths,
-                                                   row.gpuMsMedian * 1e-3, runner_);
-    paths.gpuMsMedian = paths.gpuMsP99 = row.gpuMsMedian;
-    paths.frames = 1;
-    const Image& image = *reference::layerOf(traced, layerOfTerm(row.term));
-    if (const auto difference = compareImages(truth, image)) paths.error = *difference;
-    paths.flip = meanFlip(truth, image);
-    return paths;
+uint64_t SceneBench::hashPathTracing(std::string_view term) const {
+    return hashValue(options_.size, hashSettings(referenceSettings(term), sceneHash(scene_)));
 }
 
-Result<std::vector<Row>> SceneBench::measure(const Technique& technique, const Variant& variant) {
+Result<std::vector<Row>> SceneBench::measurePathTracing(std::string_view term) {
+    const auto truth = reference(term);
+    if (!truth) return truth.error();
+    const std::string layer(layerOfTerm(term));
+    auto rows = tracePathCurve(rays_, referenceSettings(term).paths, layer, **truth, runner_);
+    for (Row& row : rows) {
+        row.scene = name_;
+        row.term = term;
+        row.noiseFloor = noiseOf(**truth);
+    }
+    return rows;
+}
+
+Result<Row> SceneBench::measure(const Technique& technique, const Variant& variant) {
     const auto truth = reference(technique.term);
     if (!truth) return truth.error();
     Row row;
@@ -292,12 +293,7 @@ Result<std::vector<Row>> SceneBench::measure(const Technique& technique, const V
         return Error{fmt::format("{} on {}: {}", technique.name, name_, difference.error().message)};
     row.error = *difference;
     row.flip = meanFlip(**truth, image);
-    std::vector<Row> rows = {row};
-    if (options_.pathTracing && row.gpuMsMedian > 0 && technique.runner == Runner::kGpu) {
-        rows.push_back(tracePaths(row, **truth));
-        rows[0].pathTracingRelRmse = rows[1].error.relativeRmse;
-    }
-    return rows;
+    return row;
 }
 
 }  // namespace ag::bench

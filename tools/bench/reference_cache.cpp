@@ -43,6 +43,8 @@ uint64_t hashLight(const RenderLight& l, uint64_t h) {
     return h;
 }
 
+}  // namespace
+
 uint64_t hashSettings(const reference::ReferenceSettings& s, uint64_t h) {
     h = hashText(s.layer, h);
     for (const uint64_t v : {uint64_t(s.paths.bounces), uint64_t(s.paths.glossy), uint64_t(s.paths.emission),
@@ -52,8 +54,6 @@ uint64_t hashSettings(const reference::ReferenceSettings& s, uint64_t h) {
         h = combineHash(h, v);
     return hashValue(s.maxError, hashValue(s.paths.environment, h));
 }
-
-}  // namespace
 
 uint64_t sceneHash(const RenderScene& scene) {
     const GeometryArrays& g = *scene.geometry;

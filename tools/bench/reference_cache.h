@@ -13,6 +13,8 @@ namespace ag::bench {
 
 // Of what is seen: geometry, materials, textures, instances, lights, camera.
 uint64_t sceneHash(const RenderScene& scene);
+// Settings and the tracer's version, onto `h`.
+uint64_t hashSettings(const reference::ReferenceSettings& settings, uint64_t h);
 
 class ReferenceCache {
   public:

@@ -281,27 +281,34 @@ void fillFromReached(glm::uvec2 size, uint32_t cells, LightSums& sums) {
 
 }  // namespace
 
-Reference traceForSeconds(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
-                          double seconds, JobRunner& runner) {
-    const auto start = Clock::now();
-    const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+void traceOverTime(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
+                   std::span<const double> seconds, JobRunner& runner,
+                   FunctionRef<void(double, const Reference&)> seen) {
     uint64_t rays = 0;
     FirstHits hits(size);
     LightSums sums(size, settings.bounces);
+    double spent = 0;
     uint32_t passes = 0;
-    for (uint32_t pass = 0; pass == 0 || spent() < seconds; ++pass) {
-        const glm::uvec2 offset = spreadOffset(pass % kCells);
-        if (offset.x >= size.x || offset.y >= size.y) continue;
-        const Lattice lattice{kStep, offset};
-        if (pass < kCells) traceFirstHits(scene, settings, lattice, runner, hits, rays);
-        addPaths(scene, hits, settings, {.number = pass / kCells, .lattice = lattice}, runner, sums);
-        passes = pass + 1;
+    const auto tracePass = [&] {
+        const auto start = Clock::now();
+        const Lattice lattice{kStep, spreadOffset(passes % kCells)};
+        if (lattice.offset.x < size.x && lattice.offset.y < size.y) {
+            if (passes < kCells) traceFirstHits(scene, settings, lattice, runner, hits, rays);
+            addPaths(scene, hits, settings, {.number = passes / kCells, .lattice = lattice}, runner, sums);
+        }
+        ++passes;
+        spent += std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    for (const double time : seconds) {
+        while (passes == 0 || spent < time)
+            tracePass();
+        LightSums filled = sums;
+        fillFromReached(size, std::min(passes, kCells), filled);
+        Reference picture = assemble(hits, filled, settings, scene.scene().camera.forward);
+        picture.samples = (passes + kCells - 1) / kCells;
+        picture.rays = rays + sums.rays;
+        seen(spent, picture);
     }
-    fillFromReached(size, std::min(passes, kCells), sums);
-    Reference out = assemble(hits, sums, settings, scene.scene().camera.forward);
-    out.samples = (passes + kCells - 1) / kCells;
-    out.rays = rays + sums.rays;
-    return out;
 }
 
 }  // namespace ag::reference

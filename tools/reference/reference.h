@@ -1,6 +1,7 @@
 // The truth of a scene: all layers of one camera image, with their noise.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "engine/core/function_ref.h"
@@ -40,10 +41,12 @@ Status checkLayer(std::string_view name, uint32_t bounces);
 Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
                         JobRunner& runner, FunctionRef<void(double)> progress);
 
-// The best picture of the indirect light (layers bounce1, indirect, radiance) that path tracing has after so
-// many seconds: pixels are visited in a spread order, those not reached take their neighbour's value.
-Reference traceForSeconds(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
-                          double seconds, JobRunner& runner);
+// The best pictures of the indirect light (layers bounce1, indirect, radiance) that path tracing has after so
+// many seconds, ascending: pixels are visited in a spread order, those not reached take their neighbour's
+// value. `seen` takes a picture's own time, a little over what was asked; what it does is not counted.
+void traceOverTime(const RayScene& scene, glm::uvec2 size, const PathSettings& settings,
+                   std::span<const double> seconds, JobRunner& runner,
+                   FunctionRef<void(double, const Reference&)> seen);
 
 // Relative RMSE of the mean of two independent estimates of equal worth, from their difference.
 double noiseOf(const Image& a, const Image& b);

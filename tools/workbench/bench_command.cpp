@@ -7,6 +7,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/log.h"
 #include "tools/bench/measure.h"
+#include "tools/bench/path_tracing.h"
 #include "tools/bench/row_cache.h"
 #include "tools/scenegen/scenes.h"
 #include "tools/workbench/commands.h"
@@ -104,7 +105,7 @@ uint64_t hashRun(const BenchOptions& o, const bench::Report& report) {
     uint64_t h = hashText(report.driver, hashText(report.device, bench::RowCache::programHash()));
     const bench::MeasureOptions& m = o.measure;
     h = hashValue(m.flickerSize, hashValue(m.size, h));
-    for (const uint32_t v : {m.frames, m.referenceSamples, uint32_t(m.flicker), uint32_t(m.pathTracing)})
+    for (const uint32_t v : {m.frames, m.referenceSamples, uint32_t(m.flicker)})
         h = combineHash(h, v);
     return hashValue(m.referenceError, hashValue(m.secondsPerTiming, h));
 }
@@ -120,6 +121,20 @@ uint64_t hashRow(uint64_t run, uint64_t scene, const std::string& name, const be
     return hashValue(v.budgetMs, h);
 }
 
+Result<std::vector<bench::Row>> oneRow(Result<bench::Row> row) {
+    if (!row) return row.error();
+    return std::vector<bench::Row>{std::move(*row)};
+}
+
+// Those kept, else measured and kept.
+template <class F>
+Result<std::vector<bench::Row>> rowsOf(const bench::RowCache& kept, uint64_t key, F&& measure) {
+    if (auto found = kept.find(key)) return std::move(*found);
+    Result<std::vector<bench::Row>> rows = measure();
+    if (rows) kept.keep(key, *rows);
+    return rows;
+}
+
 Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& device,
                   std::span<const bench::Technique* const> techniques, bench::ReferenceCache& cache,
                   JobRunner& runner, bench::Report& report) {
@@ -130,21 +145,29 @@ Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& d
     bench::SceneBench scene(device, loaded->scene, name, cache, runner, o.measure, progress);
     const bench::RowCache kept(o.again ? "" : o.cache + "/rows");
     const uint64_t run = hashRun(o, report), sceneHash = bench::sceneHash(loaded->scene);
-    for (const bench::Technique* technique : techniques)
+    std::map<std::string, std::vector<bench::Row>, std::less<>> pathCurves;  // by term
+    for (const bench::Technique* technique : techniques) {
+        const bool timed = technique->runner == bench::Runner::kGpu && !o.noPathTracing;
+        if (timed && !pathCurves.contains(technique->term)) {
+            auto curve = rowsOf(kept, scene.hashPathTracing(technique->term),
+                                [&] { return scene.measurePathTracing(technique->term); });
+            if (!curve) return curve.error();
+            report.rows.insert(report.rows.end(), curve->begin(), curve->end());
+            pathCurves[std::string(technique->term)] = std::move(*curve);
+        }
         for (const bench::Variant& variant : technique->variants) {
-            const uint64_t key = hashRow(run, sceneHash, name, *technique, variant);
-            Result<std::vector<bench::Row>> rows = std::vector<bench::Row>();
-            if (auto found = kept.find(key)) {
-                *rows = std::move(*found);
-            } else {
-                rows = scene.measure(*technique, variant);
-                if (!rows) return rows.error();
-                kept.keep(key, *rows);
-            }
-            printRow(rows->front());
-            report.rows.insert(report.rows.end(), rows->begin(), rows->end());
+            auto rows = rowsOf(kept, hashRow(run, sceneHash, name, *technique, variant),
+                               [&] { return oneRow(scene.measure(*technique, variant)); });
+            if (!rows) return rows.error();
+            bench::Row& row = rows->front();
+            if (timed && row.gpuMsMedian > 0)
+                row.pathTracingRelRmse =
+                    errorAfter(pathCurves[std::string(technique->term)], row.gpuMsMedian);
+            printRow(row);
+            report.rows.push_back(row);
             if (const Status written = writeAll(o, report); !written) return written;
         }
+    }
     return Ok{};
 }
 
@@ -163,7 +186,6 @@ int runBench(BenchOptions o) {
     o.measure.size = *size;
     o.measure.flickerSize = *flickerSize;
     o.measure.flicker = !o.noFlicker;
-    o.measure.pathTracing = !o.noPathTracing;
     bench::ReferenceCache cache(o.cache);
     JobRunner runner;
     bench::Report report{
