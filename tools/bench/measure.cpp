@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr uint32_t kWarmFrames = 64;                         // for clusters to settle
+constexpr uint32_t kWarmFrames = 64;                         // for clusters and histories to settle
 constexpr uint32_t kBudgetFrames = 120, kBudgetJudged = 30;  // within which a budget is met; the last ones
 constexpr uint32_t kEmitterMap = 32;                         // texels along a light map's side
 constexpr uint32_t kTrendSamples = 1024;                     // a pixel of each key of the flicker's trend
@@ -58,6 +58,10 @@ struct Frame {
                             emitters =
                                 settings.firstBounce == gi::FirstBounce::kAreaLights ? frame.vals.count : 0;
                         });
+    }
+    void settle(const RenderScene& scene, const gi::GiSettings& settings) {
+        for (uint32_t i = 0; i < kWarmFrames; ++i)
+            render(scene, settings, {});
     }
     Image image() const { return shown ? gi::readImage(renderer, shown) : Image(int(size.x), int(size.y)); }
 };
@@ -169,10 +173,9 @@ Status SceneBench::measureFlicker(const gi::GiSettings& settings, gi::Layer laye
     if (!truth) return truth.error();
     Frame frame{renderer_, options_.flickerSize, layer};
     RenderScene scene = flickerScene_;
-    for (uint32_t i = 0; i < kWarmFrames; ++i)
-        frame.render(scene, settings, {});
+    frame.settle(scene, settings);
     std::vector<Image> still, moving;
-    for (uint32_t i = 0; i < kFlickerFrames; ++i) {
+    for (uint32_t i = 0; i < kStillFrames; ++i) {
         frame.render(scene, settings, {});
         still.push_back(frame.image());
     }
@@ -197,15 +200,15 @@ void SceneBench::measureWalking(const gi::GiSettings& settings, gi::Layer layer,
     constexpr uint32_t kStep = kWalkFrames / kWalkStops;
     for (uint32_t at = kStep - 1; at < kWalkFrames; at += kStep) {
         placeOnWalk(scene, flickerScene_, options_.flickerSize, at);
-        for (uint32_t i = 0; i < kWarmFrames; ++i)
-            frame.render(scene, settings, {});
+        frame.settle(scene, settings);
         standing.push_back(frame.image());
     }
-    for (uint32_t i = 0; i < kWarmFrames + kWalkFrames; ++i) {
-        const uint32_t at = std::max(i, kWarmFrames) - kWarmFrames;
+    placeOnWalk(scene, flickerScene_, options_.flickerSize, 0);
+    frame.settle(scene, settings);
+    for (uint32_t at = 0; at < kWalkFrames; ++at) {
         placeOnWalk(scene, flickerScene_, options_.flickerSize, at);
         frame.render(scene, settings, {});
-        if (i >= kWarmFrames && at % kStep == kStep - 1) walking.push_back(frame.image());
+        if (at % kStep == kStep - 1) walking.push_back(frame.image());
     }
     const Walking walk = compareWalk(walking, standing);
     row.flickerWalking = walk.flicker;
@@ -229,8 +232,7 @@ Status SceneBench::measureGpu(const Technique& technique, const Variant& variant
     renderer_.load(*scene_.geometry);
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};
-    for (uint32_t i = 0; i < kWarmFrames; ++i)
-        frame.render(scene_, settings, {});
+    frame.settle(scene_, settings);
     image = frame.image();
     row.vals = frame.emitters;
     row.gpuBytes = renderer_.deviceBytes();

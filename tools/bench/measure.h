@@ -14,7 +14,7 @@ struct MeasureOptions {
     glm::uvec2 size{640, 360};
     glm::uvec2 flickerSize{160, 90};
     uint32_t frames = 30;              // timed, unless they take longer than `secondsPerTiming`
-    double secondsPerTiming = 6;       // then at least five
+    double secondsPerTiming = 3;       // then at least five
     uint32_t referenceSamples = 4096;  // at most, a pixel
     double referenceError = 0.01;      // relative RMSE at which the reference is good enough
     bool flicker = true;

@@ -6,7 +6,8 @@
 
 namespace ag::bench {
 
-constexpr uint32_t kFlickerFrames = 64;
+constexpr uint32_t kFlickerFrames = 64;  // of the moving light
+constexpr uint32_t kStillFrames = 32;    // before it
 
 // Lights at `time` in [0, 1]: spots and suns turn by 4 degrees about the vertical through them, point lights
 // go along x by a hundredth of the scene's diagonal.

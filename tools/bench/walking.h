@@ -9,7 +9,7 @@
 namespace ag::bench {
 
 constexpr uint32_t kWalkFrames = 32;
-constexpr uint32_t kWalkStops = 8;  // of which as many are compared, at equal steps
+constexpr uint32_t kWalkStops = 4;  // of which as many are compared, at equal steps
 
 // The camera at frame `frame` of the walk: a two-hundredth of the scene's diagonal in all along its way of
 // looking, and a turn of eight degrees.
