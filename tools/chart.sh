@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures every technique on the built-in scenes (and on sponza where the scene library is there) and writes
 # the charts and the tables of the documentation. Takes some minutes; references are kept from run to run.
+targets=(afterglow)
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 scenes=cornell,occluder,corridor
 [[ -e ${AFTERGLOW_SCENES:-../shared/scenes}/sponza ]] && scenes+=,sponza
