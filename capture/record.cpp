@@ -108,18 +108,18 @@ bool FrameRecorder::complete() const {
     return rendered_ >= recorded_ + kTimerFrames;
 }
 
-void FrameRecorder::declare(FrameGraph& graph, const gi::GiFrame& frame) {
+void FrameRecorder::declare(GraphScope scope, const gi::GiFrame& frame) {
     declared_ = frame;
     // The very last frame is as the program declares it, for the graph's picture.
-    if (rendered_ < recorded_ + kFramesInFlight) takeReadBack(graph, frame);
+    if (rendered_ < recorded_ + kFramesInFlight) takeReadBack(scope, frame);
 }
 
 // What the frame before last held, as known by now.
-void FrameRecorder::takeReadBack(FrameGraph& graph, const gi::GiFrame& declared) {
+void FrameRecorder::takeReadBack(GraphScope scope, const gi::GiFrame& declared) {
     std::span<const std::byte> vals, maps;
-    if (readVals_) vals = graph.readBack(kValCopies, declared.vals.vals);
-    if (readMaps_) maps = graph.readBack(kMapCopies, declared.isms.states);
-    const auto frame = std::ranges::find(frames_, graph.frame() - kFramesInFlight, &Frame::number);
+    if (readVals_) vals = scope.readBack(kValCopies, declared.vals.vals);
+    if (readMaps_) maps = scope.readBack(kMapCopies, declared.isms.states);
+    const auto frame = std::ranges::find(frames_, scope.graph().frame() - kFramesInFlight, &Frame::number);
     if (frame == frames_.end()) return;
     if (!vals.empty())
         frame->counters.push_back({"area lights", double(countRows<io::Val>(vals, [](const io::Val& val) {
@@ -190,9 +190,9 @@ void recordFrames(gi::GiRenderer& renderer, NextScene next, const RecordSettings
         std::vector<Span> systems;
         const RenderScene& scene = next(systems);
         renderer.render(scene, settings.size, settings.gi, recorder.options(settings.graph),
-                        [&](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
-                            graph.output(frame.outputs.display);
-                            recorder.declare(graph, frame);
+                        [&](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                            scope.output(frame.outputs.display);
+                            recorder.declare(scope, frame);
                         });
         recorder.note(scene, std::move(systems));
     }

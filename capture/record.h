@@ -23,7 +23,7 @@ class FrameRecorder {
     // For the next frame: as asked, but with nothing skipped while warming up.
     FrameGraphOptions options(const FrameGraphOptions& asked) const;
     // At the end of the frame's declaration.
-    void declare(FrameGraph& graph, const gi::GiFrame& frame);
+    void declare(GraphScope scope, const gi::GiFrame& frame);
     // After it was submitted; `systems`: of the schedule that made the scene, if one did.
     void note(const RenderScene& scene, std::vector<Span> systems);
     // The frames are there, and a few more that only brought the times of those before.
@@ -33,7 +33,7 @@ class FrameRecorder {
 
   private:
     void takeSpans();
-    void takeReadBack(FrameGraph& graph, const gi::GiFrame& frame);
+    void takeReadBack(GraphScope scope, const gi::GiFrame& frame);
 
     gi::GiRenderer& renderer_;
     uint32_t warmUp_, recorded_, rendered_ = 0;

@@ -54,12 +54,12 @@ void recordView(gi::GiRenderer& renderer, const RenderScene& scene, const Record
     BufferHandle source;
     gi::Layer layer{};
     renderer.render(scene, settings.size, settings.gi, options,
-                    [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& f) {
+                    [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& f) {
                         layer = bufferViews(f)[index].layer;
                         source = bufferViews(f)[index].shown;
-                        if (source) shown = gi::addLayer(graph, view, f, layer);
-                        graph.output(f.outputs.display);
-                        if (shown) graph.output(shown);
+                        if (source) shown = gi::addLayer(scope, view, f, layer);
+                        scope.output(f.outputs.display);
+                        if (shown) scope.output(shown);
                     });
     if (!shown) return;
     const std::string writer = writerOf(renderer.graph().describe(), source.index);
@@ -79,8 +79,8 @@ Status recordPictures(gi::GiRenderer& renderer, const RenderScene& scene, const 
     options.timing = TimingMode::kCounts;
     if (renderDoc) renderDoc.begin();
     renderer.render(scene, settings.size, settings.gi, options,
-                    [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& f) {
-                        graph.output(f.outputs.display);
+                    [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& f) {
+                        scope.output(f.outputs.display);
                     });
     for (const PassCount& count : renderer.graph().counts())
         capture.counts.push_back({std::string(count.name), count});

@@ -48,8 +48,8 @@ FrameGraphOptions FrameCapture::options(const FrameGraphOptions& asked) const {
     return recorder_ ? recorder_->options(asked) : asked;
 }
 
-void FrameCapture::declare(FrameGraph& graph, const gi::GiFrame& frame) {
-    if (recorder_) recorder_->declare(graph, frame);
+void FrameCapture::declare(GraphScope scope, const gi::GiFrame& frame) {
+    if (recorder_) recorder_->declare(scope, frame);
 }
 
 void FrameCapture::note(const Demo& demo, glm::uvec2 size) {

@@ -27,7 +27,7 @@ class FrameCapture {
     // Around each frame, in this order.
     void noteSystems(const Schedule& schedule);  // after each run of one
     FrameGraphOptions options(const FrameGraphOptions& asked) const;
-    void declare(FrameGraph& graph, const gi::GiFrame& frame);
+    void declare(GraphScope scope, const gi::GiFrame& frame);
     void note(const Demo& demo, glm::uvec2 size);  // when it was submitted
 
     // What there is to tell the player, for a few seconds; else empty.

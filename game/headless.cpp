@@ -61,11 +61,11 @@ class HeadlessRun {
         const glm::uvec2 size = demo_.options.size;
         demo_.game->frame(size);
         renderer_.render(demo_.game->scene(), size, demo_.gi, demo_.graph,
-                         [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
-                             shown_ = demo_.layer ? gi::addLayerView(graph, view, frame, *demo_.layer, size,
+                         [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
+                             shown_ = demo_.layer ? gi::addLayerView(scope, view, frame, *demo_.layer, size,
                                                                      demo_.gi.composite)
                                                   : frame.outputs.display;
-                             graph.output(shown_);
+                             scope.output(shown_);
                          });
         demo_.game->takeReadings(renderer_.probeReadings());
     }

@@ -275,12 +275,12 @@ class WindowedRun {
         drawUi();
         renderer_.render(
             demo_.game->scene(), size, demo_.gi, capture_.options(demo_.graph),
-            [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
+            [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
                 shown_ = demo_.layer
-                             ? gi::addLayerView(graph, view, frame, *demo_.layer, size, demo_.gi.composite)
+                             ? gi::addLayerView(scope, view, frame, *demo_.layer, size, demo_.gi.composite)
                              : frame.outputs.display;
-                graph.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-                capture_.declare(graph, frame);
+                scope.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                capture_.declare(scope, frame);
             },
             [&](VkCommandBuffer commands) {
                 presentImage(commands, renderer_.graph().physical(shown_), *image, swapchain_.size(), [&] {

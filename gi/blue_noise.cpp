@@ -17,11 +17,11 @@ std::string load() {
 
 }  // namespace
 
-BufferHandle addBlueNoise(FrameGraph& graph) {
+BufferHandle addBlueNoise(GraphScope scope) {
     static const std::string bytes = load();
     const BufferHandle buffer =
-        graph.buffer("blue_noise.pixels", {.sizeBytes = kBytes, .texelFormat = VK_FORMAT_R16G16_UNORM});
-    graph.upload("blue_noise.pixels", buffer, std::as_bytes(std::span(bytes)));
+        scope.buffer("blue_noise.pixels", {.sizeBytes = kBytes, .texelFormat = VK_FORMAT_R16G16_UNORM});
+    scope.upload("blue_noise.pixels", buffer, std::as_bytes(std::span(bytes)));
     return buffer;
 }
 

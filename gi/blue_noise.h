@@ -6,6 +6,6 @@
 namespace ag::gi {
 
 // A texel buffer of rg16 unorm, rows from the top.
-BufferHandle addBlueNoise(FrameGraph& graph);
+BufferHandle addBlueNoise(GraphScope scope);
 
 }  // namespace ag::gi

@@ -4,17 +4,17 @@
 
 namespace ag::gi {
 
-GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct,
+GiOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const Irradiance& direct,
                        const Irradiance& indirect, ImageHandle coat, const CompositeSettings& settings) {
     GiOutputs out;
     out.radiance =
-        graph.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
+        scope.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
     out.display =
-        graph.image("composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = gbuffer.size});
+        scope.image("composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = gbuffer.size});
 
     // A term that is not there is compiled out; its binding takes any image of the same class.
     const auto orAlbedo = [&](ImageHandle image) { return image ? image : gbuffer.albedo; };
-    graph.fullscreen("composite.combine", "composite/combine.frag")
+    scope.fullscreen("composite.combine", "composite/combine.frag")
         .sample("albedoMap", gbuffer.albedo)
         .sample("directMap", orAlbedo(direct.image))
         .sample("indirectMap", orAlbedo(indirect.image))
@@ -31,7 +31,7 @@ GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradian
         float exposure;
         uint32_t mode;
     };
-    graph.fullscreen("composite.tonemap", "composite/tonemap.frag")
+    scope.fullscreen("composite.tonemap", "composite/tonemap.frag")
         .sample("radianceMap", out.radiance)
         .push(Push{std::exp2(settings.exposure), uint32_t(settings.tonemap)})
         .colorClear(out.display, glm::vec4(0));

@@ -21,7 +21,7 @@ struct GiOutputs {
 };
 
 // `coat`: radiance that gloss adds.
-GiOutputs addComposite(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& direct,
+GiOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const Irradiance& direct,
                        const Irradiance& indirect, ImageHandle coat, const CompositeSettings& settings);
 
 }  // namespace ag::gi

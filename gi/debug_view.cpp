@@ -34,18 +34,18 @@ constexpr std::array<Row, size_t(Layer::kCount)> kLayers = {
       Show::kDisplay},
      {{"ism", "m", "imperfect shadow maps side by side"}, Show::kDistance}}};
 
-ImageHandle layerImage(FrameGraph& graph, glm::uvec2 size) {
-    return graph.image("debug_view.layer", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size});
+ImageHandle layerImage(GraphScope scope, glm::uvec2 size) {
+    return scope.image("debug_view.layer", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size});
 }
 
-ImageHandle addCopy(FrameGraph& graph, const SceneView& scene, ImageHandle first, ImageHandle second,
+ImageHandle addCopy(GraphScope scope, const SceneView& scene, ImageHandle first, ImageHandle second,
                     Copy mode) {
     if (!first) return {};
-    const ImageHandle out = layerImage(graph, graph.info(first).size);
+    const ImageHandle out = layerImage(scope, scope.info(first).size);
     const float unit = mode == Copy::kDepth   ? scene.scene->camera.near * scene.units.length
                        : mode == Copy::kPlain ? 1
                                               : scene.units.light;
-    graph.fullscreen("debug_view.copy_layer", "debug_view/copy_layer.frag")
+    scope.fullscreen("debug_view.copy_layer", "debug_view/copy_layer.frag")
         .sample("first", first)
         .sample("second", second ? second : first)
         .spec(0, uint32_t(mode))
@@ -55,18 +55,18 @@ ImageHandle addCopy(FrameGraph& graph, const SceneView& scene, ImageHandle first
 }
 
 // A view that draws over the camera's surfaces.
-PassBuilder beginSurfaceView(FrameGraph& graph, std::string_view name, std::string_view shader,
+PassBuilder beginSurfaceView(GraphScope scope, std::string_view name, std::string_view shader,
                              const SceneView& scene, const GiFrame& f) {
-    PassBuilder pass = graph.fullscreen(name, shader);
+    PassBuilder pass = scope.fullscreen(name, shader);
     pass.sample("depthMap", f.gbuffer.depth)
         .sample("normalMap", f.gbuffer.normal)
         .read("camera", scene.camera);
     return pass;
 }
 
-ImageHandle addClusters(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
-    const ImageHandle out = layerImage(graph, scene.size);
-    beginSurfaceView(graph, "debug_view.clusters", "debug_view/clusters.frag", scene, f)
+ImageHandle addClusters(GraphScope scope, const SceneView& scene, const GiFrame& f) {
+    const ImageHandle out = layerImage(scope, scene.size);
+    beginSurfaceView(scope, "debug_view.clusters", "debug_view/clusters.frag", scene, f)
         .read("texels", f.rsm.texels)
         .read("faces", f.rsm.faces)
         .read("slotOfTexel", f.clusters.slotOfTexel)
@@ -76,9 +76,9 @@ ImageHandle addClusters(FrameGraph& graph, const SceneView& scene, const GiFrame
     return out;
 }
 
-ImageHandle addVals(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
-    const ImageHandle out = layerImage(graph, scene.size);
-    beginSurfaceView(graph, "debug_view.vals", "debug_view/vals.frag", scene, f)
+ImageHandle addVals(GraphScope scope, const SceneView& scene, const GiFrame& f) {
+    const ImageHandle out = layerImage(scope, scene.size);
+    beginSurfaceView(scope, "debug_view.vals", "debug_view/vals.frag", scene, f)
         .read("vals", f.vals.vals)
         .read("shapes", f.vals.shapes)
         .push(f.vals.count)
@@ -86,24 +86,24 @@ ImageHandle addVals(FrameGraph& graph, const SceneView& scene, const GiFrame& f)
     return out;
 }
 
-ImageHandle addLampClusters(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
-    const ImageHandle out = layerImage(graph, scene.size);
-    beginSurfaceView(graph, "debug_view.lamp_clusters", "debug_view/lamp_clusters.frag", scene, f)
+ImageHandle addLampClusters(GraphScope scope, const SceneView& scene, const GiFrame& f) {
+    const ImageHandle out = layerImage(scope, scene.size);
+    beginSurfaceView(scope, "debug_view.lamp_clusters", "debug_view/lamp_clusters.frag", scene, f)
         .read("lamps", f.lampLists.lamps)
         .push(f.lampLists.lampCount)
         .colorClear(out, glm::vec4(0));
     return out;
 }
 
-ImageHandle addIsmView(FrameGraph& graph, const SceneView& scene, const IsmAtlas& isms) {
+ImageHandle addIsmView(GraphScope scope, const SceneView& scene, const IsmAtlas& isms) {
     const uint32_t columns = uint32_t(std::ceil(std::sqrt(float(isms.mapCount))));
     const uint32_t rows = (isms.mapCount + columns - 1) / columns;
-    const ImageHandle out = layerImage(graph, glm::uvec2(columns, rows) * isms.tileSize);
+    const ImageHandle out = layerImage(scope, glm::uvec2(columns, rows) * isms.tileSize);
     struct Push {
         uint32_t mapCount, tileSize, columns;
         float metres;
     };
-    graph.fullscreen("debug_view.ism", "debug_view/ism.frag")
+    scope.fullscreen("debug_view.ism", "debug_view/ism.frag")
         .read("planes", isms.planes)
         .spec(3, isms.mapping == IsmMapping::kParaboloid)
         .push(Push{isms.mapCount, isms.tileSize, columns, scene.units.length})
@@ -111,22 +111,22 @@ ImageHandle addIsmView(FrameGraph& graph, const SceneView& scene, const IsmAtlas
     return out;
 }
 
-ImageHandle addRsmView(FrameGraph& graph, const SceneView& scene, const GiFrame& f) {
-    const ImageHandle out = layerImage(graph, f.rsm.atlas.size);
+ImageHandle addRsmView(GraphScope scope, const SceneView& scene, const GiFrame& f) {
+    const ImageHandle out = layerImage(scope, f.rsm.atlas.size);
     struct Push {
         io::RsmAtlas atlas;
         float light;
     };
-    graph.fullscreen("debug_view.rsm", "debug_view/rsm.frag")
+    scope.fullscreen("debug_view.rsm", "debug_view/rsm.frag")
         .read("texels", f.rsm.texels)
         .push(Push{f.rsm.atlas, scene.units.light})
         .colorClear(out, glm::vec4(0));
     return out;
 }
 
-ImageHandle addImportanceView(FrameGraph& graph, const GiFrame& f) {
-    const ImageHandle out = layerImage(graph, f.rsm.atlas.size);
-    graph.fullscreen("debug_view.importance", "debug_view/importance.frag")
+ImageHandle addImportanceView(GraphScope scope, const GiFrame& f) {
+    const ImageHandle out = layerImage(scope, f.rsm.atlas.size);
+    scope.fullscreen("debug_view.importance", "debug_view/importance.frag")
         .read("faces", f.rsm.faces)
         .read("pyramid", f.importance.pyramid)
         .push(io::ImportanceSettings{.atlasSize = f.rsm.atlas.size,
@@ -210,59 +210,59 @@ bool hasLayer(const GiFrame& frame, const GiSettings& settings, Layer layer) {
     return isUsed(settings, layer) && isMade(frame, layer);
 }
 
-ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& f, Layer layer) {
+ImageHandle addLayer(GraphScope scope, const SceneView& scene, const GiFrame& f, Layer layer) {
     if (!isMade(f, layer)) return {};
     const ImageHandle direct = f.direct.image, bounce = f.indirect.image;
     switch (layer) {
         case Layer::kFinal:
-            return addCopy(graph, scene, f.outputs.display, {}, Copy::kPlain);
+            return addCopy(scope, scene, f.outputs.display, {}, Copy::kPlain);
         case Layer::kRadiance:
-            return addCopy(graph, scene, f.outputs.radiance, {}, Copy::kLight);
+            return addCopy(scope, scene, f.outputs.radiance, {}, Copy::kLight);
         case Layer::kDirect:
-            return addCopy(graph, scene, direct, {}, Copy::kLight);
+            return addCopy(scope, scene, direct, {}, Copy::kLight);
         case Layer::kIndirect:
-            return addCopy(graph, scene, bounce, {}, Copy::kLight);
+            return addCopy(scope, scene, bounce, {}, Copy::kLight);
         case Layer::kBounce1:
-            return addCopy(graph, scene, f.bounce1.image, {}, Copy::kLight);
+            return addCopy(scope, scene, f.bounce1.image, {}, Copy::kLight);
         case Layer::kBounce2:
-            return addCopy(graph, scene, f.indirect.image, f.bounce1.image, Copy::kDifference);
+            return addCopy(scope, scene, f.indirect.image, f.bounce1.image, Copy::kDifference);
         case Layer::kIrradiance:
-            return addCopy(graph, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
+            return addCopy(scope, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
                            direct && bounce ? Copy::kSum : Copy::kLight);
         case Layer::kAlbedo:
-            return addCopy(graph, scene, f.gbuffer.albedo, {}, Copy::kPlain);
+            return addCopy(scope, scene, f.gbuffer.albedo, {}, Copy::kPlain);
         case Layer::kNormal:
-            return addCopy(graph, scene, f.gbuffer.normal, {}, Copy::kPlain);
+            return addCopy(scope, scene, f.gbuffer.normal, {}, Copy::kPlain);
         case Layer::kDepth:
-            return addCopy(graph, scene, f.gbuffer.depth, {}, Copy::kDepth);
+            return addCopy(scope, scene, f.gbuffer.depth, {}, Copy::kDepth);
         case Layer::kRsm:
-            return addRsmView(graph, scene, f);
+            return addRsmView(scope, scene, f);
         case Layer::kImportance:
-            return addImportanceView(graph, f);
+            return addImportanceView(scope, f);
         case Layer::kClusters:
-            return addClusters(graph, scene, f);
+            return addClusters(scope, scene, f);
         case Layer::kVals:
-            return addVals(graph, scene, f);
+            return addVals(scope, scene, f);
         case Layer::kLampClusters:
-            return addLampClusters(graph, scene, f);
+            return addLampClusters(scope, scene, f);
         case Layer::kIsm:
-            return addIsmView(graph, scene, f.isms);
+            return addIsmView(scope, scene, f.isms);
         case Layer::kCount:
             break;
     }
     return {};
 }
 
-ImageHandle addLayerView(FrameGraph& graph, const SceneView& scene, const GiFrame& frame, Layer layer,
+ImageHandle addLayerView(GraphScope scope, const SceneView& scene, const GiFrame& frame, Layer layer,
                          glm::uvec2 size, const CompositeSettings& settings) {
-    const ImageHandle source = addLayer(graph, scene, frame, layer);
+    const ImageHandle source = addLayer(scope, scene, frame, layer);
     const ImageHandle out =
-        graph.image("debug_view.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = size});
+        scope.image("debug_view.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = size});
     struct Push {
         float exposure;
         uint32_t mode;
     };
-    graph.fullscreen("debug_view.show_layer", "debug_view/show_layer.frag")
+    scope.fullscreen("debug_view.show_layer", "debug_view/show_layer.frag")
         .sample("layer", source ? source : frame.gbuffer.depth)
         // Nothing to show is black, not whatever stands in for it.
         .spec(0, uint32_t(source ? kLayers[size_t(layer)].show : Show::kLight))

@@ -44,9 +44,9 @@ bool showsGloss(Layer layer);
 bool hasLayer(const GiFrame& frame, const GiSettings& settings, Layer layer);
 
 // The layer as floats; an invalid handle where the frame has none.
-ImageHandle addLayer(FrameGraph& graph, const SceneView& scene, const GiFrame& frame, Layer layer);
+ImageHandle addLayer(GraphScope scope, const SceneView& scene, const GiFrame& frame, Layer layer);
 // The layer as display values of `size` pixels; black where the frame has none.
-ImageHandle addLayerView(FrameGraph& graph, const SceneView& scene, const GiFrame& frame, Layer layer,
+ImageHandle addLayerView(GraphScope scope, const SceneView& scene, const GiFrame& frame, Layer layer,
                          glm::uvec2 size, const CompositeSettings& settings);
 
 }  // namespace ag::gi

@@ -24,9 +24,9 @@ struct Images {
     BufferHandle cameras;
 };
 
-void addFilter(FrameGraph& graph, std::string_view name, const Images& images, ImageHandle from,
+void addFilter(GraphScope scope, std::string_view name, const Images& images, ImageHandle from,
                ImageHandle to, glm::ivec2 stride, uint32_t seed, const DenoiserSettings& s) {
-    graph.compute(name, "denoiser/filter.comp")
+    scope.compute(name, "denoiser/filter.comp")
         .sample("light", from)
         .sample("surface", images.surface.current)
         .sample("tiles", images.tiles.current, Sampler::kLinearClamp)
@@ -34,12 +34,12 @@ void addFilter(FrameGraph& graph, std::string_view name, const Images& images, I
         .write("result", to)
         .spec(0, !s.separable)
         .push(io::FilterPush{stride.x, stride.y, s.lightTolerance, seed})
-        .dispatchThreads(graph.info(to).size.x, graph.info(to).size.y);
+        .dispatchThreads(scope.info(to).size.x, scope.info(to).size.y);
 }
 
 }  // namespace
 
-Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addDenoiser(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                        const NoisyLight& noisy, const DenoiserSettings& s, DenoiserHistory& history) {
     if (!s.enabled || !noisy.irradiance.image) return noisy.irradiance;
     const glm::uvec2 size = gbuffer.size, tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
@@ -52,19 +52,19 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
                history.lightVersion == noisy.lightVersion ? history.sinceLightChange + 1 : 0};
     const bool changing = s.adaptive && history.sinceLightChange < kFramesOfChange;
 
-    Images images{.light = graph.historyImage("denoiser.light", info),
-                  .surface = graph.historyImage("denoiser.surface", info),
-                  .tiles = graph.historyImage("denoiser.tiles", tileInfo)};
+    Images images{.light = scope.historyImage("denoiser.light", info),
+                  .surface = scope.historyImage("denoiser.surface", info),
+                  .tiles = scope.historyImage("denoiser.tiles", tileInfo)};
     const io::PixelRays rays = pixelRays(camera, size);
     const io::DenoiserCameras cameras{.previousClipFromWorld = before.clipFromWorld,
                                       .now = rays,
                                       .before = pixelRays(before, size),
                                       .pixelSize = glm::length(rays.down)};
-    images.cameras = graph.buffer("denoiser.cameras", {.sizeBytes = sizeof cameras});
-    graph.upload("denoiser.cameras", images.cameras, std::as_bytes(std::span(&cameras, 1)));
+    images.cameras = scope.buffer("denoiser.cameras", {.sizeBytes = sizeof cameras});
+    scope.upload("denoiser.cameras", images.cameras, std::as_bytes(std::span(&cameras, 1)));
 
-    const ImageHandle reprojected = graph.image("denoiser.reprojected", info);
-    graph.compute("denoiser.reproject", "denoiser/reproject.comp")
+    const ImageHandle reprojected = scope.image("denoiser.reprojected", info);
+    scope.compute("denoiser.reproject", "denoiser/reproject.comp")
         .sample("normalMap", gbuffer.normal)
         .sample("depthMap", gbuffer.depth)
         .samplePrevious("previousLight", images.light, Sampler::kNearestClamp)
@@ -76,8 +76,8 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         .spec(0, bool(gbuffer.motion))
         .push(io::ReprojectPush{camera.near, known && images.light.valid, noisy.step})
         .dispatchThreads(size.x, size.y);
-    const ImageHandle excess = graph.image("denoiser.excess", tileInfo);
-    graph.compute("denoiser.measure_tiles", "denoiser/measure_tiles.comp")
+    const ImageHandle excess = scope.image("denoiser.excess", tileInfo);
+    scope.compute("denoiser.measure_tiles", "denoiser/measure_tiles.comp")
         .sample("samples", noisy.irradiance.image)
         .sample("history", reprojected)
         .samplePrevious("previousTiles", images.tiles, Sampler::kNearestClamp)
@@ -87,8 +87,8 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         .dispatchGroups(tileCount.x * tileCount.y);
     const uint32_t rounds = std::min(s.rounds, kMostRounds);
     const bool recurrent = s.recurrent && rounds > 0;
-    const ImageHandle mean = recurrent ? graph.image("denoiser.mean", info) : images.light.current;
-    graph.compute("denoiser.accumulate", "denoiser/accumulate.comp")
+    const ImageHandle mean = recurrent ? scope.image("denoiser.mean", info) : images.light.current;
+    scope.compute("denoiser.accumulate", "denoiser/accumulate.comp")
         .sample("samples", noisy.irradiance.image)
         .sample("history", reprojected)
         .sample("tiles", images.tiles.current, Sampler::kLinearClamp)
@@ -98,18 +98,18 @@ Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer&
         .dispatchThreads(size.x, size.y);
 
     // Two images take turns; lines go through a third.
-    const std::array<ImageHandle, 2> turns = {graph.image("denoiser.even", info),
-                                              graph.image("denoiser.odd", info)};
-    const ImageHandle lines = graph.image("denoiser.lines", info);
+    const std::array<ImageHandle, 2> turns = {scope.image("denoiser.even", info),
+                                              scope.image("denoiser.odd", info)};
+    const ImageHandle lines = scope.image("denoiser.lines", info);
     ImageHandle from = mean;
     for (uint32_t r = 0; r < rounds; ++r) {
         const ImageHandle to = r == 0 && recurrent ? images.light.current : turns[r % 2];
         const int stride = 1 << r;
         if (s.separable) {
-            addFilter(graph, kLineNames[r], images, from, lines, {stride, 0}, noisy.step, s);
-            addFilter(graph, kRoundNames[r], images, lines, to, {0, stride}, noisy.step, s);
+            addFilter(scope, kLineNames[r], images, from, lines, {stride, 0}, noisy.step, s);
+            addFilter(scope, kRoundNames[r], images, lines, to, {0, stride}, noisy.step, s);
         } else {
-            addFilter(graph, kRoundNames[r], images, from, to, {stride, stride}, noisy.step, s);
+            addFilter(scope, kRoundNames[r], images, from, to, {stride, stride}, noisy.step, s);
         }
         from = to;
     }

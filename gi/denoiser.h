@@ -37,7 +37,7 @@ struct NoisyLight {
     uint32_t step = 0;  // another number for new samples; while it stays and nothing moves, nothing runs
 };
 
-Irradiance addDenoiser(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addDenoiser(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                        const NoisyLight& noisy, const DenoiserSettings& settings, DenoiserHistory& history);
 
 }  // namespace ag::gi

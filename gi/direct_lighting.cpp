@@ -13,16 +13,16 @@ constexpr std::array<std::string_view, kMostSuns> kPassNames = {
 
 }  // namespace
 
-Irradiance addSunLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addSunLighting(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                           const ShadowMaps& shadows) {
     Irradiance result;
     for (uint32_t i = 0; i < shadows.sunCount; ++i) {
         const RenderLight& light = scene.scene->lights[shadows.suns[i].light];
         const bool first = i == 0, shadow = shadows.suns[i].viewCount > 0;
         if (first)
-            result.image = graph.image("direct_lighting.irradiance",
+            result.image = scope.image("direct_lighting.irradiance",
                                        {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
-        PassBuilder pass = graph.compute(kPassNames[i], shadow ? "direct_lighting/add_sun_shadowed.comp"
+        PassBuilder pass = scope.compute(kPassNames[i], shadow ? "direct_lighting/add_sun_shadowed.comp"
                                                                : "direct_lighting/add_sun_unshadowed.comp");
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)

@@ -7,7 +7,7 @@
 
 namespace ag::gi {
 
-Irradiance addSunLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addSunLighting(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                           const ShadowMaps& shadows);
 
 }  // namespace ag::gi

@@ -50,7 +50,7 @@ struct ViewDraws {
     }
 };
 
-// Slots are counted up by the caller and keep their place in the command array.
+// Slots keep their place in the command array; ViewSlots says whose they are.
 struct ViewRequest {
     uint32_t slot = 0;
     glm::mat4 clipFromWorld{1};
@@ -70,8 +70,8 @@ class DrawLists {
     // The result stays in place and is valid until the next cull of that slot.
     const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
 
-    // Into slot `view` of what `from` draws the instances in `rows` (ascending) alone.
-    const ViewDraws& pick(uint32_t view, const ViewDraws& from, std::span<const RenderScene::Range> rows);
+    // Into slot `slot` of what `from` draws the instances in `rows` (ascending) alone.
+    const ViewDraws& pick(uint32_t slot, const ViewDraws& from, std::span<const RenderScene::Range> rows);
 
     std::span<const DrawBucket> buckets() const { return buckets_; }
     // All commands, a fixed region a view; changes are marked per view for the upload.

@@ -33,9 +33,9 @@ RenderCamera thinned(const RenderCamera& camera, glm::uvec2 size, uint32_t spaci
 
 }  // namespace
 
-GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
+GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
     const auto target = [&](const char* name, VkFormat format) {
-        return graph.image(name, {.format = format, .size = scene.size});
+        return scope.image(name, {.format = format, .size = scene.size});
     };
     GBuffer g{.depth = target("gbuffer.depth", VK_FORMAT_D32_SFLOAT),
               .normal = target("gbuffer.normal", VK_FORMAT_R16G16B16A16_SFLOAT),
@@ -48,8 +48,8 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     if (scene.hasGlossy) g.reflectance = target("gbuffer.reflectance", VK_FORMAT_R16G16B16A16_SFLOAT);
 
     const glm::mat4& clipFromWorld = scene.scene->camera.clipFromWorld;
-    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), clipFromWorld);
-    PassBuilder pass = graph.raster("gbuffer.fill", "gbuffer/fill.vert", fillShader(scene),
+    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.slots.camera, clipFromWorld);
+    PassBuilder pass = scope.raster("gbuffer.fill", "gbuffer/fill.vert", fillShader(scene),
                                     gpu::VertexLayout::kPositionsAndAttributes);
     pass.colorClear(g.normal, glm::vec4(0)).colorClear(g.albedo, glm::vec4(0));
     if (scene.hasEmissive) pass.colorClear(g.emissive, glm::vec4(0));
@@ -61,19 +61,19 @@ GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene) {
     return g;
 }
 
-GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing, const ThinningNames& names) {
+GBuffer addThinned(GraphScope scope, const GBuffer& all, uint32_t spacing, const ThinningNames& names) {
     if (spacing == 1) return all;
     const glm::uvec2 size = glm::max(all.size / spacing, 1u);
     GBuffer g{
-        .depth = graph.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
-        .normal = addThinImage(graph, names.normal, all.normal, spacing),
+        .depth = scope.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
+        .normal = addThinImage(scope, names.normal, all.normal, spacing),
         .size = size,
         .bent = all.bent,
         .spacing = all.spacing * spacing,
         .view = thinned(all.view, all.size, spacing),
     };
-    g.camera = addCamera(graph, names.camera, g.view, size);
-    graph.compute(names.depth, "gbuffer/thin_depth.comp")
+    g.camera = addCamera(scope, names.camera, g.view, size);
+    scope.compute(names.depth, "gbuffer/thin_depth.comp")
         .sample("all", all.depth)
         .write("thin", g.depth)
         .push(int32_t(spacing))
@@ -81,11 +81,11 @@ GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing, cons
     return g;
 }
 
-ImageHandle addThinImage(FrameGraph& graph, std::string_view name, ImageHandle all, uint32_t spacing) {
+ImageHandle addThinImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing) {
     if (!all || spacing == 1) return all;
-    const glm::uvec2 size = glm::max(graph.info(all).size / spacing, 1u);
-    const ImageHandle thin = graph.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size});
-    graph.compute(name, "gbuffer/thin_image.comp")
+    const glm::uvec2 size = glm::max(scope.info(all).size / spacing, 1u);
+    const ImageHandle thin = scope.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size});
+    scope.compute(name, "gbuffer/thin_image.comp")
         .sample("all", all)
         .write("thin", thin)
         .push(int32_t(spacing))
@@ -93,16 +93,14 @@ ImageHandle addThinImage(FrameGraph& graph, std::string_view name, ImageHandle a
     return thin;
 }
 
-ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {
-    const uint32_t slot = scene.claimView();
+ImageHandle addMotion(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer) {
     if (scene.moved.empty()) return {};
-    const ViewDraws& moved = scene.draws->pick(slot, *gbuffer.draws, scene.moved);
+    const ViewDraws& moved = scene.draws->pick(scene.slots.moved, *gbuffer.draws, scene.moved);
     if (moved.instanceCount == 0) return {};
-    scene.readsPrevious = true;
-    const ImageHandle motion = graph.image("gbuffer.motion", graph.info(gbuffer.normal));
+    const ImageHandle motion = scope.image("gbuffer.motion", scope.info(gbuffer.normal));
     const char* const vertexShader = scene.skin ? "gbuffer/motion_figures.vert" : "gbuffer/motion.vert";
     PassBuilder pass =
-        graph.raster("gbuffer.motion", vertexShader, "gbuffer/motion.frag", gpu::VertexLayout::kPositions);
+        scope.raster("gbuffer.motion", vertexShader, "gbuffer/motion.frag", gpu::VertexLayout::kPositions);
     pass.colorClear(motion, glm::vec4(0)).depthEqual(gbuffer.depth).geometry(scene.geometry);
     pass.read("instances", scene.instances).read("previousInstances", scene.previousInstances);
     if (scene.skin)
@@ -114,11 +112,11 @@ ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& 
     return motion;
 }
 
-BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer) {
+BufferHandle addViewPoints(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer) {
     const BufferHandle points =
-        graph.buffer("gbuffer.view_points", {.sizeBytes = io::kViewPointCount * sizeof(io::ViewPoint),
+        scope.buffer("gbuffer.view_points", {.sizeBytes = io::kViewPointCount * sizeof(io::ViewPoint),
                                              .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.compute("gbuffer.sample_view", "gbuffer/sample_view.comp")
+    scope.compute("gbuffer.sample_view", "gbuffer/sample_view.comp")
         .sample("normalMap", gbuffer.normal)
         .sample("depthMap", gbuffer.depth)
         .read("camera", scene.camera)

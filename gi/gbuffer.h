@@ -22,7 +22,7 @@ struct GBuffer {
     BufferHandle camera;   // the same as io::CameraConstants
 };
 
-GBuffer addGBuffer(FrameGraph& graph, const SceneView& scene);
+GBuffer addGBuffer(GraphScope scope, const SceneView& scene);
 
 // Passes and resources; literals, because the graph keeps views of them.
 struct ThinningNames {
@@ -35,16 +35,16 @@ constexpr ThinningNames kLaterThinning = {"gbuffer.thin_depth_later", "gbuffer.t
 // Every spacing-th pixel of every spacing-th row, as if the camera had no others: from the middle of each
 // square of the image, what is left over at its right and lower border goes without. Depth and normal only;
 // itself with a spacing of 1.
-GBuffer addThinned(FrameGraph& graph, const GBuffer& all, uint32_t spacing,
+GBuffer addThinned(GraphScope scope, const GBuffer& all, uint32_t spacing,
                    const ThinningNames& names = kThinning);
 
 // The same of an image, rgba16f.
-ImageHandle addThinImage(FrameGraph& graph, std::string_view name, ImageHandle all, uint32_t spacing);
+ImageHandle addThinImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing);
 
 // Where the surfaces that moved since the frame before were then; only what moved is drawn. None: invalid.
-ImageHandle addMotion(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer);
+ImageHandle addMotion(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer);
 
 // io::kViewPointCount surface points that stand for the view: io::ViewPoint, also a texel buffer of vec4.
-BufferHandle addViewPoints(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer);
+BufferHandle addViewPoints(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer);
 
 }  // namespace ag::gi

@@ -55,7 +55,7 @@ struct GiFrame {
 
 // Declares the GI passes of one frame, in order. Nothing runs until the graph is executed, and then only what
 // the graph's outputs need.
-GiFrame addGlobalIllumination(FrameGraph& graph, const SceneView& scene, const GiSettings& settings,
+GiFrame addGlobalIllumination(GraphScope scope, const SceneView& scene, const GiSettings& settings,
                               GiHistory& history);
 
 }  // namespace ag::gi

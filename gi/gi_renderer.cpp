@@ -49,11 +49,7 @@ void GiRenderer::load(const GeometryArrays& geometry) {
 
 // Without anything of the frames before.
 void GiRenderer::startAnew() {
-    graph_.resetHistory("val_clustering.clusters");
-    for (const std::string_view copy : kLampRelevanceCopies)  // of lamps that are gone
-        graph_.resetHistory(copy);
-    for (const std::string_view copy : kProbeCopies)
-        graph_.resetHistory(copy);
+    graph_.reset();
     history_ = {};
 }
 
@@ -98,7 +94,9 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     AG_VK(vkBeginCommandBuffer(slot.commands, &begin));
-    scene_.upload(slot.commands, view, index);
+    using Previous = SceneGpu::Previous;
+    const Previous previous = graph_.isRead(view.previousInstances) ? Previous::kKept : Previous::kUnread;
+    scene_.upload(slot.commands, view, previous, index);
     if (options.timing == TimingMode::kProcessCpu) {
         // The graph submits by itself, so the uploads must be on their way before it.
         AG_VK(vkEndCommandBuffer(slot.commands));
@@ -150,9 +148,9 @@ Image renderLayer(GiRenderer& renderer, const RenderScene& scene, glm::uvec2 siz
     ImageHandle shown;
     for (uint32_t i = 0; i < std::max(frames, 1u); ++i)
         renderer.render(scene, size, settings, options,
-                        [&](FrameGraph& graph, const SceneView& view, const GiFrame& frame) {
-                            shown = addLayer(graph, view, frame, layer);
-                            if (shown) graph.output(shown);
+                        [&](GraphScope scope, const SceneView& view, const GiFrame& frame) {
+                            shown = addLayer(scope, view, frame, layer);
+                            if (shown) scope.output(shown);
                         });
     return shown ? readImage(renderer, shown) : Image(int(size.x), int(size.y));
 }

@@ -39,7 +39,7 @@ class GiRenderer {
 
     // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs;
     // `present` records after it, with the command buffer of the frame.
-    using Finish = FunctionRef<void(FrameGraph&, const SceneView&, const GiFrame&)>;
+    using Finish = FunctionRef<void(GraphScope, const SceneView&, const GiFrame&)>;
     using Present = FunctionRef<void(VkCommandBuffer)>;
     struct PresentNothing {
         void operator()(VkCommandBuffer) const {}

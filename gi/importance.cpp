@@ -13,7 +13,7 @@ uint32_t pyramidNodes(uint32_t largestFace) {
 
 }  // namespace
 
-Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle viewPoints,
+Importance addImportance(GraphScope scope, const RsmSet& rsm, BufferHandle viewPoints,
                          const ImportanceSettings& settings) {
     if (rsm.empty()) return {};
     Importance importance{.pyramidStride = pyramidNodes(rsm.largestFace), .viewWeight = settings.viewWeight};
@@ -22,13 +22,13 @@ Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle view
                                       .pyramidStride = importance.pyramidStride,
                                       .viewWeight = settings.viewWeight};
     importance.pyramid =
-        graph.buffer("importance.pyramid",
+        scope.buffer("importance.pyramid",
                      {.sizeBytes = uint64_t(importance.pyramidStride) * rsm.atlas.faceCount * sizeof(float)});
     if (importance.viewDependent()) importance.viewPoints = viewPoints;
 
     const uint32_t along = io::blocksAlong(rsm.largestFace);
     PassBuilder evaluate =
-        graph.compute("importance.evaluate", importance.viewDependent() ? "importance/evaluate_view.comp"
+        scope.compute("importance.evaluate", importance.viewDependent() ? "importance/evaluate_view.comp"
                                                                         : "importance/evaluate_flux.comp");
     evaluate.read("texels", rsm.texels).read("faces", rsm.faces).read("maps", rsm.maps);
     if (importance.viewDependent()) evaluate.read("viewPoints", importance.viewPoints);
@@ -36,7 +36,7 @@ Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle view
         .push(push)
         .dispatchGroups((along * along + 63) / 64, rsm.atlas.faceCount);
 
-    graph.compute("importance.build_pyramid", "importance/build_pyramid.comp")
+    scope.compute("importance.build_pyramid", "importance/build_pyramid.comp")
         .read("faces", rsm.faces)
         .readWrite("pyramid", importance.pyramid)
         .push(push)

@@ -23,7 +23,7 @@ struct Importance {
     bool viewDependent() const { return viewWeight > 0; }
 };
 
-Importance addImportance(FrameGraph& graph, const RsmSet& rsm, BufferHandle viewPoints,
+Importance addImportance(GraphScope scope, const RsmSet& rsm, BufferHandle viewPoints,
                          const ImportanceSettings& settings);
 
 }  // namespace ag::gi

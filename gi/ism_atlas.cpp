@@ -62,7 +62,7 @@ uint32_t regionsOf(uint32_t tileSize) {
 }
 
 struct Splat {
-    FrameGraph& graph;
+    GraphScope scope;
     const SurfacePoints& points;
     const Vals& vals;
     const IsmAtlasSettings& settings;
@@ -82,7 +82,7 @@ uint32_t splatGroups(const io::IsmSplatPush& push) {
 
 PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle chosen, BufferHandle states,
                      BufferHandle keys, const io::IsmSplatPush& push) {
-    PassBuilder pass = s.graph.compute(name, "ism_atlas/splat_points.comp");
+    PassBuilder pass = s.scope.compute(name, "ism_atlas/splat_points.comp");
     pass.read("vals", s.vals.vals)
         .read("chosen", chosen)
         .read("states", states)
@@ -95,8 +95,8 @@ PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle chosen,
 // All that stands still: maps are kept where neither it nor the light has moved; a splat of those would cost
 // its workgroups all the same, so the others are listed.
 void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
-    const WorkList anew = addWorkList(s.graph, kMapsAnew, s.atlas.mapCount, {splatGroups(push), 0, 1});
-    s.graph.compute("ism_atlas.choose", "ism_atlas/choose_still.comp")
+    const WorkList anew = addWorkList(s.scope, kMapsAnew, s.atlas.mapCount, {splatGroups(push), 0, 1});
+    s.scope.compute("ism_atlas.choose", "ism_atlas/choose_still.comp")
         .readPart("segments", s.points.segments, s.points.stillVersion)
         .read("vals", s.vals.vals)
         .readPrevious("previousPlaces", kept.places)
@@ -109,7 +109,7 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .spec(0, s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
-    s.graph.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
+    s.scope.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
         .readPrevious("previousKeys", kept.keys)
         .read("states", s.atlas.states)
         .write("keys", kept.keys.current)
@@ -126,8 +126,8 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
 // Regions of maps, see list_regions.comp.
 WorkList addRegions(const Splat& s, std::string_view name, const WorkListNames& names, BufferHandle places,
                     const HistoryBuffer& finishes, bool before, const io::IsmSplatPush& push) {
-    const WorkList regions = addWorkList(s.graph, names, s.regions(), {0, 1, 1});
-    s.graph.compute(name, "ism_atlas/list_regions.comp")
+    const WorkList regions = addWorkList(s.scope, names, s.regions(), {0, 1, 1});
+    s.scope.compute(name, "ism_atlas/list_regions.comp")
         .read("places", places)
         .readPrevious("previousFinishes", finishes)
         .readWrite("finishes", finishes.current)
@@ -147,12 +147,12 @@ struct MovingLayer {
 MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle finishes,
                            const WorkList& restored, const io::IsmSplatPush& push) {
     const BufferHandle states =
-        s.graph.buffer("ism_atlas.moving_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
-    const BufferHandle keys = s.graph.buffer("ism_atlas.all_keys", s.graph.info(stillKeys));
+        s.scope.buffer("ism_atlas.moving_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
+    const BufferHandle keys = s.scope.buffer("ism_atlas.all_keys", s.scope.info(stillKeys));
     const BufferHandle chosen =
-        s.graph.buffer("ism_atlas.moving_chosen",
+        s.scope.buffer("ism_atlas.moving_chosen",
                        {.sizeBytes = s.atlas.mapCount * push.entryCount * 4ull, .texelFormat = kUint});
-    s.graph.compute("ism_atlas.choose_moving", "ism_atlas/choose_moving.comp")
+    s.scope.compute("ism_atlas.choose_moving", "ism_atlas/choose_moving.comp")
         .read("segments", s.points.segments)
         .read("vals", s.vals.vals)
         .write("chosen", chosen)
@@ -160,7 +160,7 @@ MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle 
         .spec(0, s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
-    s.graph.compute("ism_atlas.restore", "ism_atlas/restore_keys.comp")
+    s.scope.compute("ism_atlas.restore", "ism_atlas/restore_keys.comp")
         .read("listed", restored.items)
         .read("still", stillKeys)
         .write("keys", keys)
@@ -179,9 +179,9 @@ MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle 
 void addFinish(const Splat& s, const MovingLayer& layer, const WorkList& finished,
                const io::IsmSplatPush& push) {
     const BufferHandle resolved = s.settings.pullPush
-                                      ? s.graph.buffer("ism_atlas.resolved", s.graph.info(s.atlas.planes))
+                                      ? s.scope.buffer("ism_atlas.resolved", s.scope.info(s.atlas.planes))
                                       : s.atlas.planes;
-    s.graph.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
+    s.scope.compute("ism_atlas.resolve", "ism_atlas/resolve_planes.comp")
         .read("points", s.points.points)
         .read("vals", s.vals.vals)
         .read("keys", layer.keys)
@@ -195,7 +195,7 @@ void addFinish(const Splat& s, const MovingLayer& layer, const WorkList& finishe
         .push(push)
         .dispatchIndirect(finished.groups);
     if (!s.settings.pullPush) return;
-    s.graph.compute("ism_atlas.close", "ism_atlas/close_holes.comp")
+    s.scope.compute("ism_atlas.close", "ism_atlas/close_holes.comp")
         .read("resolved", resolved)
         .read("listed", finished.items)
         .write("planes", s.atlas.planes)
@@ -214,7 +214,7 @@ uint32_t tileSizeFor(uint32_t asked, uint32_t mapCount) {
 
 }  // namespace
 
-IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,
+IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Vals& vals,
                      const IsmAtlasSettings& settings) {
     if (!settings.enabled || points.count == 0 || vals.count == 0) return {};
     IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms), .mapping = settings.mapping};
@@ -222,7 +222,7 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
     const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
     const uint32_t moving = movingEntries(points, perMap), still = perMap - moving;
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
-    atlas.planes = graph.buffer("ism_atlas.planes",
+    atlas.planes = scope.buffer("ism_atlas.planes",
                                 {.sizeBytes = texels * 16, .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     const io::IsmSplatPush push{.pointCount = points.count,
                                 .tileSize = atlas.tileSize,
@@ -230,17 +230,17 @@ IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals&
                                 .contents = contentsOf(settings, atlas, points, still)};
     const MapHistories kept{
         .places =
-            graph.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
-        .chosen = graph.historyBuffer(
+            scope.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
+        .chosen = scope.historyBuffer(
             "ism_atlas.chosen",
             {.sizeBytes = std::max(still, 1u) * atlas.mapCount * 4ull, .texelFormat = kUint}),
-        .keys = graph.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = kUint})};
+        .keys = scope.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = kUint})};
     atlas.chosen = kept.chosen.current;
-    atlas.states = graph.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});
-    const Splat splat{graph, points, vals, settings, atlas};
+    atlas.states = scope.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});
+    const Splat splat{scope, points, vals, settings, atlas};
     addStillLayer(splat, kept, layerPush(push, points.still, 0, still, settings.splatScale));
     const HistoryBuffer finishes =
-        graph.historyBuffer("ism_atlas.finishes", {.sizeBytes = atlas.mapCount * sizeof(io::IsmFinish)});
+        scope.historyBuffer("ism_atlas.finishes", {.sizeBytes = atlas.mapCount * sizeof(io::IsmFinish)});
     const WorkList restored =
         addRegions(splat, "ism_atlas.list_restored", kRestored, kept.places.current, finishes, true, push);
     const io::IsmSplatPush movingPush = layerPush(push, points.moving, still, moving, settings.splatScale);

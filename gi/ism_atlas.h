@@ -39,7 +39,7 @@ struct IsmAtlas {
     bool shared = false;  // not one a light: which one, a point light's shape row says
 };
 
-IsmAtlas addIsmAtlas(FrameGraph& graph, const SurfacePoints& points, const Vals& vals,
+IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Vals& vals,
                      const IsmAtlasSettings& settings);
 
 }  // namespace ag::gi

@@ -10,9 +10,9 @@ namespace {
 constexpr uint32_t kFewClusters = 4;  // shadows at every pixel cost no more than the detour for so few
 
 // What every pass over the lists needs.
-PassBuilder beginShading(FrameGraph& graph, std::string_view name, std::string_view shader,
+PassBuilder beginShading(GraphScope scope, std::string_view name, std::string_view shader,
                          const SceneView& scene, const GBuffer& gbuffer, const LampLists& l) {
-    PassBuilder pass = graph.compute(name, shader);
+    PassBuilder pass = scope.compute(name, shader);
     pass.sample("normalMap", gbuffer.normal)
         .sample("depthMap", gbuffer.depth)
         .read("camera", scene.camera)
@@ -33,12 +33,12 @@ struct LampQuads {  // at one pixel of each 2 x 2, W/m²
     ImageHandle shadowed, unshadowed;
 };
 
-LampQuads addLampQuads(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer, const LampLists& l,
+LampQuads addLampQuads(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer, const LampLists& l,
                        const LampShadows& shadows, const LampLightingSettings& settings) {
     const ImageInfo desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = (gbuffer.size + 1u) / 2u};
-    const LampQuads quads{.shadowed = graph.image("lamp_lighting.shadowed", desc),
-                          .unshadowed = graph.image("lamp_lighting.unshadowed", desc)};
-    PassBuilder pass = beginShading(graph, "lamp_lighting.shadow", "direct_lighting/shade_lamp_quads.comp",
+    const LampQuads quads{.shadowed = scope.image("lamp_lighting.shadowed", desc),
+                          .unshadowed = scope.image("lamp_lighting.unshadowed", desc)};
+    PassBuilder pass = beginShading(scope, "lamp_lighting.shadow", "direct_lighting/shade_lamp_quads.comp",
                                     scene, gbuffer, l);
     bindShadows(pass, shadows, settings);
     pass.write("shadowed", quads.shadowed)
@@ -49,7 +49,7 @@ LampQuads addLampQuads(FrameGraph& graph, const SceneView& scene, const GBuffer&
 
 }  // namespace
 
-Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addLampLighting(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                            const LampLists& lists, const LampShadows& shadows, Irradiance before,
                            const LampLightingSettings& settings) {
     if (!lists.lamps) return before;
@@ -57,11 +57,11 @@ Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuf
     const bool quads = shadowed && settings.quads && shadows.places > kFewClusters;
     const Irradiance result{
         before.image ? before.image
-                     : graph.image("lamp_lighting.irradiance",
+                     : scope.image("lamp_lighting.irradiance",
                                    {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
     const LampQuads from =
-        quads ? addLampQuads(graph, scene, gbuffer, lists, shadows, settings) : LampQuads{};
-    PassBuilder shade = beginShading(graph, "lamp_lighting.shade",
+        quads ? addLampQuads(scope, scene, gbuffer, lists, shadows, settings) : LampQuads{};
+    PassBuilder shade = beginShading(scope, "lamp_lighting.shade",
                                      quads      ? "direct_lighting/spread_lamp_shadows.comp"
                                      : shadowed ? "direct_lighting/shade_lamps.comp"
                                                 : "direct_lighting/shade_lamps_unshadowed.comp",

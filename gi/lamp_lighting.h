@@ -22,7 +22,7 @@ struct LampLightingSettings {
 };
 
 // Adds to `before`, or starts anew where that has no image.
-Irradiance addLampLighting(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addLampLighting(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                            const LampLists& lists, const LampShadows& shadows, Irradiance before,
                            const LampLightingSettings& settings);
 

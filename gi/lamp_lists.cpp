@@ -41,23 +41,23 @@ void gatherLamps(const RenderScene& scene, const LightClusters& c, LampListsHist
 
 }  // namespace
 
-LampLists addLampLists(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+LampLists addLampLists(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                        const LightClusters& clusters, bool byRange, LampListsHistory& history) {
     if (clusters.lamps.empty()) return {};
     gatherLamps(*scene.scene, clusters, history);
     LampLists l{.lampCount = uint32_t(history.lamps.size()),
                 .tiles = (gbuffer.size + io::kLampTileSize - 1u) / io::kLampTileSize};
     const uint64_t tileCount = uint64_t(l.tiles.x) * l.tiles.y;
-    l.lamps = graph.buffer(
+    l.lamps = scope.buffer(
         "lamp_lists.lamps",
         {.sizeBytes =
              std::bit_ceil(std::clamp<size_t>(scene.scene->lights.size(), 64, kMostLamps)) * sizeof(io::Lamp),
          .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.upload("lamp_lists.lamps", l.lamps, std::as_bytes(std::span(history.lamps)));
-    l.lists = graph.buffer("lamp_lists.lists", {.sizeBytes = tileCount * io::kMaxLampsPerTile * 4,
+    scope.upload("lamp_lists.lamps", l.lamps, std::as_bytes(std::span(history.lamps)));
+    l.lists = scope.buffer("lamp_lists.lists", {.sizeBytes = tileCount * io::kMaxLampsPerTile * 4,
                                                 .texelFormat = VK_FORMAT_R32_UINT});
-    l.counts = graph.buffer("lamp_lists.counts", {.sizeBytes = tileCount * 4});
-    graph.compute("lamp_lists.list", "direct_lighting/list_lamps.comp")
+    l.counts = scope.buffer("lamp_lists.counts", {.sizeBytes = tileCount * 4});
+    scope.compute("lamp_lists.list", "direct_lighting/list_lamps.comp")
         .sample("depthMap", gbuffer.depth)
         .read("camera", scene.camera)
         .read("lamps", l.lamps)

@@ -20,7 +20,7 @@ struct LampListsHistory {  // scratch, so that a steady frame allocates nothing
 };
 
 // `byRange` false: every tile has all lamps.
-LampLists addLampLists(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+LampLists addLampLists(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                        const LightClusters& clusters, bool byRange, LampListsHistory& history);
 
 }  // namespace ag::gi

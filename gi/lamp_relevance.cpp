@@ -38,19 +38,19 @@ uint32_t pointsFor(uint32_t lampCount) {
 
 }  // namespace
 
-void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, const LampLists& lamps,
+void addLampRelevance(GraphScope scope, BufferHandle viewPoints, const LampLists& lamps,
                       LampRelevance& known) {
     if (!lamps.lamps) return;
-    const auto rows = uint32_t(graph.info(lamps.lamps).sizeBytes / sizeof(io::Lamp));
+    const auto rows = uint32_t(scope.info(lamps.lamps).sizeBytes / sizeof(io::Lamp));
     const BufferHandle relevance =
-        graph.buffer("lamp_relevance.relevance", {.sizeBytes = rows * sizeof(io::LampRelevance)});
-    graph.compute("lamp_relevance.measure", "direct_lighting/measure_lamps.comp")
+        scope.buffer("lamp_relevance.relevance", {.sizeBytes = rows * sizeof(io::LampRelevance)});
+    scope.compute("lamp_relevance.measure", "direct_lighting/measure_lamps.comp")
         .read("lamps", lamps.lamps)
         .read("viewPoints", viewPoints)
         .write("relevance", relevance)
         .push(io::MeasurePush{.lampCount = lamps.lampCount, .pointCount = pointsFor(lamps.lampCount)})
         .dispatchGroups(rows);
-    known.set(graph.readBack(kLampRelevanceCopies, relevance));
+    known.set(scope.readBack(kLampRelevanceCopies, relevance));
 }
 
 }  // namespace ag::gi

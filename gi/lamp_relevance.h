@@ -38,7 +38,7 @@ class LampRelevance {
 };
 
 // Measures the lamps and updates `known` with what was measured two frames ago.
-void addLampRelevance(FrameGraph& graph, BufferHandle viewPoints, const LampLists& lamps,
+void addLampRelevance(GraphScope scope, BufferHandle viewPoints, const LampLists& lamps,
                       LampRelevance& known);
 
 }  // namespace ag::gi

@@ -79,12 +79,12 @@ Frustum seenPart(const RenderScene& scene) {
     return frustumOf(scene.camera.clipFromWorld, scene.camera.near / std::max(glm::length(far), 1.0f));
 }
 
-PassBuilder beginFaces(FrameGraph& graph, const SceneView& scene, ImageHandle atlas) {
+PassBuilder beginFaces(GraphScope scope, const SceneView& scene, ImageHandle atlas) {
     // Masked surfaces need their textures, and then all are drawn with them.
     const bool masked = hasMasked(scene);
-    PassBuilder pass = masked ? graph.raster("lamp_shadows.faces", "shadow_maps/masked.vert",
+    PassBuilder pass = masked ? scope.raster("lamp_shadows.faces", "shadow_maps/masked.vert",
                                              "shadow_maps/masked.frag", gpu::VertexLayout::kPositionsAndUvs)
-                              : graph.raster("lamp_shadows.faces", "shadow_maps/depth.vert", "",
+                              : scope.raster("lamp_shadows.faces", "shadow_maps/depth.vert", "",
                                              gpu::VertexLayout::kPositions);
     pass.depthPatches(atlas).geometry(scene.geometry).read("instances", scene.instances);
     if (masked) bindMaterials(pass, scene);
@@ -97,24 +97,21 @@ bool isSpotCluster(const RenderScene& scene, const LightCluster& cluster) {
     return cluster.lampCount == 1 && scene.lights[cluster.center].kind == LightKind::kSpot;
 }
 
-LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const LightClusters& clusters,
+LampShadows addLampShadows(GraphScope scope, const SceneView& scene, const LightClusters& clusters,
                            uint32_t mostClusters, const LampShadowSettings& settings,
                            LampShadowHistory& history) {
     const RenderScene& s = *scene.scene;
     const Places places = placesFor(mostClustersNeeded(s, mostClusters), settings);
-    // Each place has its view slots, drawn or not, so that what is culled for them lasts.
-    const uint32_t firstSlot = scene.viewsClaimed;
-    scene.viewsClaimed += places.count * kFaces;
     if (clusters.clusters.empty() || s.instances.empty()) return {};
     assignPlaces(s, clusters, places.count, history);
     LampShadows shadows{
-        .atlas = graph.image("lamp_shadows.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()}),
+        .atlas = scope.image("lamp_shadows.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()}),
         .softTaps = settings.softTaps,
         .places = places.count};
     history.rows.clear();
     history.views.clear();
     history.rects.clear();
-    PassBuilder pass = beginFaces(graph, scene, shadows.atlas);
+    PassBuilder pass = beginFaces(scope, scene, shadows.atlas);
     // A point's shadow at what the camera sees is in faces whose view meets the camera's; a disk's taps may
     // leave them.
     const bool onlySeen = settings.softTaps == 0;
@@ -130,7 +127,7 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
                       : cubeFaceView(row.center, face, row.farDistance))
                     .clipFromWorld;
             if (onlySeen && !mayMeet(seen, frustumOf(clipFromWorld))) continue;
-            history.views.push_back({firstSlot + place * kFaces + face, clipFromWorld});
+            history.views.push_back({scene.slots.firstLamp + place * kFaces + face, clipFromWorld});
             history.rects.emplace_back(row.origin + glm::uvec2(face % 3, face / 3) * row.size, row.size,
                                        row.size);
         }
@@ -143,10 +140,10 @@ LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const Ligh
                  history.rects[i], filter, Viewer::kLight);
     }
     const std::span<const std::byte> bytes = std::as_bytes(std::span(history.rows));
-    shadows.clusters = graph.buffer(
+    shadows.clusters = scope.buffer(
         "lamp_shadows.clusters",
         {.sizeBytes = places.count * sizeof(io::LampCluster), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.upload("lamp_shadows.clusters", shadows.clusters, bytes);
+    scope.upload("lamp_shadows.clusters", shadows.clusters, bytes);
     return shadows;
 }
 

@@ -33,7 +33,7 @@ struct LampShadows {
     uint32_t places = 0;  // of clusters that may come to need one; steadier than how many do
 };
 
-LampShadows addLampShadows(FrameGraph& graph, const SceneView& scene, const LightClusters& clusters,
+LampShadows addLampShadows(GraphScope scope, const SceneView& scene, const LightClusters& clusters,
                            uint32_t mostClusters, const LampShadowSettings& settings,
                            LampShadowHistory& history);
 

@@ -17,7 +17,7 @@ constexpr float kNearReach = 6;
 
 }  // namespace
 
-LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterBouncesSettings& s,
+LaterLight addLaterLight(GraphScope scope, const SceneView& scene, const LaterBouncesSettings& s,
                          Settling& settling) {
     if (!s.enabled || scene.bouncePointCount == 0) return {};
     const VkFormat vec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -25,16 +25,16 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
     const uint64_t inputs =
         combineHash(combineHash(r.lightsVersion, r.instancesVersion),
                     combineHash(r.cameraVersion, hashValue(glm::vec2(s.share, s.feedback))));
-    const uint32_t step = graph.holding() ? settling.step : settling.advance(inputs, s.settleFrames);
+    const uint32_t step = scope.isHeld() ? settling.step : settling.advance(inputs, s.settleFrames);
     LaterLight light{.count = scene.bouncePointCount, .share = s.share};
     light.side = uint32_t(std::lround(std::sqrt(double(light.count))));
-    light.irradiance = graph.historyBuffer(
+    light.irradiance = scope.historyBuffer(
         "later_bounces.irradiance", {.sizeBytes = light.count * sizeof(glm::vec4), .texelFormat = vec4});
-    light.texels = graph.buffer("later_bounces.texels",
+    light.texels = scope.buffer("later_bounces.texels",
                                 {.sizeBytes = light.count * sizeof(io::RsmTexel), .texelFormat = vec4});
     light.edges =
-        graph.buffer("later_bounces.edges", {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge)});
-    PassBuilder emit = graph.compute(
+        scope.buffer("later_bounces.edges", {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge)});
+    PassBuilder emit = scope.compute(
         "later_bounces.emit", scene.skin ? "later_bounces/emit_figures.comp" : "later_bounces/emit.comp");
     emit.read("instances", scene.instances)
         .read("points", scene.bouncePoints)
@@ -49,7 +49,7 @@ LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterB
     return light;
 }
 
-void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& vals, uint32_t firstLater,
+void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Vals& vals, uint32_t firstLater,
                         const IsmAtlas& isms, const LaterBouncesSettings& s) {
     if (!light.texels || vals.count == 0) return;
     const ValShadingSettings shading;
@@ -58,11 +58,11 @@ void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& 
                               .valCount = s.feedback ? vals.count : std::min(vals.count, firstLater),
                               .nearReach = kNearReach,
                               .ismTileSize = isms.tileSize};
-    const BufferHandle counts = graph.buffer("later_bounces.counts", {.sizeBytes = runs * 8ull});
-    const BufferHandle lists = graph.buffer(
+    const BufferHandle counts = scope.buffer("later_bounces.counts", {.sizeBytes = runs * 8ull});
+    const BufferHandle lists = scope.buffer(
         "later_bounces.lists",
         {.sizeBytes = uint64_t(runs) * io::kLightLists * vals.count * 4, .texelFormat = VK_FORMAT_R32_UINT});
-    graph.compute("later_bounces.classify", "later_bounces/classify.comp")
+    scope.compute("later_bounces.classify", "later_bounces/classify.comp")
         .read("texels", light.texels)
         .read("vals", vals.vals)
         .read("shapes", vals.shapes)
@@ -71,7 +71,7 @@ void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& 
         .push(push)
         .dispatchGroups(runs);
     const auto gather = [&](std::string_view name, uint32_t list, ValShape shape) {
-        PassBuilder pass = graph.compute(name, "later_bounces/gather.comp");
+        PassBuilder pass = scope.compute(name, "later_bounces/gather.comp");
         pass.read("texels", light.texels)
             .read("vals", vals.vals)
             .read("shapes", vals.shapes)
@@ -90,17 +90,17 @@ void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& 
     gather("later_bounces.near", io::kNearList, shading.shape)
         .spec(5, true)
         .readWrite("irradiance", light.irradiance.current);
-    graph.output(light.irradiance.current);
+    scope.output(light.irradiance.current);
 }
 
-Irradiance addLaterShading(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& bounce1,
+Irradiance addLaterShading(GraphScope scope, const GBuffer& gbuffer, const Irradiance& bounce1,
                            const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
                            const ValShadingSettings& shading, uint32_t spacing) {
-    if (spacing == 1) return addValShading(graph, gbuffer, vals, isms, shading, kAllBouncesShading);
-    const GBuffer thinner = addThinned(graph, gbuffer, spacing, kLaterThinning);
+    if (spacing == 1) return addValShading(scope, gbuffer, vals, isms, shading, kAllBouncesShading);
+    const GBuffer thinner = addThinned(scope, gbuffer, spacing, kLaterThinning);
     const Irradiance later =
-        addValShading(graph, thinner, laterVals(vals, firstLater), isms, shading, kLaterShading);
-    return addUpsampling(graph, gbuffer, thinner, later, kLaterUpsampling, bounce1);
+        addValShading(scope, thinner, laterVals(vals, firstLater), isms, shading, kLaterShading);
+    return addUpsampling(scope, gbuffer, thinner, later, kLaterUpsampling, bounce1);
 }
 
 }  // namespace ag::gi

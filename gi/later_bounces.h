@@ -37,17 +37,17 @@ struct LaterLight {
     float share = 0;
 };
 
-LaterLight addLaterLight(FrameGraph& graph, const SceneView& scene, const LaterBouncesSettings& settings,
+LaterLight addLaterLight(GraphScope scope, const SceneView& scene, const LaterBouncesSettings& settings,
                          Settling& settling);
 
 // What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
 // for later bounces.
-void addLaterIrradiance(FrameGraph& graph, const LaterLight& light, const Vals& vals, uint32_t firstLater,
+void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Vals& vals, uint32_t firstLater,
                         const IsmAtlas& isms, const LaterBouncesSettings& settings);
 
 // `bounce1`, of the pixels of `gbuffer`, and what the lights from `firstLater` on add to it. That is
 // smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
-Irradiance addLaterShading(FrameGraph& graph, const GBuffer& gbuffer, const Irradiance& bounce1,
+Irradiance addLaterShading(GraphScope scope, const GBuffer& gbuffer, const Irradiance& bounce1,
                            const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
                            const ValShadingSettings& shading, uint32_t spacing);
 

@@ -29,9 +29,9 @@ struct WorkListNames {
 };
 
 // An empty list for at most so many; `none`: the groups dispatched for it.
-WorkList addWorkList(FrameGraph& graph, const WorkListNames& names, uint32_t most, glm::uvec3 none);
+WorkList addWorkList(GraphScope scope, const WorkListNames& names, uint32_t most, glm::uvec3 none);
 
 // An empty list for at most every pixel of an image of `size`.
-PixelList addPixelList(FrameGraph& graph, const PixelListNames& names, glm::uvec2 size);
+PixelList addPixelList(GraphScope scope, const PixelListNames& names, glm::uvec2 size);
 
 }  // namespace ag::gi

@@ -14,15 +14,15 @@ uint64_t idOf(uint32_t low, uint32_t high) {
 }
 
 // Rows in powers of two, so that a probe more does not make a new buffer.
-BufferHandle uploadProbes(FrameGraph& graph, std::span<const RenderProbe> probes) {
+BufferHandle uploadProbes(GraphScope scope, std::span<const RenderProbe> probes) {
     const uint32_t room = std::bit_ceil(std::max(uint32_t(probes.size()), 16u));
-    const BufferHandle buffer = graph.buffer("probes.points", {.sizeBytes = room * sizeof(io::Probe)});
+    const BufferHandle buffer = scope.buffer("probes.points", {.sizeBytes = room * sizeof(io::Probe)});
     static thread_local std::vector<io::Probe> rows;  // keeps its memory from frame to frame
     rows.clear();
     for (const RenderProbe& p : probes)
         rows.push_back({p.position, uint32_t(p.id), p.normal, uint32_t(p.id >> 32)});
     rows.resize(room, {.idLow = uint32_t(kNoProbe), .idHigh = uint32_t(kNoProbe >> 32)});
-    graph.upload("probes.points", buffer, std::as_bytes(std::span(rows)));
+    scope.upload("probes.points", buffer, std::as_bytes(std::span(rows)));
     return buffer;
 }
 
@@ -52,16 +52,16 @@ void ProbeReadings::setDark(std::span<const RenderProbe> probes) {
     std::ranges::sort(rows_, {}, &Row::id);
 }
 
-void addProbes(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
+void addProbes(GraphScope scope, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
                const IsmAtlas& isms, const ProbeSettings& settings, ProbeReadings& known) {
     std::span<const RenderProbe> probes = scene.scene->probes;
     if (probes.empty()) return known.clear();
     if (rsm.empty() || vals.count == 0) return known.setDark(probes);
     probes = probes.first(std::min<size_t>(probes.size(), kMostProbes));
-    const BufferHandle points = uploadProbes(graph, probes);
-    const uint64_t room = graph.info(points).sizeBytes / sizeof(io::Probe);
-    const BufferHandle rows = graph.buffer("probes.rows", {.sizeBytes = room * sizeof(io::ProbeRow)});
-    graph.compute("probes.evaluate", "probes/evaluate_probes.comp")
+    const BufferHandle points = uploadProbes(scope, probes);
+    const uint64_t room = scope.info(points).sizeBytes / sizeof(io::Probe);
+    const BufferHandle rows = scope.buffer("probes.rows", {.sizeBytes = room * sizeof(io::ProbeRow)});
+    scope.compute("probes.evaluate", "probes/evaluate_probes.comp")
         .read("vals", vals.vals)
         .read("shapes", vals.shapes)
         .read("isms", isms.planes ? isms.planes : vals.vals)
@@ -76,7 +76,7 @@ void addProbes(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, con
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
-    known.set(graph.readBack(kProbeCopies, rows), scene.units.light);
+    known.set(scope.readBack(kProbeCopies, rows), scene.units.light);
 }
 
 }  // namespace ag::gi

@@ -52,7 +52,7 @@ class ProbeReadings {
 constexpr std::array<std::string_view, kFramesInFlight> kProbeCopies = {"probes.read0", "probes.read1"};
 
 // Measures the scene's probes and updates `known`. Without probes nothing is declared.
-void addProbes(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
+void addProbes(GraphScope scope, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
                const IsmAtlas& isms, const ProbeSettings& settings, ProbeReadings& known);
 
 }  // namespace ag::gi

@@ -13,35 +13,36 @@ namespace {
 constexpr PixelListNames kCreasedTexels = {"rsm.creased", "rsm.none_creased", "rsm.groups", "rsm.no_groups"};
 
 template <class T>
-BufferHandle uploadItems(FrameGraph& graph, const char* name, std::span<const T> items) {
+BufferHandle uploadItems(GraphScope scope, const char* name, std::span<const T> items) {
     const BufferHandle buffer =
-        graph.buffer(name, {.sizeBytes = items.size_bytes(), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.upload(name, buffer, std::as_bytes(items));
+        scope.buffer(name, {.sizeBytes = items.size_bytes(), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    scope.upload(name, buffer, std::as_bytes(items));
     return buffer;
 }
 
-void addRaster(FrameGraph& graph, const SceneView& scene, RsmSet& rsm) {
-    PassBuilder pass = graph.raster("rsm.render", "gbuffer/fill.vert", "rsm/render.frag",
+void addRaster(GraphScope scope, const SceneView& scene, RsmSet& rsm) {
+    PassBuilder pass = scope.raster("rsm.render", "gbuffer/fill.vert", "rsm/render.frag",
                                     gpu::VertexLayout::kPositionsAndAttributes);
     pass.colorClear(rsm.normal, glm::vec4(0)).colorClear(rsm.albedo, glm::vec4(0)).depthClear(rsm.depth);
     pass.geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
+    const uint32_t slot = scene.slots.firstLightMap;
     std::array<ViewRequest, io::kMaxRsmFaces> views;
     for (uint32_t f = 0; f < rsm.lightFaceCount; ++f)
-        views[f] = {scene.viewsClaimed + f, rsm.faceInfo[f].clipFromWorld};
+        views[f] = {slot + f, rsm.faceInfo[f].clipFromWorld};
     scene.draws->cullAll(*scene.scene, {views.data(), rsm.lightFaceCount});
     for (uint32_t f = 0; f < rsm.lightFaceCount; ++f) {
         const io::RsmFace& face = rsm.faceInfo[f];
-        const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), face.clipFromWorld);
+        const ViewDraws& draws = scene.draws->cull(*scene.scene, slot + f, face.clipFromWorld);
         rsm.inputsVersion = combineHash(rsm.inputsVersion, draws.version);
         drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size},
                  DrawFilter::kAll, Viewer::kLight);
     }
 }
 
-void addTexels(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later) {
-    const PixelList creased = addPixelList(graph, kCreasedTexels, rsm.atlas.size);
-    graph.compute("rsm.build_texels", "rsm/build_texels.comp")
+void addTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) {
+    const PixelList creased = addPixelList(scope, kCreasedTexels, rsm.atlas.size);
+    scope.compute("rsm.build_texels", "rsm/build_texels.comp")
         .sample("normalMap", rsm.normal)
         .sample("albedoMap", rsm.albedo)
         .sample("depthMap", rsm.depth)
@@ -55,7 +56,7 @@ void addTexels(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later) {
         .readWrite("listedGroups", creased.groups)
         .push(rsm.atlas)
         .dispatchGroups(rsm.tileCount);
-    graph.compute("rsm.trim_texels", "rsm/trim_texels.comp")
+    scope.compute("rsm.trim_texels", "rsm/trim_texels.comp")
         .read("texels", rsm.texels)
         .read("tileMaps", rsm.tileMaps)
         .read("faces", rsm.faces)
@@ -68,7 +69,7 @@ void addTexels(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later) {
 
 }  // namespace
 
-RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
+RsmSet addRsm(GraphScope scope, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
               const LaterLight& later, ClusterShares& shares) {
     RsmSet rsm;
     const RsmLayout layout =
@@ -86,20 +87,20 @@ RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& sett
     rsm.inputsVersion = combineHash(hashBytes(std::as_bytes(faces)), hashBytes(std::as_bytes(maps)));
 
     rsm.normal =
-        graph.image("rsm.normal", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
+        scope.image("rsm.normal", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
     rsm.albedo =
-        graph.image("rsm.albedo", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
-    rsm.depth = graph.image("rsm.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = layout.atlasSize});
-    addRaster(graph, scene, rsm);
+        scope.image("rsm.albedo", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
+    rsm.depth = scope.image("rsm.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = layout.atlasSize});
+    addRaster(scope, scene, rsm);
 
-    rsm.faces = uploadItems<io::RsmFace>(graph, "rsm.faces", rsm.faceInfo);
-    rsm.maps = uploadItems<io::RsmMap>(graph, "rsm.maps", rsm.mapInfo);
+    rsm.faces = uploadItems<io::RsmFace>(scope, "rsm.faces", rsm.faceInfo);
+    rsm.maps = uploadItems<io::RsmMap>(scope, "rsm.maps", rsm.mapInfo);
     const uint64_t texelCount = uint64_t(layout.atlasSize.x) * layout.atlasSize.y;
     const BufferInfo texels{.sizeBytes = texelCount * sizeof(io::RsmTexel),
                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};
-    rsm.texels = graph.buffer("rsm.texels", texels);
-    rsm.tileMaps = graph.buffer("rsm.tile_maps", {.sizeBytes = rsm.tileCount * sizeof(uint32_t)});
-    addTexels(graph, rsm, later);
+    rsm.texels = scope.buffer("rsm.texels", texels);
+    rsm.tileMaps = scope.buffer("rsm.tile_maps", {.sizeBytes = rsm.tileCount * sizeof(uint32_t)});
+    addTexels(scope, rsm, later);
     return rsm;
 }
 

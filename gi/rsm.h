@@ -55,7 +55,7 @@ struct ClusterShares {
 
 // `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each. `later`: one more
 // map.
-RsmSet addRsm(FrameGraph& graph, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
+RsmSet addRsm(GraphScope scope, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
               const LaterLight& later, ClusterShares& shares);
 
 }  // namespace ag::gi

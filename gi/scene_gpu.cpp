@@ -40,16 +40,6 @@ io::Material materialRow(const Material& m, RenderUnits units) {
             .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], 0.0f}};
 }
 
-// The camera, what moved in it, and for each light at most a cube of RSM faces and one of shadow views.
-uint64_t viewsNeeded(const RenderScene& scene) {
-    uint64_t views = 2 + 6 * uint64_t(mostClustersNeeded(scene, kMostLampClusters));
-    for (const RenderLight& light : scene.lights) {
-        if (light.bounces) views += light.kind == LightKind::kPoint ? 6 : 1;
-        if (light.kind == LightKind::kDirectional) views += io::kMaxCascades;
-    }
-    return views;
-}
-
 // A class without textures still needs something bound: one black texel.
 std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, VkFormat format, uint32_t size,
                                        const std::vector<std::vector<uint8_t>>& layers) {
@@ -97,15 +87,14 @@ void transferBarrier(VkCommandBuffer commands, Transfer when) {
 
 }  // namespace
 
-BufferHandle addCamera(FrameGraph& graph, std::string_view name, const RenderCamera& camera,
-                       glm::uvec2 size) {
+BufferHandle addCamera(GraphScope scope, std::string_view name, const RenderCamera& camera, glm::uvec2 size) {
     const io::CameraConstants constants{.clipFromWorld = camera.clipFromWorld,
                                         .worldFromClip = camera.worldFromClip,
                                         .position = camera.position,
                                         .near = camera.near,
                                         .size = size};
-    const BufferHandle buffer = graph.buffer(name, {.sizeBytes = sizeof constants});
-    graph.upload(name, buffer, std::as_bytes(std::span(&constants, 1)));
+    const BufferHandle buffer = scope.buffer(name, {.sizeBytes = sizeof constants});
+    scope.upload(name, buffer, std::as_bytes(std::span(&constants, 1)));
     return buffer;
 }
 
@@ -175,7 +164,7 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
     previousInstances_ =
         grown(std::move(previousInstances_), "scene.previous_instances", rowBytes, kVec4Texels, false);
     const uint64_t commandBytes =
-        std::max<uint64_t>(viewsNeeded(scene) * std::max<uint64_t>(scene.instances.size(), 1) *
+        std::max<uint64_t>(uint64_t(viewSlots(scene).count) * std::max<uint64_t>(scene.instances.size(), 1) *
                                sizeof(VkDrawIndexedIndirectCommand),
                            64);
     const gpu::Buffer* commandsBefore = commands_.get();
@@ -217,7 +206,20 @@ void SceneGpu::noteMovements(const RenderScene& scene) {
     notedVersion_ = scene.instancesVersion;
 }
 
-SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size) {
+ViewSlots viewSlots(const RenderScene& scene) {
+    uint32_t lightMaps = 0, cascades = 0;
+    for (const RenderLight& light : scene.lights) {
+        if (light.bounces) lightMaps += light.kind == LightKind::kPoint ? 6 : 1;
+        if (light.kind == LightKind::kDirectional) cascades += io::kMaxCascades;
+    }
+    ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .firstLightMap = 3};
+    s.firstCascade = s.firstLightMap + lightMaps;
+    s.firstLamp = s.firstCascade + cascades;
+    s.count = s.firstLamp + 6 * mostClustersNeeded(scene, kMostLampClusters);
+    return s;
+}
+
+SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
@@ -225,40 +227,41 @@ SceneView SceneGpu::import(FrameGraph& graph, const RenderScene& scene, glm::uve
     noteMovements(scene);
     SceneView view{.scene = &scene,
                    .draws = &draws_,
+                   .slots = viewSlots(scene),
                    .size = size,
                    .hasEmissive = strongestEmission_ > 0,
                    .hasGlossy = hasGlossy_,
                    .hasNormalMaps = hasNormalMaps_};
-    view.skin = skin_.import(graph, scene, *positions_, *attributes_);
+    view.skin = skin_.import(scope, scene, *positions_, *attributes_);
     view.loadedVersion = combineHash(geometryVersion_, loads_);
     view.geometry = {positions_.get(), attributes_.get(),           indices_.get(),
                      geometryVersion_, view.skin.deformedPositions, view.skin.deformedAttributes};
     // Constant versions: what a view draws of them is in its draws' versions.
-    view.instances = graph.importBuffer("scene.instances", *instances_, 1);
-    view.previousInstances = graph.importBuffer("scene.previous_instances", *previousInstances_, 1);
+    view.instances = scope.importBuffer("scene.instances", *instances_, 1);
+    view.previousInstances = scope.importBuffer("scene.previous_instances", *previousInstances_, 1);
     const bool follows = !scene.allInstancesChanged && instancesVersion_ != 0 &&
                          instancesVersion_ + 1 == scene.instancesVersion;
     if (follows) view.moved = scene.changedInstances;
-    view.commands = graph.importBuffer("scene.commands", *commands_, 1);
-    view.materials = graph.importBuffer("scene.materials", *materials_, materialsVersion_);
+    view.commands = scope.importBuffer("scene.commands", *commands_, 1);
+    view.materials = scope.importBuffer("scene.materials", *materials_, materialsVersion_);
     static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024",
                                               "scene.srgb2048"};
     static constexpr std::array kLinearNames = {"scene.linear256", "scene.linear512", "scene.linear1024",
                                                 "scene.linear2048"};
     for (size_t c = 0; c < 4; ++c) {
-        view.srgbTextures[c] = graph.importImage(kSrgbNames[c], *srgb_[c], geometryVersion_);
-        view.linearTextures[c] = graph.importImage(kLinearNames[c], *linear_[c], geometryVersion_);
+        view.srgbTextures[c] = scope.importImage(kSrgbNames[c], *srgb_[c], geometryVersion_);
+        view.linearTextures[c] = scope.importImage(kLinearNames[c], *linear_[c], geometryVersion_);
     }
     if (sampleCount_ > 0) {
-        view.pointAreas = graph.importBuffer("scene.point_areas", *pointAreas_, sampledSet_);
-        view.surfaceSamples = graph.importBuffer("scene.surface_samples", *samples_, sampledSet_);
+        view.pointAreas = scope.importBuffer("scene.point_areas", *pointAreas_, sampledSet_);
+        view.surfaceSamples = scope.importBuffer("scene.surface_samples", *samples_, sampledSet_);
         view.surfaceSampleCount = sampleCount_;
-        view.bouncePoints = graph.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
+        view.bouncePoints = scope.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
         view.bouncePointCount = bouncePointCount_;
         view.stillSampleCount = stillSampleCount_;
         view.stillVersion = combineHash(combineHash(sampledSet_, stillVersion_), scene.originVersion);
     }
-    view.camera = addCamera(graph, "scene.camera", scene.camera, size);
+    view.camera = addCamera(scope, "scene.camera", scene.camera, size);
     return view;
 }
 
@@ -320,11 +323,12 @@ void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scen
     instancesVersion_ = scene.instancesVersion;
 }
 
-void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, uint32_t frameSlot) {
+void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, Previous previous,
+                      uint32_t frameSlot) {
     const RenderScene& scene = *view.scene;
     uploadedBytes_ = 0;
     staging_[frameSlot].used = 0;
-    if (view.readsPrevious) keepPrevious(commands, view);
+    if (previous == Previous::kKept) keepPrevious(commands, view);
     uploadInstances(commands, scene, frameSlot);
     if (view.skin)
         skin_.upload(scene, [&](std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {

@@ -17,10 +17,21 @@
 
 namespace ag::gi {
 
+// Of DrawLists, by what is drawn into them: the same from frame to frame as long as lights are, so that what
+// is culled for them lasts.
+struct ViewSlots {
+    uint32_t camera = 0, moved = 0, everything = 0;
+    uint32_t firstLightMap = 0, firstCascade = 0, firstLamp = 0;  // a row each
+    uint32_t count = 0;
+};
+// For each light at most a cube of light maps and one of shadow views.
+ViewSlots viewSlots(const RenderScene& scene);
+
 // Handles of this frame's scene, and what the techniques need to declare draws.
 struct SceneView {
     const RenderScene* scene = nullptr;
     DrawLists* draws = nullptr;
+    ViewSlots slots;
     Geometry geometry;
     uint64_t loadedVersion = 0;  // of the geometry loaded, unlike any before
     SkinView skin;
@@ -45,14 +56,10 @@ struct SceneView {
     BufferHandle bouncePoints;        // io::BouncePoint: some of the samples
     uint32_t bouncePointCount = 0;    // a square of a power of two, or 0
     uint64_t stillVersion = 0;        // changes when an instance that is not movable may have moved
-    mutable uint32_t viewsClaimed = 0;
-    mutable bool readsPrevious = false;  // a pass does, so that previousInstances must be kept
-    // The next free slot of DrawLists; claimed in the same order every frame.
-    uint32_t claimView() const { return viewsClaimed++; }
 };
 
 // io::CameraConstants of an image of so many pixels.
-BufferHandle addCamera(FrameGraph& graph, std::string_view name, const RenderCamera& camera, glm::uvec2 size);
+BufferHandle addCamera(GraphScope scope, std::string_view name, const RenderCamera& camera, glm::uvec2 size);
 
 class SceneGpu {
   public:
@@ -69,9 +76,11 @@ class SceneGpu {
 
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
-    SceneView import(FrameGraph& graph, const RenderScene& scene, glm::uvec2 size);
+    SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size);
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
-    void upload(VkCommandBuffer commands, const SceneView& view, uint32_t frameSlot);
+    // `previous`: whether a pass reads where things were in the frame before.
+    enum class Previous : uint8_t { kUnread, kKept };
+    void upload(VkCommandBuffer commands, const SceneView& view, Previous previous, uint32_t frameSlot);
 
     DrawLists& draws() { return draws_; }
     uint64_t uploadedBytes() const { return uploadedBytes_; }  // in the last frame

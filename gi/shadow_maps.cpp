@@ -71,13 +71,14 @@ struct Cascades {
 Cascades cullCascades(const SceneView& scene, std::span<io::ShadowView> views, uint32_t tile) {
     const Atlas atlas = atlasOf(tile, uint32_t(views.size()));
     Cascades c{.views = views, .atlasSize = atlas.size()};
+    const uint32_t slot = scene.slots.firstCascade;
     std::array<ViewRequest, io::kMaxShadowViews> requests;
     for (uint32_t v = 0; v < views.size(); ++v)
-        requests[v] = {scene.viewsClaimed + v, views[v].clipFromWorld};
+        requests[v] = {slot + v, views[v].clipFromWorld};
     scene.draws->cullAll(*scene.scene, {requests.data(), views.size()});
     for (uint32_t v = 0; v < views.size(); ++v) {
         views[v].origin = atlas.place(v);
-        c.draws[v] = &scene.draws->cull(*scene.scene, scene.claimView(), views[v].clipFromWorld);
+        c.draws[v] = &scene.draws->cull(*scene.scene, slot + v, views[v].clipFromWorld);
     }
     return c;
 }
@@ -97,10 +98,10 @@ void drawCascades(PassBuilder& pass, const SceneView& scene, const Cascades& c, 
 }
 
 // Masked surfaces need their textures: a second pass over the same atlas, only where the scene has any.
-void addLayer(FrameGraph& graph, const SceneView& scene, const Cascades& c, DrawLayer layer,
+void addLayer(GraphScope scope, const SceneView& scene, const Cascades& c, DrawLayer layer,
               const LayerNames& names, ImageHandle image) {
     PassBuilder opaque =
-        graph.raster(names.opaque, "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
+        scope.raster(names.opaque, "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
     if (layer == DrawLayer::kMovable)
         opaque.depth(image);  // over what stands still
     else
@@ -108,7 +109,7 @@ void addLayer(FrameGraph& graph, const SceneView& scene, const Cascades& c, Draw
     opaque.geometry(scene.geometry).read("instances", scene.instances);
     drawCascades(opaque, scene, c, DrawFilter::kOpaqueOnly, layer);
     if (!hasMasked(scene)) return;
-    PassBuilder masked = graph.raster(names.masked, "shadow_maps/masked.vert", "shadow_maps/masked.frag",
+    PassBuilder masked = scope.raster(names.masked, "shadow_maps/masked.vert", "shadow_maps/masked.frag",
                                       gpu::VertexLayout::kPositionsAndUvs);
     masked.depth(image).geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(masked, scene);
@@ -131,24 +132,23 @@ bool chooseLayered(const Cascades& c, SunShadowHistory& h) {
     return h.layered;
 }
 
-ImageHandle addAtlas(FrameGraph& graph, const SceneView& scene, const Cascades& c,
-                     SunShadowHistory& history) {
+ImageHandle addAtlas(GraphScope scope, const SceneView& scene, const Cascades& c, SunShadowHistory& history) {
     const ImageInfo info{.format = VK_FORMAT_D32_SFLOAT, .size = c.atlasSize};
-    const ImageHandle atlas = graph.image("shadow_maps.atlas", info);
+    const ImageHandle atlas = scope.image("shadow_maps.atlas", info);
     if (!chooseLayered(c, history)) {
-        addLayer(graph, scene, c, DrawLayer::kAll, kAllNames, atlas);
+        addLayer(scope, scene, c, DrawLayer::kAll, kAllNames, atlas);
         return atlas;
     }
-    const ImageHandle still = graph.image("shadow_maps.still_atlas", info);
-    addLayer(graph, scene, c, DrawLayer::kStill, kStillNames, still);
-    graph.copyImage("shadow_maps.copy", still, atlas);
-    addLayer(graph, scene, c, DrawLayer::kMovable, kMovableNames, atlas);
+    const ImageHandle still = scope.image("shadow_maps.still_atlas", info);
+    addLayer(scope, scene, c, DrawLayer::kStill, kStillNames, still);
+    scope.copyImage("shadow_maps.copy", still, atlas);
+    addLayer(scope, scene, c, DrawLayer::kMovable, kMovableNames, atlas);
     return atlas;
 }
 
 }  // namespace
 
-ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const ShadowMapSettings& settings,
+ShadowMaps addSunShadows(GraphScope scope, const SceneView& scene, const ShadowMapSettings& settings,
                          SunShadowHistory& history) {
     ShadowMaps maps;
     Views views;
@@ -162,9 +162,9 @@ ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const Shadow
     }
     if (views.count == 0) return maps;
     const std::span all(views.items.data(), views.count);
-    maps.atlas = addAtlas(graph, scene, cullCascades(scene, all, settings.resolution), history);
-    maps.views = graph.buffer("shadow_maps.views", {.sizeBytes = sizeof views.items});
-    graph.upload("shadow_maps.views", maps.views, std::as_bytes(std::span(views.items)));
+    maps.atlas = addAtlas(scope, scene, cullCascades(scene, all, settings.resolution), history);
+    maps.views = scope.buffer("shadow_maps.views", {.sizeBytes = sizeof views.items});
+    scope.upload("shadow_maps.views", maps.views, std::as_bytes(std::span(views.items)));
     return maps;
 }
 

@@ -38,7 +38,7 @@ struct SunShadowHistory {
     bool layered = false;
 };
 
-ShadowMaps addSunShadows(FrameGraph& graph, const SceneView& scene, const ShadowMapSettings& settings,
+ShadowMaps addSunShadows(GraphScope scope, const SceneView& scene, const ShadowMapSettings& settings,
                          SunShadowHistory& history);
 
 }  // namespace ag::gi

@@ -66,22 +66,22 @@ void SkinGpu::makeBuffers(const RenderScene& scene) {
     uploadedPoses_.assign(scene.figures.size(), 0);
 }
 
-SkinView SkinGpu::import(FrameGraph& graph, const RenderScene& scene, const gpu::Buffer& positions,
+SkinView SkinGpu::import(GraphScope scope, const RenderScene& scene, const gpu::Buffer& positions,
                          const gpu::Buffer& attributes) {
     if (scene.figures.empty() || scene.joints.empty() || deformedCount(scene) == 0) return {};
     const uint64_t table = hashTable(scene);
     if (std::exchange(tableVersion_, table) != table) makeBuffers(scene);
     const uint64_t vertices = deformedCount(scene);
-    SkinView view{.figures = graph.importBuffer("skinning.figures", *figures_, table),
-                  .groups = graph.importBuffer("skinning.groups", *groups_, table),
-                  .joints = graph.importBuffer("skinning.joints", *joints_, 1),
-                  .previousJoints = graph.importBuffer("skinning.previous_joints", *previousJoints_, 1),
-                  .skin = graph.importBuffer("skinning.skin", *skin_, geometryVersion_),
-                  .positions = graph.importBuffer("scene.positions", positions, geometryVersion_),
-                  .attributes = graph.importBuffer("scene.attributes", attributes, geometryVersion_)};
+    SkinView view{.figures = scope.importBuffer("skinning.figures", *figures_, table),
+                  .groups = scope.importBuffer("skinning.groups", *groups_, table),
+                  .joints = scope.importBuffer("skinning.joints", *joints_, 1),
+                  .previousJoints = scope.importBuffer("skinning.previous_joints", *previousJoints_, 1),
+                  .skin = scope.importBuffer("skinning.skin", *skin_, geometryVersion_),
+                  .positions = scope.importBuffer("scene.positions", positions, geometryVersion_),
+                  .attributes = scope.importBuffer("scene.attributes", attributes, geometryVersion_)};
     view.deformedPositions =
-        graph.buffer("skinning.positions", {.sizeBytes = vertices * sizeof(glm::vec3), .vertices = true});
-    view.deformedAttributes = graph.buffer(
+        scope.buffer("skinning.positions", {.sizeBytes = vertices * sizeof(glm::vec3), .vertices = true});
+    view.deformedAttributes = scope.buffer(
         "skinning.attributes", {.sizeBytes = vertices * sizeof(VertexAttributes), .vertices = true});
     return view;
 }
@@ -132,10 +132,10 @@ uint64_t SkinGpu::deviceBytes() const {
     return bytes;
 }
 
-void addSkinning(FrameGraph& graph, const SceneView& scene) {
+void addSkinning(GraphScope scope, const SceneView& scene) {
     const SkinView& s = scene.skin;
     if (!s) return;
-    PassBuilder pass = graph.compute("skinning.deform", "skinning/deform.comp");
+    PassBuilder pass = scope.compute("skinning.deform", "skinning/deform.comp");
     pass.read("groups", s.groups)
         .read("figures", s.figures)
         .read("joints", s.joints)

@@ -33,7 +33,7 @@ class SkinGpu {
     explicit SkinGpu(gpu::Device& device) : device_(device) {}
 
     void load(const GeometryArrays& geometry);
-    SkinView import(FrameGraph& graph, const RenderScene& scene, const gpu::Buffer& positions,
+    SkinView import(GraphScope scope, const RenderScene& scene, const gpu::Buffer& positions,
                     const gpu::Buffer& attributes);
 
     // Copies of joints to be made before new ones take their place.
@@ -56,7 +56,7 @@ class SkinGpu {
     std::vector<uint64_t> uploadedPoses_;  // by figure
 };
 
-void addSkinning(FrameGraph& graph, const SceneView& scene);
+void addSkinning(GraphScope scope, const SceneView& scene);
 // The bindings of a shader with AG_FIGURES; none if there are none.
 void readFigures(PassBuilder& pass, const SkinView& skin);
 

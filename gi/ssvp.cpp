@@ -15,11 +15,11 @@ struct Clustered {
     BufferHandle owners;    // uint a light
 };
 
-Clustered addClusters(FrameGraph& graph, const RsmSet& rsm, uint32_t firstCount, uint32_t clusterCount,
+Clustered addClusters(GraphScope scope, const RsmSet& rsm, uint32_t firstCount, uint32_t clusterCount,
                       uint32_t rounds) {
     Clustered c;
-    c.first = graph.buffer("ssvp.first", {.sizeBytes = firstCount * sizeof(io::Val)});
-    graph.compute("ssvp.sample_first", "ssvp/sample_first.comp")
+    c.first = scope.buffer("ssvp.first", {.sizeBytes = firstCount * sizeof(io::Val)});
+    scope.compute("ssvp.sample_first", "ssvp/sample_first.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
@@ -27,10 +27,10 @@ Clustered addClusters(FrameGraph& graph, const RsmSet& rsm, uint32_t firstCount,
         .push(glm::uvec3(firstCount, rsm.atlas.size.x, rsm.atlas.mapCount))
         .dispatchThreads(firstCount);
     const HistoryBuffer clusters =
-        graph.historyBuffer("ssvp.clusters", {.sizeBytes = clusterCount * sizeof(io::SsvpCluster)});
+        scope.historyBuffer("ssvp.clusters", {.sizeBytes = clusterCount * sizeof(io::SsvpCluster)});
     c.clusters = clusters.current;
-    c.owners = graph.buffer("ssvp.owners", {.sizeBytes = firstCount * sizeof(uint32_t)});
-    graph.compute("ssvp.cluster", "ssvp/cluster_vpls.comp")
+    c.owners = scope.buffer("ssvp.owners", {.sizeBytes = firstCount * sizeof(uint32_t)});
+    scope.compute("ssvp.cluster", "ssvp/cluster_vpls.comp")
         .read("vpls", c.first)
         .readPrevious("before", clusters)
         .write("clusters", c.clusters)
@@ -45,17 +45,17 @@ struct Paraboloids {
 };
 
 // Where the clusters are is known to the device alone, so every cluster draws the whole scene.
-Paraboloids addMaps(FrameGraph& graph, const SceneView& scene, BufferHandle clusters, uint32_t clusterCount,
+Paraboloids addMaps(GraphScope scope, const SceneView& scene, BufferHandle clusters, uint32_t clusterCount,
                     uint32_t mapSize) {
     const uint32_t columns = std::min(clusterCount, io::kSsvpMapColumns);
     const glm::uvec2 size =
         glm::uvec2(columns, (clusterCount + io::kSsvpMapColumns - 1) / io::kSsvpMapColumns) * mapSize;
     const Paraboloids maps{
-        graph.image("ssvp.positions", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size}),
-        graph.image("ssvp.normals", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size}),
-        graph.image("ssvp.albedos", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size}),
-        graph.image("ssvp.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = size})};
-    PassBuilder pass = graph.raster("ssvp.render_maps", "ssvp/render_maps.vert", "ssvp/render_maps.frag",
+        scope.image("ssvp.positions", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = size}),
+        scope.image("ssvp.normals", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size}),
+        scope.image("ssvp.albedos", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size}),
+        scope.image("ssvp.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = size})};
+    PassBuilder pass = scope.raster("ssvp.render_maps", "ssvp/render_maps.vert", "ssvp/render_maps.frag",
                                     gpu::VertexLayout::kPositionsAndAttributes);
     pass.colorClear(maps.position, glm::vec4(0))
         .colorClear(maps.normal, glm::vec4(0))
@@ -67,7 +67,7 @@ Paraboloids addMaps(FrameGraph& graph, const SceneView& scene, BufferHandle clus
     bindMaterials(pass, scene);
     const Bounds& bounds = scene.scene->bounds;
     const glm::mat4 everything = sunView({0, -1, 0}, bounds, 0.1f).clipFromWorld;
-    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.claimView(), everything);
+    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.slots.everything, everything);
     for (uint32_t c = 0; c < clusterCount; ++c) {
         const struct {
             uint32_t cluster;
@@ -82,30 +82,30 @@ Paraboloids addMaps(FrameGraph& graph, const SceneView& scene, BufferHandle clus
 
 }  // namespace
 
-Ssvp addSsvp(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, uint32_t firstCount,
+Ssvp addSsvp(GraphScope scope, const SceneView& scene, const RsmSet& rsm, uint32_t firstCount,
              const SsvpSettings& s) {
     if (rsm.empty()) return {};
     firstCount = std::min(firstCount, io::kMostSsvpVpls);
     const uint32_t clusterCount = std::clamp(s.clusters, 1u, io::kMostSsvpClusters);
-    const Clustered c = addClusters(graph, rsm, firstCount, clusterCount, s.rounds);
-    const Paraboloids maps = addMaps(graph, scene, c.clusters, clusterCount, s.mapSize);
+    const Clustered c = addClusters(scope, rsm, firstCount, clusterCount, s.rounds);
+    const Paraboloids maps = addMaps(scope, scene, c.clusters, clusterCount, s.mapSize);
     Ssvp result{.firstCount = firstCount};
     result.maps = {
         .mapCount = clusterCount, .tileSize = s.mapSize, .mapping = IsmMapping::kParaboloid, .shared = true};
     result.maps.planes =
-        graph.buffer("ssvp.planes", {.sizeBytes = uint64_t(clusterCount) * s.mapSize * s.mapSize * 16,
+        scope.buffer("ssvp.planes", {.sizeBytes = uint64_t(clusterCount) * s.mapSize * s.mapSize * 16,
                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.compute("ssvp.resolve_depths", "ssvp/resolve_depths.comp")
+    scope.compute("ssvp.resolve_depths", "ssvp/resolve_depths.comp")
         .sample("positions", maps.position)
         .read("clusters", c.clusters)
         .write("planes", result.maps.planes)
         .push(s.mapSize)
         .dispatchThreads(s.mapSize * s.mapSize, clusterCount);
-    result.vals = allocateVals(graph, "ssvp.vals", "ssvp.shapes", firstCount + s.secondCount);
+    result.vals = allocateVals(scope, "ssvp.vals", "ssvp.shapes", firstCount + s.secondCount);
     struct Push {
         uint32_t firstCount, secondCount, valCount, clusterCount, mapSize;
     };
-    graph.compute("ssvp.list_vpls", "ssvp/list_vpls.comp")
+    scope.compute("ssvp.list_vpls", "ssvp/list_vpls.comp")
         .read("first", c.first)
         .read("clusters", c.clusters)
         .read("owners", c.owners)

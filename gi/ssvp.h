@@ -27,7 +27,7 @@ struct Ssvp {
 };
 
 // `firstCount` lights of the first bounce, as the light maps share them.
-Ssvp addSsvp(FrameGraph& graph, const SceneView& scene, const RsmSet& rsm, uint32_t firstCount,
+Ssvp addSsvp(GraphScope scope, const SceneView& scene, const RsmSet& rsm, uint32_t firstCount,
              const SsvpSettings& settings);
 
 }  // namespace ag::gi

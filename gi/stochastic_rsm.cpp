@@ -28,7 +28,7 @@ constexpr PixelListNames kList = {"stochastic_rsm.list", "stochastic_rsm.empty_l
 
 // Directions and radii in the unit disk, dense in its middle. Samples that take turns between disk and whole
 // map are two patterns.
-BufferHandle addPattern(FrameGraph& graph, uint32_t samples, bool takeTurns) {
+BufferHandle addPattern(GraphScope scope, uint32_t samples, bool takeTurns) {
     std::array<glm::vec4, kMostSamples> points;  // 64 KiB
     for (uint32_t i = 0; i < samples; ++i) {
         const glm::vec2 xi =
@@ -37,9 +37,9 @@ BufferHandle addPattern(FrameGraph& graph, uint32_t samples, bool takeTurns) {
         points[i] = {std::cos(angle), std::sin(angle), xi.x, xi.y};
     }
     const auto bytes = std::as_bytes(std::span(points.data(), samples));
-    const BufferHandle buffer = graph.buffer(
+    const BufferHandle buffer = scope.buffer(
         "stochastic_rsm.pattern", {.sizeBytes = bytes.size(), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    graph.upload("stochastic_rsm.pattern", buffer, bytes);
+    scope.upload("stochastic_rsm.pattern", buffer, bytes);
     return buffer;
 }
 
@@ -59,11 +59,11 @@ struct Inputs {
 };
 
 // One pass a map; `add`: on top of what the image holds.
-PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in, uint32_t map,
+PassBuilder addGather(GraphScope scope, std::string_view name, const Inputs& in, uint32_t map,
                       ImageHandle image, uint32_t step, bool listed, bool add) {
     const IsmAtlas& isms = in.visibility.isms;
     const bool visible = in.settings.visible && bool(isms.planes);
-    PassBuilder pass = graph.compute(
+    PassBuilder pass = scope.compute(
         name, visible ? "stochastic_rsm/gather_visible_samples.comp" : "stochastic_rsm/gather_samples.comp");
     if (visible)
         pass.read("slotOfTexel", in.visibility.clusters.slotOfTexel)
@@ -100,8 +100,8 @@ PassBuilder addGather(FrameGraph& graph, std::string_view name, const Inputs& in
 }
 
 // Blends the coarse image into `image` and lists the pixels that must be gathered.
-void addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle coarse, ImageHandle image) {
-    graph.compute("stochastic_rsm.interpolate", "stochastic_rsm/interpolate_samples.comp")
+void addInterpolation(GraphScope scope, const Inputs& in, ImageHandle coarse, ImageHandle image) {
+    scope.compute("stochastic_rsm.interpolate", "stochastic_rsm/interpolate_samples.comp")
         .sample("normalMap", in.gbuffer.normal)
         .sample("depthMap", in.gbuffer.depth)
         .read("camera", in.gbuffer.camera)
@@ -115,39 +115,39 @@ void addInterpolation(FrameGraph& graph, const Inputs& in, ImageHandle coarse, I
 
 }  // namespace
 
-Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addStochasticRsm(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                             const RsmSet& rsm, const SampleVisibility& visibility,
                             const StochasticRsmSettings& settings, Settling& settling) {
     if (rsm.empty()) return {};
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
     const Irradiance result{
-        graph.image("stochastic_rsm.irradiance", {.format = format, .size = gbuffer.size})};
+        scope.image("stochastic_rsm.irradiance", {.format = format, .size = gbuffer.size})};
     const uint64_t seen = combineHash(rsm.inputsVersion,
                                       combineHash(scene.scene->cameraVersion, scene.scene->instancesVersion));
     const uint32_t step = settings.random ? settling.advance(seen, settings.settleFrames) : 0;
     const Inputs in{.gbuffer = gbuffer,
                     .rsm = rsm,
                     .visibility = visibility,
-                    .pattern = addPattern(graph, settings.samples, settings.whole),
-                    .noise = addBlueNoise(graph),
-                    .list = addPixelList(graph, kList, settings.interpolate ? gbuffer.size : glm::uvec2(0)),
+                    .pattern = addPattern(scope, settings.samples, settings.whole),
+                    .noise = addBlueNoise(scope),
+                    .list = addPixelList(scope, kList, settings.interpolate ? gbuffer.size : glm::uvec2(0)),
                     .shift = shiftOf(step),
                     .settings = settings};
 
     if (!settings.interpolate) {
         for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
-            addGather(graph, kGatherNames[m], in, m, result.image, 1, false, m > 0)
+            addGather(scope, kGatherNames[m], in, m, result.image, 1, false, m > 0)
                 .dispatchThreads(gbuffer.size.x * gbuffer.size.y);
         return result;
     }
     const glm::uvec2 coarseSize = (gbuffer.size + kCoarseStep - 1u) / kCoarseStep;
-    const ImageHandle coarse = graph.image("stochastic_rsm.coarse", {.format = format, .size = coarseSize});
+    const ImageHandle coarse = scope.image("stochastic_rsm.coarse", {.format = format, .size = coarseSize});
     for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
-        addGather(graph, kGatherNames[m], in, m, coarse, kCoarseStep, false, m > 0)
+        addGather(scope, kGatherNames[m], in, m, coarse, kCoarseStep, false, m > 0)
             .dispatchThreads(coarseSize.x * coarseSize.y);
-    addInterpolation(graph, in, coarse, result.image);
+    addInterpolation(scope, in, coarse, result.image);
     for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
-        addGather(graph, kListedNames[m], in, m, result.image, 1, true, true)
+        addGather(scope, kListedNames[m], in, m, result.image, 1, true, true)
             .dispatchIndirect(in.list.groups);
     return result;
 }

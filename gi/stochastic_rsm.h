@@ -33,7 +33,7 @@ struct SampleVisibility {  // clusters of texels, and the map of what each sees
     const IsmAtlas& isms;
 };
 
-Irradiance addStochasticRsm(FrameGraph& graph, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addStochasticRsm(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
                             const RsmSet& rsm, const SampleVisibility& visibility,
                             const StochasticRsmSettings& settings, Settling& settling);
 

@@ -27,16 +27,16 @@ void addLayers(PassBuilder& pass, const SurfacePoints& p, uint64_t movingVersion
 
 }  // namespace
 
-SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
+SurfacePoints addSurfacePoints(GraphScope scope, const SceneView& scene) {
     if (scene.surfaceSampleCount == 0) return {};
     SurfacePoints p{.count = scene.surfaceSampleCount, .stillVersion = scene.stillVersion};
     p.still = layerOf(0, scene.stillSampleCount);
     p.moving = layerOf(p.still.count, p.count - p.still.count);
     p.extent = scene.extent;
-    p.points = graph.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
+    p.points = scope.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
                                                       .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     PassBuilder place =
-        graph.compute("surface_points.place", scene.skin ? "surface_points/place_figure_points.comp"
+        scope.compute("surface_points.place", scene.skin ? "surface_points/place_figure_points.comp"
                                                          : "surface_points/place_points.comp");
     place.read("instances", scene.instances)
         .read("samples", scene.surfaceSamples)
@@ -46,9 +46,9 @@ SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene) {
     readFigures(place, scene.skin);
     addLayers(place, p, scene.scene->instancesVersion, kPlaceGroup);
     const uint32_t segments = p.still.segmentCount + p.moving.segmentCount;
-    p.segments = graph.buffer("surface_points.segments", {.sizeBytes = segments * sizeof(io::SurfaceSegment),
+    p.segments = scope.buffer("surface_points.segments", {.sizeBytes = segments * sizeof(io::SurfaceSegment),
                                                           .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    PassBuilder bound = graph.compute("surface_points.bound", "surface_points/bound_segments.comp");
+    PassBuilder bound = scope.compute("surface_points.bound", "surface_points/bound_segments.comp");
     bound.read("points", p.points).parts("segments", p.segments).push(io::PointPush{.pointCount = p.count});
     addLayers(bound, p, scene.scene->instancesVersion, io::kSegmentPoints * kBoundGroup);
     return p;

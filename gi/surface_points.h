@@ -24,6 +24,6 @@ struct SurfacePoints {
     float extent = 0;           // m: no two points are farther apart
 };
 
-SurfacePoints addSurfacePoints(FrameGraph& graph, const SceneView& scene);
+SurfacePoints addSurfacePoints(GraphScope scope, const SceneView& scene);
 
 }  // namespace ag::gi

@@ -28,13 +28,13 @@ std::string_view passName(uint32_t slice) {
 
 }  // namespace
 
-Irradiance addTexelShading(FrameGraph& graph, const GBuffer& gbuffer, const RsmSet& rsm) {
+Irradiance addTexelShading(GraphScope scope, const GBuffer& gbuffer, const RsmSet& rsm) {
     if (rsm.empty()) return {};
     const uint32_t count = rsm.tileCount * io::kRsmTileSize * io::kRsmTileSize;
-    const Irradiance result{graph.image("texel_shading.irradiance",
+    const Irradiance result{scope.image("texel_shading.irradiance",
                                         {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
     for (uint32_t first = 0, slice = 0; first < count; first += kSliceTexels, ++slice) {
-        PassBuilder pass = graph.compute(passName(slice), "texel_shading/gather_texels.comp");
+        PassBuilder pass = scope.compute(passName(slice), "texel_shading/gather_texels.comp");
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)
             .read("camera", gbuffer.camera)

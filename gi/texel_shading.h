@@ -7,6 +7,6 @@
 
 namespace ag::gi {
 
-Irradiance addTexelShading(FrameGraph& graph, const GBuffer& gbuffer, const RsmSet& rsm);
+Irradiance addTexelShading(GraphScope scope, const GBuffer& gbuffer, const RsmSet& rsm);
 
 }  // namespace ag::gi

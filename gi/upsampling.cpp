@@ -5,7 +5,7 @@
 
 namespace ag::gi {
 
-Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& thin,
+Irradiance addUpsampling(GraphScope scope, const GBuffer& all, const GBuffer& thin,
                          const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
     const uint32_t spacing = thin.spacing / all.spacing;
     if (!gathered.image || spacing == 1) return gathered;
@@ -15,10 +15,10 @@ Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& t
                                   .near = all.view.near,
                                   .spacing = spacing};
     const ImageHandle result =
-        graph.image(names.irradiance, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size});
-    const PixelList lacking = addPixelList(graph, names.lacking, all.size);
+        scope.image(names.irradiance, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size});
+    const PixelList lacking = addPixelList(scope, names.lacking, all.size);
     const auto addPass = [&](std::string_view name, const char* shader) {
-        PassBuilder pass = graph.compute(name, shader);
+        PassBuilder pass = scope.compute(name, shader);
         pass.sample("normalMap", all.normal)
             .sample("depthMap", all.depth)
             .sample("cellNormals", thin.normal)

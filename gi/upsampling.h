@@ -32,7 +32,7 @@ constexpr UpsamplingNames kLaterUpsampling = {"upsampling.near_later",
 
 // What was gathered at the pixels of `thin` = addThinned(`all`); comes back as it is if those are all. Added
 // to `base`, if there is one, whose direction stands for both.
-Irradiance addUpsampling(FrameGraph& graph, const GBuffer& all, const GBuffer& thin,
+Irradiance addUpsampling(GraphScope scope, const GBuffer& all, const GBuffer& thin,
                          const Irradiance& gathered, const UpsamplingNames& names = kUpsampling,
                          const Irradiance& base = {});
 

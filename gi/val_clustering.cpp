@@ -64,24 +64,24 @@ uint32_t mostPartials(const RsmSet& rsm) {
     return most;
 }
 
-Partials addPartials(FrameGraph& graph, const RsmSet& rsm, uint32_t clusterCount) {
+Partials addPartials(GraphScope scope, const RsmSet& rsm, uint32_t clusterCount) {
     Partials p{.most = mostPartials(rsm)};
-    p.sums = graph.buffer(
+    p.sums = scope.buffer(
         "val_clustering.partials",
         {.sizeBytes = uint64_t(p.most) * io::kPartialVec4s * sizeof(glm::vec4), .texelFormat = kVec4});
-    p.of = graph.buffer("val_clustering.partial_of",
+    p.of = scope.buffer("val_clustering.partial_of",
                         {.sizeBytes = uint64_t(rsm.tileCount) * clusterCount * 4, .texelFormat = kUint});
-    p.count = graph.buffer("val_clustering.partial_count", {.sizeBytes = 4});
+    p.count = scope.buffer("val_clustering.partial_count", {.sizeBytes = 4});
     constexpr uint32_t kNone = 0;
-    graph.upload("val_clustering.no_partials", p.count, std::as_bytes(std::span(&kNone, 1)));
+    scope.upload("val_clustering.no_partials", p.count, std::as_bytes(std::span(&kNone, 1)));
     return p;
 }
 
-BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
+BufferHandle addAdaption(GraphScope scope, const RsmSet& rsm, const Importance& importance,
                          const State& state, const io::ClusterSettings& push) {
     const BufferHandle errors =
-        graph.buffer("val_clustering.errors", {.sizeBytes = push.clusterCount * sizeof(io::ClusterError)});
-    graph.compute("val_clustering.evaluate", "val_clustering/evaluate.comp")
+        scope.buffer("val_clustering.errors", {.sizeBytes = push.clusterCount * sizeof(io::ClusterError)});
+    scope.compute("val_clustering.evaluate", "val_clustering/evaluate.comp")
         .readPrevious("previous", state.clusters)
         .read("viewPoints", importance.viewDependent() ? importance.viewPoints : rsm.texels)
         .spec(0, importance.viewDependent())
@@ -89,8 +89,8 @@ BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const Importance&
         .push(push)
         .dispatchGroups(push.clusterCount);
     const BufferHandle plans =
-        graph.buffer("val_clustering.plans", {.sizeBytes = push.clusterCount * sizeof(uint32_t)});
-    graph.compute("val_clustering.adapt", "val_clustering/adapt.comp")
+        scope.buffer("val_clustering.plans", {.sizeBytes = push.clusterCount * sizeof(uint32_t)});
+    scope.compute("val_clustering.adapt", "val_clustering/adapt.comp")
         .readPrevious("previous", state.clusters)
         .readPrevious("extents", state.extents)
         .read("maps", rsm.maps)
@@ -102,10 +102,10 @@ BufferHandle addAdaption(FrameGraph& graph, const RsmSet& rsm, const Importance&
     return plans;
 }
 
-void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
+void addSeeding(GraphScope scope, const RsmSet& rsm, const Importance& importance,
                 const HistoryBuffer& clusters, BufferHandle plans, BufferHandle seeds,
                 const io::ClusterSettings& push) {
-    graph.compute("val_clustering.seed", "val_clustering/seed.comp")
+    scope.compute("val_clustering.seed", "val_clustering/seed.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
@@ -118,9 +118,9 @@ void addSeeding(FrameGraph& graph, const RsmSet& rsm, const Importance& importan
         .dispatchThreads(push.clusterCount);
 }
 
-void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, const Partials& partials,
+void addAssignment(GraphScope scope, const RsmSet& rsm, const Clusters& c, const Partials& partials,
                    const io::ClusterSettings& push) {
-    graph.compute("val_clustering.gather_candidates", "val_clustering/gather_candidates.comp")
+    scope.compute("val_clustering.gather_candidates", "val_clustering/gather_candidates.comp")
         .read("texels", rsm.texels)
         .read("seeds", c.seeds)
         .read("maps", rsm.maps)
@@ -130,7 +130,7 @@ void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, cons
         .write("partialOf", partials.of)
         .push(push)
         .dispatchGroups(rsm.tileCount);
-    graph.compute("val_clustering.assign", "val_clustering/assign_texels.comp")
+    scope.compute("val_clustering.assign", "val_clustering/assign_texels.comp")
         .read("texels", rsm.texels)
         .read("seeds", c.seeds)
         .read("candidates", c.candidates)
@@ -140,9 +140,9 @@ void addAssignment(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, cons
         .dispatchGroups(rsm.tileCount);
 }
 
-void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, const Partials& partials,
+void addUpdate(GraphScope scope, const RsmSet& rsm, const Clusters& c, const Partials& partials,
                const io::ClusterSettings& push) {
-    graph.compute("val_clustering.sum_tiles", "val_clustering/sum_tiles.comp")
+    scope.compute("val_clustering.sum_tiles", "val_clustering/sum_tiles.comp")
         .read("texels", rsm.texels)
         .read("seeds", c.seeds)
         .read("candidates", c.candidates)
@@ -153,7 +153,7 @@ void addUpdate(FrameGraph& graph, const RsmSet& rsm, const Clusters& c, const Pa
         .readWrite("partialCount", partials.count)
         .push(glm::uvec2(push.clusterCount, partials.most))
         .dispatchGroups(rsm.tileCount);
-    graph.compute("val_clustering.update", "val_clustering/update_clusters.comp")
+    scope.compute("val_clustering.update", "val_clustering/update_clusters.comp")
         .read("seeds", c.seeds)
         .read("maps", rsm.maps)
         .read("partialOf", partials.of)
@@ -170,14 +170,14 @@ glm::vec4 metricWeights(const ValClusteringSettings& s) {
     return {s.distanceWeight, s.normalWeight, s.chromaWeight, s.planeWeight};
 }
 
-Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
+Clusters addValClustering(GraphScope scope, const RsmSet& rsm, const Importance& importance,
                           const ValClusteringSettings& settings, uint64_t viewVersion,
                           ValClusteringHistory& history) {
     if (rsm.empty()) return {};
     const uint64_t light = combineHash(rsm.inputsVersion, hashOf(settings));
     const uint64_t inputs = combineHash(light, importance.viewDependent() ? viewVersion : 0);
     // Past that the clusters rest, and everything behind them is skipped.
-    const bool late = graph.holding();
+    const bool late = scope.isHeld();
     const uint32_t step =
         late ? history.settling.step : history.settling.advance(inputs, settings.settleFrames);
     const io::ClusterSettings push{
@@ -191,26 +191,26 @@ Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
     const State state{
-        graph.historyBuffer("val_clustering.clusters",
+        scope.historyBuffer("val_clustering.clusters",
                             {.sizeBytes = settings.count * sizeof(io::Cluster), .texelFormat = kVec4}),
-        graph.historyBuffer("val_clustering.extents",
+        scope.historyBuffer("val_clustering.extents",
                             {.sizeBytes = settings.count * sizeof(io::ClusterExtent)})};
     Clusters c{.clusters = state.clusters.current, .extents = state.extents.current, .count = settings.count};
-    c.seeds = graph.buffer("val_clustering.seeds",
+    c.seeds = scope.buffer("val_clustering.seeds",
                            {.sizeBytes = settings.count * sizeof(io::ClusterSeed), .texelFormat = kVec4});
     c.candidates =
-        graph.buffer("val_clustering.candidates",
+        scope.buffer("val_clustering.candidates",
                      {.sizeBytes = uint64_t(rsm.tileCount) * io::kMaxCandidates * 4, .texelFormat = kUint});
-    c.candidateCounts = graph.buffer("val_clustering.candidate_counts", {.sizeBytes = rsm.tileCount * 4ull});
+    c.candidateCounts = scope.buffer("val_clustering.candidate_counts", {.sizeBytes = rsm.tileCount * 4ull});
     c.slotOfTexel =
-        graph.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
-    const Partials partials = addPartials(graph, rsm, settings.count);
+        scope.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
+    const Partials partials = addPartials(scope, rsm, settings.count);
 
     const BufferHandle plans =
-        settings.adaptive ? addAdaption(graph, rsm, importance, state, push) : BufferHandle{};
-    addSeeding(graph, rsm, importance, state.clusters, plans, c.seeds, push);
-    addAssignment(graph, rsm, c, partials, push);
-    addUpdate(graph, rsm, c, partials, push);
+        settings.adaptive ? addAdaption(scope, rsm, importance, state, push) : BufferHandle{};
+    addSeeding(scope, rsm, importance, state.clusters, plans, c.seeds, push);
+    addAssignment(scope, rsm, c, partials, push);
+    addUpdate(scope, rsm, c, partials, push);
     return c;
 }
 

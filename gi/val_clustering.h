@@ -41,7 +41,7 @@ struct Clusters {
     uint32_t count = 0;
 };
 
-Clusters addValClustering(FrameGraph& graph, const RsmSet& rsm, const Importance& importance,
+Clusters addValClustering(GraphScope scope, const RsmSet& rsm, const Importance& importance,
                           const ValClusteringSettings& settings, uint64_t viewVersion,
                           ValClusteringHistory& history);
 

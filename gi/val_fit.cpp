@@ -4,12 +4,12 @@
 
 namespace ag::gi {
 
-Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view shapes, uint32_t count) {
+Vals allocateVals(GraphScope scope, std::string_view vals, std::string_view shapes, uint32_t count) {
     constexpr uint32_t kLargestSubgroup = 64;
     Vals v{.count = (count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
-    v.vals = graph.buffer(
+    v.vals = scope.buffer(
         vals, {.sizeBytes = v.count * sizeof(io::Val), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    v.shapes = graph.buffer(shapes, {.sizeBytes = v.count * sizeof(io::ValShapeVectors),
+    v.shapes = scope.buffer(shapes, {.sizeBytes = v.count * sizeof(io::ValShapeVectors),
                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     return v;
 }
@@ -24,10 +24,10 @@ Vals laterVals(Vals vals, uint32_t first) {
     return vals;
 }
 
-Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters) {
+Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters) {
     if (clusters.count == 0) return {};
-    const Vals v = allocateVals(graph, "val_fit.vals", "val_fit.shapes", clusters.count);
-    graph.compute("val_fit.fit", "val_fit/fit_vals.comp")
+    const Vals v = allocateVals(scope, "val_fit.vals", "val_fit.shapes", clusters.count);
+    scope.compute("val_fit.fit", "val_fit/fit_vals.comp")
         .read("clusters", clusters.clusters)
         .read("extents", clusters.extents)
         .read("texels", rsm.texels)

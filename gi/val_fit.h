@@ -16,12 +16,12 @@ struct Vals {
 };
 
 // Room for `count` lights and the padding.
-Vals allocateVals(FrameGraph& graph, std::string_view vals, std::string_view shapes, uint32_t count);
+Vals allocateVals(GraphScope scope, std::string_view vals, std::string_view shapes, uint32_t count);
 
 // The same without those from `end` on, or without those before `first`.
 Vals firstVals(Vals vals, uint32_t end);
 Vals laterVals(Vals vals, uint32_t first);
 
-Vals addValFit(FrameGraph& graph, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters);
+Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters);
 
 }  // namespace ag::gi

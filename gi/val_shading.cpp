@@ -33,7 +33,7 @@ uint32_t tileSizeFor(uint32_t interleave, uint32_t spacing) {
 }
 
 struct Gather {
-    FrameGraph& graph;
+    GraphScope scope;
     const GBuffer& gbuffer;
     const Vals& vals;
     const IsmAtlas& isms;
@@ -44,7 +44,7 @@ struct Gather {
 };
 
 void addClassification(const Gather& g, std::string_view name) {
-    g.graph.compute(name, "val_shading/classify_lights.comp")
+    g.scope.compute(name, "val_shading/classify_lights.comp")
         .sample("depthMap", g.gbuffer.depth)
         .read("camera", g.gbuffer.camera)
         .read("vals", g.vals.vals)
@@ -58,7 +58,7 @@ void addClassification(const Gather& g, std::string_view name) {
 
 PassBuilder addGather(const Gather& g, std::string_view name, std::string_view shader, ValShape shape,
                       uint32_t taps) {
-    PassBuilder pass = g.graph.compute(name, shader);
+    PassBuilder pass = g.scope.compute(name, shader);
     pass.sample("normalMap", g.gbuffer.normal)
         .sample("depthMap", g.gbuffer.depth)
         .read("camera", g.gbuffer.camera)
@@ -77,14 +77,14 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
 }
 
 // With every tile's lights sorted into near and far ones.
-Gather addTiles(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+Gather addTiles(GraphScope scope, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
                 float nearReach, uint32_t interleave, const ValTileNames& names) {
     const uint32_t tileSize = tileSizeFor(interleave, gbuffer.spacing);
     const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
     const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
     const uint64_t lackingCount = interleave > 1 ? tileCount * tileSize * tileSize : 1;
     const Gather g{
-        .graph = graph,
+        .scope = scope,
         .gbuffer = gbuffer,
         .vals = vals,
         .isms = isms,
@@ -94,11 +94,11 @@ Gather addTiles(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, con
                  .tiles = tiles,
                  .nearReach = nearReach,
                  .ismTileSize = isms.tileSize},
-        .lists = graph.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * vals.count * 4,
+        .lists = scope.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * vals.count * 4,
                                             .texelFormat = VK_FORMAT_R32_UINT}),
-        .counts = graph.buffer(names.counts, {.sizeBytes = tileCount * 8}),
-        .lackingCounts = graph.buffer(names.lackingCounts, {.sizeBytes = tileCount * 4}),
-        .lacking = graph.buffer(names.lacking, {.sizeBytes = lackingCount * 4}),
+        .counts = scope.buffer(names.counts, {.sizeBytes = tileCount * 8}),
+        .lackingCounts = scope.buffer(names.lackingCounts, {.sizeBytes = tileCount * 4}),
+        .lacking = scope.buffer(names.lacking, {.sizeBytes = lackingCount * 4}),
         .tileCount = uint32_t(tileCount),
         .blocks = uint32_t(tileCount) * tileSize * tileSize / 4,
         .interleave = interleave};
@@ -114,10 +114,10 @@ uint32_t groupsOf(const Gather& g) {
 WorkList addGroupsAnew(const Gather& g, const PixelShare& share, const AnewNames& names,
                        const WorkList* glossy) {
     const HistoryBuffer digests =
-        g.graph.historyBuffer(names.digests, {.sizeBytes = groupsOf(g) * sizeof(glm::uvec2)});
-    if (glossy) g.graph.fill(names.noDigests, digests.current, 0);  // of those without a coat
-    const WorkList anew = addWorkList(g.graph, names.list, groupsOf(g), {0, 1, 1});
-    PassBuilder pass = g.graph.compute(names.pass, "val_shading/list_groups.comp");
+        g.scope.historyBuffer(names.digests, {.sizeBytes = groupsOf(g) * sizeof(glm::uvec2)});
+    if (glossy) g.scope.fill(names.noDigests, digests.current, 0);  // of those without a coat
+    const WorkList anew = addWorkList(g.scope, names.list, groupsOf(g), {0, 1, 1});
+    PassBuilder pass = g.scope.compute(names.pass, "val_shading/list_groups.comp");
     pass.sample("normalMap", g.gbuffer.normal)
         .sample("depthMap", g.gbuffer.depth)
         .sample("albedoMap", glossy ? g.gbuffer.albedo : g.gbuffer.normal)  // else not looked at
@@ -138,8 +138,8 @@ WorkList addGroupsAnew(const Gather& g, const PixelShare& share, const AnewNames
 
 // Workgroups that have a pixel with a coat.
 WorkList addGlossyGroups(const Gather& g, ImageHandle coat) {
-    const WorkList glossy = addWorkList(g.graph, kGlossyGroups, groupsOf(g), {0, 1, 1});
-    g.graph.compute("val_gloss.list", "val_shading/list_gloss.comp")
+    const WorkList glossy = addWorkList(g.scope, kGlossyGroups, groupsOf(g), {0, 1, 1});
+    g.scope.compute("val_gloss.list", "val_shading/list_gloss.comp")
         .sample("reflectanceMap", g.gbuffer.reflectance)
         .readWrite("coat", coat)
         .write("glossyGroups", glossy.items)
@@ -162,19 +162,19 @@ void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape sh
 
 }  // namespace
 
-Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+Irradiance addValShading(GraphScope scope, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
                          const ValShadingSettings& settings, const ValShadingNames& names,
                          const PixelShare& share) {
     if (vals.count == 0) return {};
     const uint32_t n = std::clamp(settings.interleave, 1u, 4u);
-    const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, n, names.tiles);
+    const Gather g = addTiles(scope, gbuffer, vals, isms, settings.nearReach, n, names.tiles);
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
-    const ImageHandle parts = graph.image(names.parts, info);
+    const ImageHandle parts = scope.image(names.parts, info);
     // Pixels that take another's light want to know where it comes from if they are turned otherwise.
     const bool directed = gbuffer.spacing > 1 && gbuffer.bent && n == 1;
-    const ImageHandle partsToward = directed ? graph.image(names.partsToward, info) : ImageHandle{};
-    const Irradiance result{graph.image(names.irradiance, info),
-                            directed ? graph.image(names.toward, info) : ImageHandle{}};
+    const ImageHandle partsToward = directed ? scope.image(names.partsToward, info) : ImageHandle{};
+    const Irradiance result{scope.image(names.irradiance, info),
+                            directed ? scope.image(names.toward, info) : ImageHandle{}};
     // Compiled out, a binding takes any image of the same class.
     const auto orOther = [&](ImageHandle image, ImageHandle other) { return directed ? image : other; };
     const bool some = share.some && n == 1;
@@ -206,12 +206,12 @@ Irradiance addValShading(FrameGraph& graph, const GBuffer& gbuffer, const Vals& 
     return result;
 }
 
-ImageHandle addValGloss(FrameGraph& graph, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+ImageHandle addValGloss(GraphScope scope, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
                         const ValShadingSettings& settings, const PixelShare& share) {
     const bool lightsHaveArea = settings.farShape != ValShape::kPoint;
     if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};
-    const Gather g = addTiles(graph, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
-    const ImageHandle coat = graph.image("val_gloss.coat", graph.info(gbuffer.reflectance));
+    const Gather g = addTiles(scope, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
+    const ImageHandle coat = scope.image("val_gloss.coat", scope.info(gbuffer.reflectance));
     const WorkList glossy = addGlossyGroups(g, coat);
     const WorkList anew = share.some ? addGroupsAnew(g, share, kCoatsAnew, &glossy) : glossy;
     addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, anew, coat);

@@ -2,13 +2,13 @@
 
 namespace ag::gi {
 
-Vals addVplSampling(FrameGraph& graph, const RsmSet& rsm, const Importance& importance, uint32_t count) {
+Vals addVplSampling(GraphScope scope, const RsmSet& rsm, const Importance& importance, uint32_t count) {
     if (rsm.empty()) return {};
     struct Push {
         uint32_t vplCount, valCount, atlasWidth, mapCount, pyramidStride;
     };
-    const Vals v = allocateVals(graph, "vpl_sampling.vals", "vpl_sampling.shapes", count);
-    graph.compute("vpl_sampling.sample", "vpl_sampling/sample_vpls.comp")
+    const Vals v = allocateVals(scope, "vpl_sampling.vals", "vpl_sampling.shapes", count);
+    scope.compute("vpl_sampling.sample", "vpl_sampling/sample_vpls.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)

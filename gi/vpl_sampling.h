@@ -8,6 +8,6 @@
 namespace ag::gi {
 
 // `count` lights over all maps, as lights without size.
-Vals addVplSampling(FrameGraph& graph, const RsmSet& rsm, const Importance& importance, uint32_t count);
+Vals addVplSampling(GraphScope scope, const RsmSet& rsm, const Importance& importance, uint32_t count);
 
 }  // namespace ag::gi

@@ -72,7 +72,7 @@ FrameDescription FrameGraph::describe() const {
     FrameDescription out{.frame = g.frame};
     for (uint32_t i = 0; i < g.resources.size(); ++i) {
         const Resource& r = g.resources[i];
-        out.resources.push_back({.name = std::string(r.name),
+        out.resources.push_back({.name = impl_->fullName(r.scope, r.name),
                                  .role = roleOf(r, g.slots),
                                  .image = {r.isImage ? i : ~0u},
                                  .buffer = {r.isImage ? ~0u : i},
@@ -82,7 +82,7 @@ FrameDescription FrameGraph::describe() const {
     for (size_t p = 0; p < g.report.size(); ++p) {
         const Pass& pass = g.passes[p];
         PassDescription& d = out.passes.emplace_back();
-        d.name = pass.name;
+        d.name = impl_->fullName(impl_->stats[pass.stats].scope, pass.name);
         d.shader = pass.shader;
         d.uploads = pass.kind == PassKind::kUpload;
         d.outcome = g.report[p].outcome;

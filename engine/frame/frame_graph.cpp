@@ -7,7 +7,8 @@
 
 namespace ag {
 
-FrameGraph::FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines) : impl_(new Impl) {
+FrameGraph::FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines)
+    : GraphScope(*this, 0), impl_(new Impl) {
     AG_CHECK_EQ(device == nullptr, pipelines == nullptr);
     impl_->device = device;
     impl_->pipelines = pipelines;
@@ -39,7 +40,6 @@ FrameGraph::~FrameGraph() {
 
 void FrameGraph::beginFrame(const FrameGraphOptions& options) {
     impl_->options = options;
-    impl_->holding = false;
     ++impl_->frame;
     impl_->resources.clear();
     impl_->passes.clear();
@@ -60,35 +60,97 @@ bool same(const BufferInfo& a, const BufferInfo& b) {
            a.vertices == b.vertices && a.hostVisible == b.hostVisible;
 }
 
+// What the outermost scope's names hash to is what they would without scopes.
+uint64_t hashName(uint32_t scope, std::string_view name) {
+    return hashText(name, scope);
+}
+
 }  // namespace
 
-uint32_t FrameGraph::Impl::declare(std::string_view name, bool isImage, const ImageInfo& image,
-                                   const BufferInfo& buffer, bool history) {
-    const uint64_t hash = hashText(name);
-    const auto [entry, added] = slotOfName.try_emplace(hash, uint32_t(slots.size()));
-    if (added) {
-        slots.emplace_back();
-        slots.back().nameHash = hash;
-        slots.back().name = name;
+GraphScope FrameGraph::makeScope(std::string_view name) {
+    const auto free = std::ranges::find(impl_->scopes, false, &Scope::used);
+    const uint32_t id = uint32_t(free - impl_->scopes.begin());
+    if (free == impl_->scopes.end()) impl_->scopes.emplace_back();
+    impl_->scopes[id] = {.name = name};
+    return {*this, id};
+}
+
+void FrameGraph::removeScope(const GraphScope& scope) {
+    AG_CHECK(scope.id_ != 0);
+    impl_->scopes[scope.id_].used = false;
+    for (Slot& slot : impl_->slots) {
+        if (slot.scope != scope.id_) continue;
+        impl_->bucketsStale = impl_->bucketsStale || slot.bucket != ~0u;
+        impl_->retireMemory(slot);
     }
+}
+
+std::string FrameGraph::Impl::fullName(uint32_t scope, std::string_view name) const {
+    std::string full(scopes[scope].name);
+    if (!full.empty()) full += '/';
+    return full += name;
+}
+
+// What a slot holds counts for nothing from now on. Histories begin with zeroes.
+void FrameGraph::Impl::forget(Slot& slot) {
+    for (Memory& half : slot.halves) {
+        half.version = half.stepVersion = 0;
+        half.needsZero = slot.isHistory && (half.image || half.buffer);
+        half.patches.clear();
+        half.parts.clear();
+    }
+    slot.stepKey = 0;
+}
+
+void GraphScope::reset() const {
+    for (Slot& slot : graph_->impl_->slots)
+        if (slot.scope == id_) graph_->impl_->forget(slot);
+}
+
+void GraphScope::resetHistory(std::string_view name) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const auto found = g.slotOfName.find(hashName(id_, name));
+    if (found != g.slotOfName.end()) g.forget(g.slots[found->second]);
+}
+
+GraphScope GraphScope::held(bool on) const {
+    GraphScope scope = *this;
+    scope.held_ = on;
+    return scope;
+}
+
+uint32_t FrameGraph::Impl::declare(Resource resource, bool history) {
+    const uint64_t hash = hashName(resource.scope, resource.name);
+    const auto [entry, added] = slotOfName.try_emplace(hash, uint32_t(slots.size()));
+    if (added)
+        slots.emplace_back(Slot{.scope = resource.scope, .name = fullName(resource.scope, resource.name)});
     Slot& slot = slots[entry->second];
     AG_CHECK_MSG(slot.lastFrame != frame, "resource declared twice in a frame: " + slot.name);
     slot.lastFrame = frame;
-    const bool unchanged = !added && slot.isImage == isImage && slot.isHistory == history &&
-                           (isImage ? same(slot.image, image) : same(slot.buffer, buffer));
+    const bool unchanged =
+        !added && slot.isImage == resource.isImage && slot.isHistory == history &&
+        (slot.isImage ? same(slot.image, resource.image) : same(slot.buffer, resource.buffer));
     if (!unchanged) {
-        bucketsStale =
-            bucketsStale || slot.bucket != ~0u || (isImage && image.lifetime == Lifetime::kScratch);
+        bucketsStale = bucketsStale || slot.bucket != ~0u ||
+                       (resource.isImage && resource.image.lifetime == Lifetime::kScratch);
         retireMemory(slot);
-        slot.isImage = isImage;
+        slot.isImage = resource.isImage;
         slot.isHistory = history;
-        slot.image = image;
-        slot.buffer = buffer;
+        slot.image = resource.image;
+        slot.buffer = resource.buffer;
     }
-    Resource resource{
-        .name = name, .isImage = isImage, .image = image, .buffer = buffer, .slot = entry->second};
+    resource.slot = entry->second;
     resources.push_back(resource);
     return uint32_t(resources.size() - 1);
+}
+
+// The current half; the previous one is the resource after it.
+uint32_t FrameGraph::Impl::declareHistory(Resource resource) {
+    const uint32_t current = declare(resource, true);
+    Resource previous = resources[current];
+    previous.kind = ResourceKind::kHistoryPrevious;
+    resources.push_back(previous);
+    return current;
 }
 
 uint32_t FrameGraph::Impl::import(Resource resource) {
@@ -98,176 +160,190 @@ uint32_t FrameGraph::Impl::import(Resource resource) {
     return uint32_t(resources.size() - 1);
 }
 
-ImageHandle FrameGraph::image(std::string_view name, const ImageInfo& info) {
-    return {impl_->declare(name, true, info, {}, false)};
+ImageHandle GraphScope::image(std::string_view name, const ImageInfo& info) const {
+    return {graph_->impl_->declare({.name = name, .scope = id_, .isImage = true, .image = info}, false)};
 }
 
-BufferHandle FrameGraph::buffer(std::string_view name, const BufferInfo& info) {
-    return {impl_->declare(name, false, {}, info, false)};
+BufferHandle GraphScope::buffer(std::string_view name, const BufferInfo& info) const {
+    return {graph_->impl_->declare({.name = name, .scope = id_, .buffer = info}, false)};
 }
 
-HistoryImage FrameGraph::historyImage(std::string_view name, const ImageInfo& info) {
-    const uint32_t current = impl_->declare(name, true, info, {}, true);
-    Resource previous = impl_->resources[current];
-    previous.kind = ResourceKind::kHistoryPrevious;
-    impl_->resources.push_back(previous);
-    const Slot& slot = impl_->slots[previous.slot];
-    return {{current}, {current + 1}, slot.halves[slot.current].version != 0};
+HistoryImage GraphScope::historyImage(std::string_view name, const ImageInfo& info) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t current = g.declareHistory({.name = name, .scope = id_, .isImage = true, .image = info});
+    return {{current}, {current + 1}, g.newest(g.resources[current]).version != 0};
 }
 
-HistoryBuffer FrameGraph::historyBuffer(std::string_view name, const BufferInfo& info) {
-    const uint32_t current = impl_->declare(name, false, {}, info, true);
-    Resource previous = impl_->resources[current];
-    previous.kind = ResourceKind::kHistoryPrevious;
-    impl_->resources.push_back(previous);
-    const Slot& slot = impl_->slots[previous.slot];
-    return {{current}, {current + 1}, slot.halves[slot.current].version != 0};
+HistoryBuffer GraphScope::historyBuffer(std::string_view name, const BufferInfo& info) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t current = g.declareHistory({.name = name, .scope = id_, .buffer = info});
+    return {{current}, {current + 1}, g.newest(g.resources[current]).version != 0};
 }
 
-void FrameGraph::resetHistory(std::string_view name) {
-    const auto found = impl_->slotOfName.find(hashText(name));
-    if (found == impl_->slotOfName.end()) return;
-    Slot& slot = impl_->slots[found->second];
-    for (Memory& half : slot.halves) {
-        half.version = 0;
-        half.needsZero = half.image || half.buffer;
-    }
-    slot.stepKey = 0;
-}
-
-ImageHandle FrameGraph::importImage(std::string_view name, const gpu::Image& image, uint64_t version,
-                                    VkImageLayout layout) {
+ImageHandle GraphScope::importImage(std::string_view name, const gpu::Image& image, uint64_t version,
+                                    VkImageLayout layout) const {
     const ImageInfo info{.format = image.desc().format, .size = image.desc().size, .mips = image.desc().mips};
-    return {impl_->import({.name = name,
-                           .isImage = true,
-                           .image = info,
-                           .importedImage = &image,
-                           .importVersion = version,
-                           .outputLayout = layout})};
+    return {graph_->impl_->import({.name = name,
+                                   .scope = id_,
+                                   .isImage = true,
+                                   .image = info,
+                                   .importedImage = &image,
+                                   .importVersion = version,
+                                   .outputLayout = layout})};
 }
 
-BufferHandle FrameGraph::importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version) {
+BufferHandle GraphScope::importBuffer(std::string_view name, const gpu::Buffer& buffer,
+                                      uint64_t version) const {
     const BufferInfo info{.sizeBytes = buffer.sizeBytes(), .texelFormat = buffer.desc().texelFormat};
-    return {
-        impl_->import({.name = name, .buffer = info, .importedBuffer = &buffer, .importVersion = version})};
+    return {graph_->impl_->import(
+        {.name = name, .scope = id_, .buffer = info, .importedBuffer = &buffer, .importVersion = version})};
 }
 
-ImageHandle FrameGraph::importImage(std::string_view name, const ImageInfo& info, uint64_t version) {
-    return {impl_->import({.name = name, .isImage = true, .image = info, .importVersion = version})};
+ImageHandle GraphScope::importImage(std::string_view name, const ImageInfo& info, uint64_t version) const {
+    return {graph_->impl_->import(
+        {.name = name, .scope = id_, .isImage = true, .image = info, .importVersion = version})};
 }
 
-BufferHandle FrameGraph::importBuffer(std::string_view name, const BufferInfo& info, uint64_t version) {
-    return {impl_->import({.name = name, .buffer = info, .importVersion = version})};
+BufferHandle GraphScope::importBuffer(std::string_view name, const BufferInfo& info, uint64_t version) const {
+    return {graph_->impl_->import({.name = name, .scope = id_, .buffer = info, .importVersion = version})};
 }
 
-const ImageInfo& FrameGraph::info(ImageHandle image) const {
-    return impl_->resources[image.index].image;
-}
-const BufferInfo& FrameGraph::info(BufferHandle buffer) const {
-    return impl_->resources[buffer.index].buffer;
+bool GraphScope::isRead(BufferHandle buffer) const {
+    return std::ranges::any_of(graph_->impl_->uses, [&](const Use& use) {
+        return use.resource == buffer.index && readsOld(use.kind);
+    });
 }
 
-uint32_t FrameGraph::Impl::statsFor(std::string_view name) {
-    const auto [entry, added] = statsOfName.try_emplace(hashText(name), uint32_t(stats.size()));
-    if (added) stats.push_back({.nameHash = entry->first, .name = name});
+const ImageInfo& GraphScope::info(ImageHandle image) const {
+    return graph_->impl_->resources[image.index].image;
+}
+const BufferInfo& GraphScope::info(BufferHandle buffer) const {
+    return graph_->impl_->resources[buffer.index].buffer;
+}
+
+uint32_t FrameGraph::Impl::find(uint32_t scope, bool isImage, std::string_view name) const {
+    for (uint32_t i = 0; i < resources.size(); ++i)
+        if (resources[i].isImage == isImage && resources[i].scope == scope && resources[i].name == name)
+            return i;
+    return ~0u;
+}
+
+ImageHandle GraphScope::findImage(std::string_view name) const {
+    return {graph_->impl_->find(id_, true, name)};
+}
+
+BufferHandle GraphScope::findBuffer(std::string_view name) const {
+    return {graph_->impl_->find(id_, false, name)};
+}
+
+uint32_t FrameGraph::Impl::statsFor(uint32_t scope, std::string_view name) {
+    const auto [entry, added] = statsOfName.try_emplace(hashName(scope, name), uint32_t(stats.size()));
+    if (added) stats.push_back({.nameHash = entry->first, .scope = scope, .name = name});
     return entry->second;
 }
 
-Pass& FrameGraph::Impl::addPass(std::string_view name, PassKind kind) {
+uint32_t FrameGraph::Impl::addPass(uint32_t scope, bool held, std::string_view name, PassKind kind) {
     Pass pass;
     pass.name = name;
     pass.kind = kind;
     pass.firstUse = uint32_t(uses.size());
     pass.firstDraw = uint32_t(draws.size());
-    pass.stats = statsFor(name);
-    pass.held = holding;
+    pass.stats = statsFor(scope, name);
+    pass.held = held;
     for (const Pass& other : passes)
         AG_CHECK_MSG(other.stats != pass.stats, "pass added twice: " + std::string(name));
     passes.push_back(pass);
-    return passes.back();
+    return uint32_t(passes.size() - 1);
 }
 
-void FrameGraph::Impl::addUse(const Use& use) {
+// A pass's uses and draws lie together, so another one cannot be begun in between.
+Pass& FrameGraph::Impl::declaring(uint32_t pass) {
+    AG_CHECK_MSG(pass + 1 == passes.size(), "pass " + std::string(passes[pass].name) +
+                                                " is declared on after " + std::string(passes.back().name) +
+                                                " was begun");
+    return passes[pass];
+}
+
+void FrameGraph::Impl::addUse(uint32_t pass, const Use& use) {
     AG_CHECK_LT(use.resource, resources.size());
-    AG_CHECK_MSG(!passes.empty(), "declare a pass first");
     const Resource& resource = resources[use.resource];
     AG_CHECK_MSG(!writes(use.kind) || resource.kind == ResourceKind::kOwned,
                  std::string(resource.name) + " is read-only here");
+    ++declaring(pass).useCount;
     uses.push_back(use);
-    ++passes.back().useCount;
 }
 
-void FrameGraph::hold(bool on) {
-    impl_->holding = on;
-}
-bool FrameGraph::holding() const {
-    return impl_->holding;
-}
-
-PassBuilder FrameGraph::compute(std::string_view name, std::string_view shader) {
-    impl_->addPass(name, PassKind::kCompute).shader = shader;
-    return PassBuilder(*this);
+PassBuilder GraphScope::compute(std::string_view name, std::string_view shader) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kCompute);
+    g.passes[pass].shader = shader;
+    return {*graph_, pass};
 }
 
-PassBuilder FrameGraph::fullscreen(std::string_view name, std::string_view fragmentShader) {
-    Pass& pass = impl_->addPass(name, PassKind::kFullscreen);
-    pass.vertexShader = "common/fullscreen.vert";
-    pass.shader = fragmentShader;
-    return PassBuilder(*this);
+PassBuilder GraphScope::fullscreen(std::string_view name, std::string_view fragmentShader) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kFullscreen);
+    g.passes[pass].vertexShader = "common/fullscreen.vert";
+    g.passes[pass].shader = fragmentShader;
+    return {*graph_, pass};
 }
 
-PassBuilder FrameGraph::raster(std::string_view name, std::string_view vertexShader,
-                               std::string_view fragmentShader, gpu::VertexLayout layout) {
-    Pass& pass = impl_->addPass(name, PassKind::kRaster);
-    pass.vertexShader = vertexShader;
-    pass.shader = fragmentShader;
-    pass.raster.vertexLayout = layout;
-    return PassBuilder(*this);
+PassBuilder GraphScope::raster(std::string_view name, std::string_view vertexShader,
+                               std::string_view fragmentShader, gpu::VertexLayout layout) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kRaster);
+    g.passes[pass].vertexShader = vertexShader;
+    g.passes[pass].shader = fragmentShader;
+    g.passes[pass].raster.vertexLayout = layout;
+    return {*graph_, pass};
 }
 
-void FrameGraph::fill(std::string_view name, BufferHandle buffer, uint32_t word) {
-    impl_->addPass(name, PassKind::kFill).fillWord = word;
-    impl_->addUse({.resource = buffer.index, .kind = UseKind::kTransferWrite});
+void GraphScope::fill(std::string_view name, BufferHandle buffer, uint32_t word) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kFill);
+    g.passes[pass].fillWord = word;
+    g.addUse(pass, {.resource = buffer.index, .kind = UseKind::kTransferWrite});
 }
 
-void FrameGraph::upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes) {
+void GraphScope::upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes) const {
     AG_CHECK_EQ(bytes.size() % 4, size_t(0));
-    Pass& pass = impl_->addPass(name, PassKind::kUpload);
-    pass.dataOffset = uint32_t(impl_->data.size());
-    pass.dataSize = uint32_t(bytes.size());
-    impl_->data.insert(impl_->data.end(), bytes.begin(), bytes.end());
-    impl_->addUse({.resource = buffer.index, .kind = UseKind::kTransferWrite});
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kUpload);
+    g.passes[pass].dataOffset = uint32_t(g.data.size());
+    g.passes[pass].dataSize = uint32_t(bytes.size());
+    g.data.insert(g.data.end(), bytes.begin(), bytes.end());
+    g.addUse(pass, {.resource = buffer.index, .kind = UseKind::kTransferWrite});
 }
 
-void FrameGraph::copyImage(std::string_view name, ImageHandle from, ImageHandle to) {
-    impl_->addPass(name, PassKind::kCopyImage);
-    impl_->addUse({.resource = from.index, .kind = UseKind::kTransferRead});
-    impl_->addUse({.resource = to.index, .kind = UseKind::kTransferWrite});
+void GraphScope::copyImage(std::string_view name, ImageHandle from, ImageHandle to) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kCopyImage);
+    g.addUse(pass, {.resource = from.index, .kind = UseKind::kTransferRead});
+    g.addUse(pass, {.resource = to.index, .kind = UseKind::kTransferWrite});
 }
 
-std::span<const std::byte> FrameGraph::readBack(const std::array<std::string_view, kFramesInFlight>& names,
-                                                BufferHandle from) {
-    const std::string_view name = names[impl_->frame % kFramesInFlight];
-    const BufferHandle copy =
-        buffer(name, {.sizeBytes = impl_->resources[from.index].buffer.sizeBytes, .hostVisible = true});
-    impl_->addPass(name, PassKind::kCopyBuffer);
-    impl_->addUse({.resource = from.index, .kind = UseKind::kTransferRead});
-    impl_->addUse({.resource = copy.index, .kind = UseKind::kTransferWrite});
+std::span<const std::byte> GraphScope::readBack(const std::array<std::string_view, kFramesInFlight>& names,
+                                                BufferHandle from) const {
+    FrameGraph::Impl& g = *graph_->impl_;
+    const std::string_view name = names[g.frame % kFramesInFlight];
+    const BufferHandle copy = buffer(name, {.sizeBytes = info(from).sizeBytes, .hostVisible = true});
+    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kCopyBuffer);
+    g.addUse(pass, {.resource = from.index, .kind = UseKind::kTransferRead});
+    g.addUse(pass, {.resource = copy.index, .kind = UseKind::kTransferWrite});
     output(copy);
-    const Resource& resource = impl_->resources[copy.index];
-    const Memory& memory = impl_->slots[resource.slot].halves[0];
+    const Memory& memory = g.newest(g.resources[copy.index]);
     if (memory.version == 0 || !memory.buffer) return {};
-    return {memory.buffer->mapped(), resource.buffer.sizeBytes};
+    return {memory.buffer->mapped(), info(copy).sizeBytes};
 }
 
-void FrameGraph::output(ImageHandle image, VkImageLayout layout) {
-    Resource& resource = impl_->resources[image.index];
+void GraphScope::output(ImageHandle image, VkImageLayout layout) const {
+    Resource& resource = graph_->impl_->resources[image.index];
     resource.isOutput = true;
     resource.outputLayout = layout;
 }
 
-void FrameGraph::output(BufferHandle buffer) {
-    impl_->resources[buffer.index].isOutput = true;
+void GraphScope::output(BufferHandle buffer) const {
+    graph_->impl_->resources[buffer.index].isOutput = true;
 }
 
 }  // namespace ag

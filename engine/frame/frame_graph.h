@@ -112,9 +112,10 @@ struct Geometry {
 };
 
 class FrameGraph;
+class GraphScope;
 struct FrameDescription;  // frame_description.h
 
-// Fluent declaration of the pass last added; valid until the next pass is added.
+// Fluent declaration of one pass, whole before the next pass is added.
 class PassBuilder {
   public:
     // Bound under their GLSL names. A buffer read binds as SSBO, uniform buffer or texel buffer, whichever
@@ -173,9 +174,10 @@ class PassBuilder {
     PassBuilder& draw(const RasterDraw& draw);
 
   private:
-    friend class FrameGraph;
-    explicit PassBuilder(FrameGraph& graph) : graph_(&graph) {}
+    friend class GraphScope;
+    PassBuilder(FrameGraph& graph, uint32_t pass) : graph_(&graph), pass_(pass) {}
     FrameGraph* graph_;
+    uint32_t pass_;  // of this frame's
 };
 
 enum class PassOutcome : uint8_t { kRan, kSkipped, kDropped };
@@ -194,7 +196,7 @@ enum class PassReason : uint8_t {
 };
 
 struct PassReport {
-    std::string_view name;
+    std::string_view name, scope;
     PassOutcome outcome = PassOutcome::kDropped;
     PassReason reason = PassReason::kUnread;
     std::string_view changed;  // kInput, kHistory: the first such resource
@@ -245,7 +247,80 @@ struct FrameGraphOptions {
     TimingMode timing = TimingMode::kTimestamps;
 };
 
-class FrameGraph {
+// Where passes and resources are declared: names and all that lasts from frame to frame belong to a scope.
+// Views of one graph have a scope each, so that they never meet. A value: hand it on by copy.
+class GraphScope {
+  public:
+    // Forgets all that passes of this scope made, histories too: the next frame starts as the first did.
+    void reset() const;
+    // Forgets one history, e.g. at a camera cut: `valid` is false in the next frame declared.
+    void resetHistory(std::string_view name) const;
+
+    // The same scope for passes whose results stay as they are, whatever changes that they read, with
+    // skipping or without: for what may be late on purpose. They run only where there is nothing yet.
+    GraphScope held(bool on) const;
+    bool isHeld() const { return held_; }
+
+    // --- Resources. Names are unique within the scope and a frame, and identify the resource from frame to
+    // frame; a changed info makes it anew. ---
+    ImageHandle image(std::string_view name, const ImageInfo& info) const;
+    BufferHandle buffer(std::string_view name, const BufferInfo& info) const;
+    HistoryImage historyImage(std::string_view name, const ImageInfo& info) const;
+    HistoryBuffer historyBuffer(std::string_view name, const BufferInfo& info) const;
+
+    // Imports: read-only, owned outside, contents identified by `version` (never 0). `layout` is what the
+    // image is in and stays in.
+    ImageHandle importImage(std::string_view name, const gpu::Image& image, uint64_t version,
+                            VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) const;
+    BufferHandle importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version) const;
+    // Null-device variants for tests.
+    ImageHandle importImage(std::string_view name, const ImageInfo& info, uint64_t version) const;
+    BufferHandle importBuffer(std::string_view name, const BufferInfo& info, uint64_t version) const;
+
+    bool isRead(BufferHandle buffer) const;  // by a pass declared so far
+    const ImageInfo& info(ImageHandle image) const;
+    const BufferInfo& info(BufferHandle buffer) const;
+
+    // --- Passes; `name` is "technique.step" ---
+    PassBuilder compute(std::string_view name, std::string_view shader) const;
+    PassBuilder fullscreen(std::string_view name, std::string_view fragmentShader) const;
+    PassBuilder raster(std::string_view name, std::string_view vertexShader, std::string_view fragmentShader,
+                       gpu::VertexLayout layout) const;
+    void fill(std::string_view name, BufferHandle buffer, uint32_t word) const;
+    // Host data (some hundred KiB at most, copied now) into a buffer; keyed by its bytes.
+    void upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes) const;
+    void copyImage(std::string_view name, ImageHandle from,
+                   ImageHandle to) const;  // blit with nearest filter if sizes differ
+
+    // Copies a buffer to the CPU when the frame has run and returns what its copy held kFramesInFlight frames
+    // ago (the caller has waited for that one's work): nothing stalls. Empty as long as there is none.
+    // `names`: of the copies. The span is valid until execute().
+    std::span<const std::byte> readBack(const std::array<std::string_view, kFramesInFlight>& names,
+                                        BufferHandle buffer) const;
+
+    // What the frame is for: must be current when it ends. An output image is left in `layout`.
+    void output(ImageHandle image, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) const;
+    void output(BufferHandle buffer) const;
+
+    // By name, null if the frame has none: for --view and captures.
+    ImageHandle findImage(std::string_view name) const;
+    BufferHandle findBuffer(std::string_view name) const;
+
+    FrameGraph& graph() const { return *graph_; }
+
+  protected:
+    GraphScope(FrameGraph& graph, uint32_t id) : graph_(&graph), id_(id) {}
+
+  private:
+    friend class FrameGraph;
+    friend class PassBuilder;
+    FrameGraph* graph_;
+    uint32_t id_;
+    bool held_ = false;
+};
+
+// Is its own outermost scope.
+class FrameGraph : public GraphScope {
   public:
     // Null device and library: nothing is recorded or allocated; barriers, placement and skips are still
     // computed (pipelines then count by shader name).
@@ -257,51 +332,9 @@ class FrameGraph {
     // --- Declaring a frame ---
     void beginFrame(const FrameGraphOptions& options);
 
-    // Names are unique within a frame and identify the resource from frame to frame; a changed info makes it
-    // anew.
-    ImageHandle image(std::string_view name, const ImageInfo& info);
-    BufferHandle buffer(std::string_view name, const BufferInfo& info);
-    HistoryImage historyImage(std::string_view name, const ImageInfo& info);
-    HistoryBuffer historyBuffer(std::string_view name, const BufferInfo& info);
-    void resetHistory(std::string_view name);  // e.g. camera cut: `valid` is false in the next frame declared
-
-    // Imports: read-only, owned outside, contents identified by `version` (never 0). `layout` is what the
-    // image is in and stays in.
-    ImageHandle importImage(std::string_view name, const gpu::Image& image, uint64_t version,
-                            VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    BufferHandle importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version);
-    // Null-device variants for tests.
-    ImageHandle importImage(std::string_view name, const ImageInfo& info, uint64_t version);
-    BufferHandle importBuffer(std::string_view name, const BufferInfo& info, uint64_t version);
-
-    const ImageInfo& info(ImageHandle image) const;
-    const BufferInfo& info(BufferHandle buffer) const;
-
-    // What the passes added from here on write stays as it is, whatever changes that they read, with skipping
-    // or without: for what may be late on purpose. They run only where there is nothing yet.
-    void hold(bool on);
-    bool holding() const;
-
-    // --- Passes; `name` is "technique.step" ---
-    PassBuilder compute(std::string_view name, std::string_view shader);
-    PassBuilder fullscreen(std::string_view name, std::string_view fragmentShader);
-    PassBuilder raster(std::string_view name, std::string_view vertexShader, std::string_view fragmentShader,
-                       gpu::VertexLayout layout);
-    void fill(std::string_view name, BufferHandle buffer, uint32_t word);
-    // Host data (some hundred KiB at most, copied now) into a buffer; keyed by its bytes.
-    void upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes);
-    void copyImage(std::string_view name, ImageHandle from,
-                   ImageHandle to);  // blit with nearest filter if sizes differ
-
-    // Copies a buffer to the CPU when the frame has run and returns what its copy held kFramesInFlight frames
-    // ago (the caller has waited for that one's work): nothing stalls. Empty as long as there is none.
-    // `names`: of the copies. The span is valid until execute().
-    std::span<const std::byte> readBack(const std::array<std::string_view, kFramesInFlight>& names,
-                                        BufferHandle buffer);
-
-    // What the frame is for: must be current when it ends. An output image is left in `layout`.
-    void output(ImageHandle image, VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    void output(BufferHandle buffer);
+    // One more scope; `name` (a literal, or outlives the graph) tells its passes and resources from others.
+    GraphScope makeScope(std::string_view name);
+    void removeScope(const GraphScope& scope);
 
     // --- Running it ---
     // Decides what runs and records it. `commands` null: decide only (null recorder). With
@@ -311,9 +344,6 @@ class FrameGraph {
     const gpu::Image& physical(ImageHandle image) const;
     const gpu::Buffer& physical(BufferHandle buffer) const;
     VkImageLayout layoutAfterFrame(ImageHandle image) const;
-    // By name, null if the frame had none: for --view and captures.
-    ImageHandle findImage(std::string_view name) const;
-    BufferHandle findBuffer(std::string_view name) const;
     std::vector<std::string_view> resourceNames() const;
 
     // --- What happened ---
@@ -329,6 +359,7 @@ class FrameGraph {
     std::string graphviz() const;
 
   private:
+    friend class GraphScope;
     friend class PassBuilder;
     struct Impl;
     std::unique_ptr<Impl> impl_;

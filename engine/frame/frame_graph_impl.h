@@ -60,9 +60,9 @@ struct AliasBucket {
     std::vector<uint32_t> slots;
 };
 
-// What a name stands for from frame to frame. Histories have two halves, others use the first.
+// What a name of a scope stands for from frame to frame. Histories have two halves, others use the first.
 struct Slot {
-    uint64_t nameHash = 0;
+    uint32_t scope = 0;
     std::string name;
     bool isImage = false, isHistory = false;
     ImageInfo image;
@@ -80,6 +80,7 @@ enum class ResourceKind : uint8_t { kOwned, kHistoryPrevious, kImport };
 // A resource as this frame declares it.
 struct Resource {
     std::string_view name;
+    uint32_t scope = 0;
     ResourceKind kind = ResourceKind::kOwned;
     bool isImage = false;
     ImageInfo image;
@@ -143,7 +144,8 @@ struct Pass {
 };
 
 struct PassStats {
-    uint64_t nameHash = 0;
+    uint64_t nameHash = 0;  // of scope and name
+    uint32_t scope = 0;
     std::string_view name;
     double gpuMs = 0, cpuMs = 0;
     uint64_t runCount = 0;
@@ -154,12 +156,16 @@ struct PassStats {
     uint32_t patches = 0, patchesDrawn = 0;
 };
 
+struct Scope {
+    std::string_view name;  // of the outermost: empty
+    bool used = true;
+};
+
 struct FrameGraph::Impl {
     gpu::Device* device = nullptr;
     gpu::PipelineLibrary* pipelines = nullptr;
     FrameGraphOptions options;
     uint64_t frame = 0;
-    bool holding = false;  // passes added now are held
 
     // This frame
     std::vector<Resource> resources;
@@ -177,6 +183,7 @@ struct FrameGraph::Impl {
     std::vector<Patch> patches;       // scratch
 
     // From frame to frame
+    std::vector<Scope> scopes = std::vector<Scope>(1);
     std::vector<Slot> slots;
     std::unordered_map<uint64_t, uint32_t> slotOfName;
     std::vector<PassStats> stats;
@@ -194,12 +201,16 @@ struct FrameGraph::Impl {
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
 
     // Declaring (frame_graph.cpp)
-    uint32_t declare(std::string_view name, bool isImage, const ImageInfo& image, const BufferInfo& buffer,
-                     bool history);
+    uint32_t declare(Resource resource, bool history);
+    uint32_t declareHistory(Resource resource);
     uint32_t import(Resource resource);
-    Pass& addPass(std::string_view name, PassKind kind);
-    void addUse(const Use& use);
-    uint32_t statsFor(std::string_view name);
+    uint32_t find(uint32_t scope, bool isImage, std::string_view name) const;
+    uint32_t addPass(uint32_t scope, bool held, std::string_view name, PassKind kind);
+    Pass& declaring(uint32_t pass);
+    void addUse(uint32_t pass, const Use& use);
+    uint32_t statsFor(uint32_t scope, std::string_view name);
+    void forget(Slot& slot);
+    std::string fullName(uint32_t scope, std::string_view name) const;
 
     // Planning (frame_graph_plan.cpp)
     void plan();

@@ -17,7 +17,7 @@ std::string_view reasonText(PassReason reason) {
 
 // Before the pass is noted as run: compares it with how it ran last.
 PassReport FrameGraph::Impl::reportOf(const Pass& pass) const {
-    PassReport out{.name = pass.name};
+    PassReport out{.name = pass.name, .scope = scopes[stats[pass.stats].scope].name};
     if (!pass.runs) {
         out.outcome = pass.wanted ? PassOutcome::kSkipped : PassOutcome::kDropped;
         out.reason = !pass.wanted ? PassReason::kUnread
@@ -57,18 +57,6 @@ const gpu::Buffer& FrameGraph::physical(BufferHandle buffer) const {
 VkImageLayout FrameGraph::layoutAfterFrame(ImageHandle image) const {
     const Resource& r = impl_->resources[image.index];
     return r.kind == ResourceKind::kImport ? r.outputLayout : impl_->slots[r.slot].halves[r.half].sync.layout;
-}
-
-ImageHandle FrameGraph::findImage(std::string_view name) const {
-    for (uint32_t i = 0; i < impl_->resources.size(); ++i)
-        if (impl_->resources[i].isImage && impl_->resources[i].name == name) return {i};
-    return {};
-}
-
-BufferHandle FrameGraph::findBuffer(std::string_view name) const {
-    for (uint32_t i = 0; i < impl_->resources.size(); ++i)
-        if (!impl_->resources[i].isImage && impl_->resources[i].name == name) return {i};
-    return {};
 }
 
 std::vector<std::string_view> FrameGraph::resourceNames() const {
@@ -117,14 +105,16 @@ std::string FrameGraph::graphviz() const {
     for (size_t p = 0; p < impl_->passes.size(); ++p) {
         const Pass& pass = impl_->passes[p];
         const char* color = pass.runs ? "palegreen" : pass.wanted ? "lightgrey" : "white";
-        out += fmt::format("  p{} [label=\"{}\", style=filled, fillcolor={}];\n", p, pass.name, color);
+        out += fmt::format("  p{} [label=\"{}\", style=filled, fillcolor={}];\n", p,
+                           impl_->fullName(impl_->stats[pass.stats].scope, pass.name), color);
         for (const Use& use : impl_->usesOf(pass)) {
             if (writes(use.kind)) out += fmt::format("  p{} -> r{};\n", p, use.resource);
             if (readsOld(use.kind)) out += fmt::format("  r{} -> p{};\n", use.resource, p);
         }
     }
     for (size_t r = 0; r < impl_->resources.size(); ++r)
-        out += fmt::format("  r{} [label=\"{}\", shape=ellipse];\n", r, impl_->resources[r].name);
+        out += fmt::format("  r{} [label=\"{}\", shape=ellipse];\n", r,
+                           impl_->fullName(impl_->resources[r].scope, impl_->resources[r].name));
     return out + "}\n";
 }
 

@@ -13,17 +13,17 @@ bool isCompute(const Pass& pass) {
 
 }  // namespace
 
-#define AG_PASS (graph_->impl_->passes.back())
+#define AG_PASS (graph_->impl_->declaring(pass_))
 
 PassBuilder& PassBuilder::read(std::string_view name, BufferHandle buffer) {
     const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
-    graph_->impl_->addUse({.resource = buffer.index, .kind = kind, .name = name});
+    graph_->impl_->addUse(pass_, {.resource = buffer.index, .kind = kind, .name = name});
     return *this;
 }
 
 PassBuilder& PassBuilder::read(std::string_view name, ImageHandle image) {
     const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
-    graph_->impl_->addUse({.resource = image.index, .kind = kind, .name = name});
+    graph_->impl_->addUse(pass_, {.resource = image.index, .kind = kind, .name = name});
     return *this;
 }
 
@@ -34,52 +34,55 @@ PassBuilder& PassBuilder::readPart(std::string_view name, BufferHandle buffer, u
 }
 
 PassBuilder& PassBuilder::write(std::string_view name, BufferHandle buffer) {
-    graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kComputeWrite, .name = name});
+    graph_->impl_->addUse(pass_, {.resource = buffer.index, .kind = UseKind::kComputeWrite, .name = name});
     return *this;
 }
 
 PassBuilder& PassBuilder::write(std::string_view name, ImageHandle image, uint32_t mip) {
     // One mip of several: the others keep what they hold, so the image as a whole is read and written.
     const bool whole = graph_->info(image).mips == 1;
-    graph_->impl_->addUse({.resource = image.index,
-                           .kind = whole ? UseKind::kComputeWrite : UseKind::kComputeReadWrite,
-                           .name = name,
-                           .mip = mip,
-                           .wholeImage = false});
+    graph_->impl_->addUse(pass_, {.resource = image.index,
+                                  .kind = whole ? UseKind::kComputeWrite : UseKind::kComputeReadWrite,
+                                  .name = name,
+                                  .mip = mip,
+                                  .wholeImage = false});
     return *this;
 }
 
 PassBuilder& PassBuilder::readWrite(std::string_view name, BufferHandle buffer) {
-    graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kComputeReadWrite, .name = name});
+    graph_->impl_->addUse(pass_,
+                          {.resource = buffer.index, .kind = UseKind::kComputeReadWrite, .name = name});
     return *this;
 }
 
 PassBuilder& PassBuilder::readWrite(std::string_view name, ImageHandle image) {
     graph_->impl_->addUse(
+        pass_,
         {.resource = image.index, .kind = UseKind::kComputeReadWrite, .name = name, .wholeImage = false});
     return *this;
 }
 
 PassBuilder& PassBuilder::readPrevious(std::string_view name, const HistoryBuffer& history) {
     const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeRead : UseKind::kRasterRead;
-    graph_->impl_->addUse({.resource = history.previous.index, .kind = kind, .name = name, .previous = true});
+    graph_->impl_->addUse(pass_,
+                          {.resource = history.previous.index, .kind = kind, .name = name, .previous = true});
     return *this;
 }
 
 PassBuilder& PassBuilder::samplePrevious(std::string_view name, const HistoryImage& history,
                                          Sampler sampler) {
     const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeSample : UseKind::kRasterSample;
-    graph_->impl_->addUse({.resource = history.previous.index,
-                           .kind = kind,
-                           .name = name,
-                           .sampler = sampler,
-                           .previous = true});
+    graph_->impl_->addUse(pass_, {.resource = history.previous.index,
+                                  .kind = kind,
+                                  .name = name,
+                                  .sampler = sampler,
+                                  .previous = true});
     return *this;
 }
 
 PassBuilder& PassBuilder::sample(std::string_view name, ImageHandle image, Sampler sampler) {
     const UseKind kind = isCompute(AG_PASS) ? UseKind::kComputeSample : UseKind::kRasterSample;
-    graph_->impl_->addUse({.resource = image.index, .kind = kind, .name = name, .sampler = sampler});
+    graph_->impl_->addUse(pass_, {.resource = image.index, .kind = kind, .name = name, .sampler = sampler});
     return *this;
 }
 
@@ -87,7 +90,7 @@ PassBuilder& PassBuilder::color(ImageHandle image) {
     gpu::RasterState& raster = AG_PASS.raster;
     AG_CHECK_LT(raster.colorCount, gpu::kMaxColorTargets);
     raster.colorFormats[raster.colorCount++] = graph_->info(image).format;
-    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kColorLoad});
+    graph_->impl_->addUse(pass_, {.resource = image.index, .kind = UseKind::kColorLoad});
     return *this;
 }
 
@@ -103,7 +106,7 @@ PassBuilder& PassBuilder::depth(ImageHandle image) {
     gpu::RasterState& raster = AG_PASS.raster;
     raster.depthFormat = graph_->info(image).format;
     raster.depthTest = raster.depthWrite = true;
-    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kDepthLoad});
+    graph_->impl_->addUse(pass_, {.resource = image.index, .kind = UseKind::kDepthLoad});
     return *this;
 }
 
@@ -134,7 +137,7 @@ PassBuilder& PassBuilder::depthEqual(ImageHandle image) {
     gpu::RasterState& raster = AG_PASS.raster;
     raster.depthFormat = graph_->info(image).format;
     raster.depthTest = raster.depthEqual = true;
-    graph_->impl_->addUse({.resource = image.index, .kind = UseKind::kDepthTest});
+    graph_->impl_->addUse(pass_, {.resource = image.index, .kind = UseKind::kDepthTest});
     return *this;
 }
 
@@ -184,7 +187,7 @@ PassBuilder& PassBuilder::dispatchGroups(uint32_t x, uint32_t y, uint32_t z) {
 PassBuilder& PassBuilder::dispatchIndirect(BufferHandle arguments, uint64_t offsetBytes) {
     AG_PASS.dispatchIndirect = true;
     AG_PASS.indirectOffset = offsetBytes;
-    graph_->impl_->addUse({.resource = arguments.index, .kind = UseKind::kIndirect});
+    graph_->impl_->addUse(pass_, {.resource = arguments.index, .kind = UseKind::kIndirect});
     return *this;
 }
 
@@ -205,7 +208,8 @@ PassBuilder& PassBuilder::geometry(const Geometry& geometry) {
     AG_PASS.geometry = geometry;
     for (const BufferHandle buffer : {geometry.deformedPositions, geometry.deformedAttributes})
         if (buffer)
-            graph_->impl_->addUse({.resource = buffer.index, .kind = UseKind::kVertices, .keyed = false});
+            graph_->impl_->addUse(pass_,
+                                  {.resource = buffer.index, .kind = UseKind::kVertices, .keyed = false});
     return *this;
 }
 
@@ -219,9 +223,9 @@ PassBuilder& PassBuilder::draw(const RasterDraw& draw) {
     });
     // A draw with a version of its own range stands for the buffer's contents in the key.
     if (!known)
-        impl.addUse({.resource = draw.commands.index,
-                     .kind = UseKind::kIndirect,
-                     .keyed = draw.commandsVersion == 0});
+        impl.addUse(pass_, {.resource = draw.commands.index,
+                            .kind = UseKind::kIndirect,
+                            .keyed = draw.commandsVersion == 0});
     return *this;
 }
 

@@ -40,10 +40,10 @@ struct Renderer {
     }
     void frame(EditedWorld& world) {
         gi.render(world.scene(), world.size(), world.settings(), options,
-                  [&](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& declared) {
+                  [&](GraphScope scope, const gi::SceneView&, const gi::GiFrame& declared) {
                       last = declared;
-                      graph.output(declared.outputs.display);
-                      graph.output(declared.outputs.radiance);
+                      scope.output(declared.outputs.display);
+                      scope.output(declared.outputs.radiance);
                   });
         for (const PassReport& pass : gi.graph().report())
             ran += pass.outcome == PassOutcome::kRan;

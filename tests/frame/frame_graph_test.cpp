@@ -1,5 +1,5 @@
 // The graph's decisions, without a device.
-#include "engine/frame/frame_graph.h"
+#include "engine/frame/frame_description.h"
 
 #include <gtest/gtest.h>
 
@@ -229,14 +229,13 @@ TEST_F(NullGraph, WhatIsHeldStaysThoughWhatItReadsChanges) {
     const auto frame = [&](uint64_t version, bool hold, bool skip) {
         options.skip = skip;
         g.beginFrame(options);
-        g.hold(hold);
         const BufferHandle source = g.importBuffer("source", kBuffer, version);
         const HistoryBuffer sum = g.historyBuffer("sum", kBuffer);
-        g.compute("held", "a.comp")
+        g.held(hold)
+            .compute("held", "a.comp")
             .read("source", source)
             .readPrevious("before", sum)
             .write("sum", sum.current);
-        g.hold(false);
         const BufferHandle out = g.buffer("out", kBuffer);
         g.compute("use", "b.comp").read("sum", sum.current).read("source", source).write("out", out);
         g.output(out);
@@ -257,17 +256,87 @@ TEST_F(NullGraph, WhatIsHeldStaysThoughWhatItReadsChanges) {
     }
 }
 
+// A pass that goes on from its own past, and one that reads it.
+HistoryBuffer declareSum(GraphScope scope, uint64_t version) {
+    const HistoryBuffer sum = scope.historyBuffer("sum", kBuffer);
+    scope.compute("step", "a.comp")
+        .read("source", scope.importBuffer("source", kBuffer, version))
+        .readPrevious("before", sum)
+        .write("sum", sum.current);
+    scope.output(sum.current);
+    return sum;
+}
+
+TEST_F(NullGraph, ScopesShareNothingButTheFrame) {
+    const GraphScope left = g.makeScope("left"), right = g.makeScope("right");
+    bool leftValid = false, rightValid = false;
+    const auto frame = [&](uint64_t leftVersion, uint64_t rightVersion) {
+        g.beginFrame(options);
+        leftValid = declareSum(left, leftVersion).valid;
+        rightValid = declareSum(right, rightVersion).valid;
+        EXPECT_NE(left.findBuffer("sum"), right.findBuffer("sum"));
+        EXPECT_FALSE(g.findBuffer("sum")) << "the outermost scope has no such name";
+        run();
+        return std::pair(g.report()[0].outcome, g.report()[1].outcome);
+    };
+    using enum PassOutcome;
+    EXPECT_EQ(frame(1, 1), std::pair(kRan, kRan));
+    EXPECT_EQ(g.report()[0].scope, "left");
+    EXPECT_EQ(g.report()[1].scope, "right");
+    EXPECT_EQ(g.describe().passes[1].name, "right/step");
+    EXPECT_EQ(frame(2, 1), std::pair(kRan, kSkipped)) << "what changes in one does not touch the other";
+    right.reset();
+    EXPECT_EQ(frame(2, 1), std::pair(kSkipped, kRan));
+    EXPECT_TRUE(leftValid);
+    EXPECT_FALSE(rightValid);
+    frame(2, 1);
+    EXPECT_TRUE(rightValid);
+    g.removeScope(right);
+    const GraphScope again = g.makeScope("again");  // takes its place, and nothing of what it had
+    g.beginFrame(options);
+    EXPECT_FALSE(declareSum(again, 1).valid);
+    run();
+    EXPECT_EQ(g.report().front().outcome, kRan);
+}
+
+TEST_F(NullGraph, ResetForgetsAllThatAScopeMade) {
+    const auto frame = [&] {
+        g.beginFrame(options);
+        const HistoryBuffer sum = declareSum(g, 1);
+        const BufferHandle kept = g.buffer("kept", kBuffer);
+        g.compute("make", "b.comp").read("sum", sum.current).write("out", kept);
+        g.output(kept);
+        run();
+        return sum.valid;
+    };
+    frame();
+    EXPECT_TRUE(frame());
+    EXPECT_EQ(g.report()[0].outcome, PassOutcome::kSkipped);
+    EXPECT_EQ(g.report()[1].outcome, PassOutcome::kSkipped);
+    g.reset();
+    EXPECT_FALSE(frame());
+    EXPECT_EQ(g.report()[0].outcome, PassOutcome::kRan);
+    EXPECT_EQ(g.report()[1].outcome, PassOutcome::kRan);
+}
+
+TEST_F(NullGraph, APassIsDeclaredWholeBeforeTheNext) {
+    g.beginFrame(options);
+    const BufferHandle out = g.buffer("out", kBuffer);
+    PassBuilder first = g.compute("first", "a.comp");
+    g.compute("second", "b.comp");
+    EXPECT_DEATH(first.write("out", out), "first is declared on after second");
+}
+
 TEST_F(NullGraph, HistoriesBehindWhatIsHeldDoNotStep) {
     const auto frame = [&](uint64_t version, bool hold) {
         g.beginFrame(options);
-        g.hold(hold);
         const HistoryBuffer first = g.historyBuffer("first", kBuffer),
                             then = g.historyBuffer("then", kBuffer);
-        g.compute("first", "a.comp")
+        g.held(hold)
+            .compute("first", "a.comp")
             .read("source", g.importBuffer("source", kBuffer, version))
             .readPrevious("before", first)
             .write("sum", first.current);
-        g.hold(false);
         g.compute("then", "b.comp")
             .read("sum", first.current)
             .readPrevious("before", then)

@@ -24,21 +24,20 @@ struct Bench {
     }
     void frame() {
         renderer.render(
-            scene, size, settings, options,
-            [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+            scene, size, settings, options, [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
                 last = declared;
-                graph.output(declared.outputs.display);
-                graph.output(declared.outputs.radiance);
+                scope.output(declared.outputs.display);
+                scope.output(declared.outputs.radiance);
                 if (declared.rsm.empty() || settings.firstBounce == FirstBounce::kNone) {
-                    if (output) output(graph, declared);
+                    if (output) output(scope, declared);
                     return;
                 }
                 for (BufferHandle b : {declared.rsm.texels, declared.clusters.clusters,
                                        declared.clusters.seeds, declared.clusters.candidates,
                                        declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
-                    graph.output(b);
-                if (declared.bounce1.image) graph.output(declared.bounce1.image);
-                if (output) output(graph, declared);
+                    scope.output(b);
+                if (declared.bounce1.image) scope.output(declared.bounce1.image);
+                if (output) output(scope, declared);
             });
     }
     template <class T>
@@ -68,7 +67,7 @@ struct Bench {
     FrameGraphOptions options;
     GiRenderer renderer;
     GiFrame last;
-    std::function<void(FrameGraph&, const GiFrame&)> output;  // what a test reads besides
+    std::function<void(GraphScope, const GiFrame&)> output;  // what a test reads besides
 };
 
 inline double meanOf(const Image& image) {

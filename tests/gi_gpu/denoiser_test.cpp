@@ -18,8 +18,8 @@ std::unique_ptr<Bench> stochasticBench(SceneAsset asset, glm::uvec2 size, const 
     EXPECT_TRUE(applyPreset(preset, b->settings));
     b->settings.rsm.resolution = 64;
     b->settings.stochasticRsm.settleFrames = 1'000'000;
-    b->output = [](FrameGraph& graph, const GiFrame& f) {
-        if (f.bounce1.image) graph.output(f.bounce1.image);
+    b->output = [](GraphScope scope, const GiFrame& f) {
+        if (f.bounce1.image) scope.output(f.bounce1.image);
     };
     return b;
 }
@@ -55,14 +55,14 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
                 setCamera(b.scene, pose, b.size);
                 ImageHandle normal, out;
                 b.renderer.render(b.scene, b.size, b.settings, b.options,
-                                  [&](FrameGraph& graph, const SceneView& view, const GiFrame& f) {
+                                  [&](GraphScope scope, const SceneView& view, const GiFrame& f) {
                                       normal = f.gbuffer.normal;
-                                      const GBuffer thin = addThinned(graph, f.gbuffer, spacing);
+                                      const GBuffer thin = addThinned(scope, f.gbuffer, spacing);
                                       const Irradiance steady = addDenoiser(
-                                          graph, view, thin, {{thin.normal}, 1, frame}, s, history);
-                                      out = addUpsampling(graph, f.gbuffer, thin, steady).image;
-                                      graph.output(normal);
-                                      graph.output(out);
+                                          scope, view, thin, {{thin.normal}, 1, frame}, s, history);
+                                      out = addUpsampling(scope, f.gbuffer, thin, steady).image;
+                                      scope.output(normal);
+                                      scope.output(out);
                                   });
                 normals = readImage(b.renderer, normal);
                 result = readImage(b.renderer, out);
@@ -87,13 +87,13 @@ TEST(Upsampling, IsWhatAllPixelsWouldHave) {
         ImageHandle all, spread;
         for (int frame = 0; frame < 8; ++frame)  // clusters settle
             b.renderer.render(b.scene, b.size, b.settings, b.options,
-                              [&](FrameGraph& graph, const SceneView&, const GiFrame& f) {
+                              [&](GraphScope scope, const SceneView&, const GiFrame& f) {
                                   all = f.bounce1.image;
-                                  const GBuffer thin = addThinned(graph, f.gbuffer, spacing);
-                                  const Irradiance taken{addThinImage(graph, "test.thin", all, spacing)};
-                                  spread = addUpsampling(graph, f.gbuffer, thin, taken).image;
-                                  graph.output(all);
-                                  graph.output(spread);
+                                  const GBuffer thin = addThinned(scope, f.gbuffer, spacing);
+                                  const Irradiance taken{addThinImage(scope, "test.thin", all, spacing)};
+                                  spread = addUpsampling(scope, f.gbuffer, thin, taken).image;
+                                  scope.output(all);
+                                  scope.output(spread);
                               });
         expectAlike(readImage(b.renderer, spread), readImage(b.renderer, all), spacing);
     }
@@ -128,7 +128,7 @@ TEST(Upsampling, TakesLightAsEachPixelIsTurned) {
     Bench b(withWaves(*scenegen::buildScene("cornell", 0)), {320, 180});
     const auto bounce = [&](uint32_t spacing) {
         b.settings.spacing = spacing;
-        b.output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.bounce1.image); };
+        b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.bounce1.image); };
         for (int frame = 0; frame < 8; ++frame)
             b.frame();
         EXPECT_TRUE(b.last.gbuffer.bent);
@@ -284,11 +284,11 @@ struct MovingBox {
         b = stochasticBench(s.finish(), {320, 192});
         b->settings.stochasticRsm.radius = 1;
         b->settings.denoiser = denoiser;
-        b->output = [this](FrameGraph& graph, const GiFrame& f) {
+        b->output = [this](GraphScope scope, const GiFrame& f) {
             albedo = f.gbuffer.albedo;
-            graph.output(f.gbuffer.albedo);
-            graph.output(f.bounce1.image);
-            if (f.gbuffer.motion) graph.output(f.gbuffer.motion);
+            scope.output(f.gbuffer.albedo);
+            scope.output(f.bounce1.image);
+            if (f.gbuffer.motion) scope.output(f.gbuffer.motion);
         };
         row = uint32_t(b->scene.instances.size()) - 1;
         b->scene.instances[row].movable = true;

@@ -116,10 +116,10 @@ void checkDirect(const RenderLight& light, double most) {
     b.scene.lights = {light};
     for (int i = 0; i < 2; ++i)
         b.renderer.render(b.scene, b.size, b.settings, b.options,
-                          [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
                               b.last = declared;
-                              graph.output(declared.direct.image);
-                              graph.output(declared.gbuffer.depth);
+                              scope.output(declared.direct.image);
+                              scope.output(declared.gbuffer.depth);
                           });
     const Image direct = readImage(b.renderer, b.last.direct.image);
     const Image depth = readImage(b.renderer, b.last.gbuffer.depth);
@@ -169,10 +169,10 @@ TEST(GBuffer, MirroredThingsShowTheirFronts) {
     Bench b(plane(0.5f));
     for (int turn = 0; turn < 2; ++turn) {
         b.renderer.render(b.scene, b.size, b.settings, b.options,
-                          [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
                               b.last = declared;
-                              graph.output(declared.gbuffer.depth);
-                              graph.output(declared.gbuffer.normal);
+                              scope.output(declared.gbuffer.depth);
+                              scope.output(declared.gbuffer.normal);
                           });
         EXPECT_GT(readImage(b.renderer, b.last.gbuffer.depth).at(80, 60).x, 0) << turn;
         EXPECT_NEAR(readImage(b.renderer, b.last.gbuffer.normal).at(80, 60).y, 1, 1e-3) << turn;
@@ -197,9 +197,9 @@ TEST(DirectLight, BoxesCastShadows) {
                            .outerConeAngle = 0.9f,
                            .id = 1}};
         b.renderer.render(b.scene, b.size, b.settings, b.options,
-                          [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
                               b.last = declared;
-                              graph.output(declared.direct.image);
+                              scope.output(declared.direct.image);
                           });
         const Image direct = readImage(b.renderer, b.last.direct.image);
         const auto at = [&](glm::vec3 p) {
@@ -357,7 +357,7 @@ TEST(VplSampling, LightsCarryTheMapsFlux) {
         Bench b(*scenegen::buildScene(name, 0));
         applyPreset("ism", b.settings);
         b.settings.ismAtlas.enabled = false;
-        b.output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.vals.vals); };
+        b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.vals.vals); };
         b.frame();
         double lights = 0;
         for (const io::Val& val : b.read<io::Val>(b.last.vals.vals))
@@ -388,9 +388,9 @@ KeptMaps keptMaps(Bench& b) {
 // of all maps.
 TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
     Bench b(*scenegen::buildScene("hall", 0));
-    b.output = [](FrameGraph& graph, const GiFrame& f) {
-        graph.output(f.vals.vals);
-        graph.output(f.isms.states);
+    b.output = [](GraphScope scope, const GiFrame& f) {
+        scope.output(f.vals.vals);
+        scope.output(f.isms.states);
     };
     CameraPose pose = cameraOf(b.asset, 0);
     KeptMaps camera;
@@ -425,10 +425,10 @@ TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
         b->settings.ismAtlas.keepMaps = keep;
         b->settings.importance.viewWeight = 0;
         b->scene.instances.back().movable = true;
-        b->output = [](FrameGraph& graph, const GiFrame& f) {
-            graph.output(f.vals.vals);
-            graph.output(f.isms.states);
-            graph.output(f.isms.planes);
+        b->output = [](GraphScope scope, const GiFrame& f) {
+            scope.output(f.vals.vals);
+            scope.output(f.isms.states);
+            scope.output(f.isms.planes);
         };
         return b;
     };
@@ -475,11 +475,11 @@ PointDensity densityOfMaps(bool nearMore) {
     Bench b(*scenegen::buildScene("cornell", 0));
     b.settings.ismAtlas.nearMore = nearMore;
     b.settings.ismAtlas.keepMaps = false;
-    b.output = [](FrameGraph& graph, const GiFrame& f) {
-        graph.output(f.vals.vals);
-        graph.output(f.surfacePoints.points);
-        graph.output(f.isms.chosen);
-        graph.output(f.isms.states);
+    b.output = [](GraphScope scope, const GiFrame& f) {
+        scope.output(f.vals.vals);
+        scope.output(f.surfacePoints.points);
+        scope.output(f.isms.chosen);
+        scope.output(f.isms.states);
     };
     for (int i = 0; i < 8; ++i)
         b.frame();

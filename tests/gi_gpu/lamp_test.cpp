@@ -19,7 +19,7 @@ constexpr double kPi = std::numbers::pi;
 std::unique_ptr<Bench> directBench(SceneAsset asset, glm::uvec2 size = {160, 96}) {
     auto b = std::make_unique<Bench>(std::move(asset), size);
     b->settings.firstBounce = FirstBounce::kNone;
-    b->output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.direct.image); };
+    b->output = [](GraphScope scope, const GiFrame& f) { scope.output(f.direct.image); };
     return b;
 }
 
@@ -105,9 +105,9 @@ TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
 // What is measured is the light of each lamp, shadows aside, at the points that stand for the view.
 TEST(LampRelevance, IsTheLightAtTheViewsPoints) {
     const auto b = directBench(*scenegen::buildScene("lamps", 80));
-    b->output = [](FrameGraph& graph, const GiFrame& f) {
-        graph.output(f.direct.image);
-        graph.output(f.viewPoints);
+    b->output = [](GraphScope scope, const GiFrame& f) {
+        scope.output(f.direct.image);
+        scope.output(f.viewPoints);
     };
     b->frame();
     LampRelevance relevance;

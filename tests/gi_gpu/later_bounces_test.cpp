@@ -11,8 +11,8 @@ namespace {
 std::unique_ptr<Bench> laterBench(const char* scene, uint32_t param) {
     auto b = std::make_unique<Bench>(*scenegen::buildScene(scene, param), glm::uvec2(96, 54));
     b->settings.laterBounces.enabled = true;
-    b->output = [](FrameGraph& graph, const GiFrame& f) {
-        if (f.indirect.image) graph.output(f.indirect.image);
+    b->output = [](GraphScope scope, const GiFrame& f) {
+        if (f.indirect.image) scope.output(f.indirect.image);
     };
     return b;
 }
@@ -45,6 +45,24 @@ double settledMean(uint32_t albedo, bool feedback) {
         EXPECT_NEAR(meanOnSurfaces(*b) / mean, 1, 0.01) << "it stays";
     }
     return mean;
+}
+
+// Light that went on in the scene before must not be sent out in the one that takes its place.
+TEST(LaterBounces, ASceneLoadedAnewHasNoneOfTheLightBefore) {
+    const auto firstFrame = [](Bench& b) {
+        b.frame();
+        return readImage(b.renderer, b.last.indirect.image);
+    };
+    const auto fresh = laterBench("furnace", 50), used = laterBench("furnace", 50);
+    used->scene.lights[0].intensity *= 100.0f;
+    for (int i = 0; i < 10; ++i)
+        used->frame();
+    used->scene.lights[0].intensity /= 100.0f;
+    ++used->scene.lightsVersion;
+    used->renderer.load(used->asset.geometry);
+    const Image image = firstFrame(*used), truth = firstFrame(*fresh);
+    ASSERT_GT(meanOf(truth), 0);
+    EXPECT_EQ(meanOf(image), meanOf(truth));
 }
 
 TEST(LaterBounces, FurnaceConvergesToTheGeometricSeries) {
@@ -91,7 +109,7 @@ TEST(LaterBounces, CostNothingWhenOffAndRestWhenNothingChanges) {
 TEST(LaterBounces, LightsOfTheCeilingLookFromTheCeiling) {
     const auto b = laterBench("cornell", 0);
     b->settings.valClustering.count = 256;
-    b->output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.vals.vals); };
+    b->output = [](GraphScope scope, const GiFrame& f) { scope.output(f.vals.vals); };
     for (int i = 0; i < 64; ++i)
         b->frame();
     const std::vector<io::Val> vals = b->read<io::Val>(b->last.vals.vals);
@@ -124,7 +142,7 @@ TEST(LaterBounces, SameFrameTwiceSameBits) {
 TEST(LaterBounces, AtFewerPixelsAreWhatAllWouldHave) {
     Bench b(*scenegen::buildScene("cornell", 0), {320, 180});
     b.settings.laterBounces = {.enabled = true, .feedback = false};
-    b.output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.indirect.image); };
+    b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.indirect.image); };
     const auto settled = [&](uint32_t spacing) {
         b.settings.laterBounces.spacing = spacing;
         for (int frame = 0; frame < 80; ++frame)

@@ -119,7 +119,7 @@ float distanceFrom(glm::vec3 p, const std::array<glm::vec3, 3>& c) {
 // Every point on a figure lies on the triangle it was chosen on, as that is bent now, with its normal.
 TEST(Skinning, PointsOnSurfacesFollow) {
     FigureBench b(3);
-    b.output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.surfacePoints.points); };
+    b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.surfacePoints.points); };
     const SurfaceSamples samples = sampleSurfaces(b.scene, 1u << 17);
     b.next();
     for (uint32_t f = 0; f < 3; ++f)
@@ -180,10 +180,10 @@ TEST(Skinning, MotionLeadsBackToTheFrameBefore) {
     FigureBench b(1, {160, 120});
     b.settings.denoiser.enabled = true;
     ImageHandle motion, depth;
-    b.output = [&](FrameGraph& graph, const GiFrame& f) {
+    b.output = [&](GraphScope scope, const GiFrame& f) {
         motion = f.gbuffer.motion, depth = f.gbuffer.depth;
-        if (motion) graph.output(motion);
-        graph.output(depth);
+        if (motion) scope.output(motion);
+        scope.output(depth);
     };
     b.pose(0, 0.5f);
     b.next();

@@ -43,7 +43,7 @@ Lists listsOf(const SsvpSettings& settings, int frames = 2) {
     Bench b(fineRoom(), {64, 36});
     applyPreset("ssvp", b.settings);
     b.settings.ssvp = settings;
-    b.output = [](FrameGraph& graph, const GiFrame& f) { graph.output(f.vals.vals); };
+    b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.vals.vals); };
     for (int i = 0; i < frames; ++i)
         b.frame();
     const std::vector<io::Val> all = b.read<io::Val>(b.last.vals.vals);

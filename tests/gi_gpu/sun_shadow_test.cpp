@@ -24,8 +24,8 @@ std::unique_ptr<Bench> courtWithSun() {
                                .intensity = glm::vec3(3),
                                .id = 7});
     b->scene.instances.back().movable = true;
-    b->output = [](FrameGraph& graph, const GiFrame& f) {
-        if (f.shadows.atlas) graph.output(f.shadows.atlas);
+    b->output = [](GraphScope scope, const GiFrame& f) {
+        if (f.shadows.atlas) scope.output(f.shadows.atlas);
     };
     return b;
 }

@@ -249,10 +249,10 @@ MapAgreement agreement(Parity& p) {
     GiFrame frame;
     for (int i = 0; i < 4; ++i)
         p.renderer.render(p.scene, p.size, {}, {.timing = TimingMode::kOff},
-                          [&](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
                               frame = declared;
-                              graph.output(declared.isms.planes);
-                              graph.output(declared.vals.vals);
+                              scope.output(declared.isms.planes);
+                              scope.output(declared.vals.vals);
                           });
     const auto read = [&]<class T>(BufferHandle buffer, std::vector<T>& items) {
         const gpu::Buffer& source = p.renderer.graph().physical(buffer);

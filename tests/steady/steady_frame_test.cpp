@@ -29,8 +29,8 @@ TEST(SteadyFrame, AllocatesNothingWhileThingsMove) {
         scene.instances.back().worldFromLocal[3].y += 0.001f;
         ++scene.instancesVersion;
         renderer.render(scene, size, settings, {},
-                        [](FrameGraph& graph, const SceneView&, const GiFrame& declared) {
-                            graph.output(declared.outputs.display);
+                        [](GraphScope scope, const SceneView&, const GiFrame& declared) {
+                            scope.output(declared.outputs.display);
                         });
         for (const PassReport& pass : renderer.graph().report())
             ran += pass.outcome == PassOutcome::kRan;

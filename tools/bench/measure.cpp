@@ -53,9 +53,9 @@ struct Frame {
 
     void render(const RenderScene& scene, const gi::GiSettings& settings, const FrameGraphOptions& options) {
         renderer.render(scene, size, settings, options,
-                        [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
-                            shown = gi::addLayer(graph, view, frame, layer);
-                            if (shown) graph.output(shown);
+                        [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
+                            shown = gi::addLayer(scope, view, frame, layer);
+                            if (shown) scope.output(shown);
                             emitters =
                                 settings.firstBounce == gi::FirstBounce::kAreaLights ? frame.vals.count : 0;
                         });

@@ -175,8 +175,8 @@ class Walkthrough {
     void frame(Change change, const FrameGraphOptions& options) {
         apply(change);
         renderer_.render(scene_, size_, settings_, options,
-                         [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& declared) {
-                             graph.output(declared.outputs.display);
+                         [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& declared) {
+                             scope.output(declared.outputs.display);
                          });
         scene_.allInstancesChanged = false;
     }

@@ -46,11 +46,11 @@ struct Run {
 
     void render(const RenderScene& scene, const FrameGraphOptions& options = {}) {
         renderer.render(scene, kSize, settings, options,
-                        [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& declared) {
+                        [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& declared) {
                             frame = declared;
-                            shown = gi::addLayer(graph, view, declared, gi::Layer::kBounce1);
-                            graph.output(shown);
-                            if (declared.clusters.clusters) graph.output(declared.clusters.clusters);
+                            shown = gi::addLayer(scope, view, declared, gi::Layer::kBounce1);
+                            scope.output(shown);
+                            if (declared.clusters.clusters) scope.output(declared.clusters.clusters);
                         });
     }
 };

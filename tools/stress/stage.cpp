@@ -37,18 +37,18 @@ Stage::Stage(gpu::Device& device, SceneAsset built, glm::uvec2 pixels)
 void Stage::frame() {
     renderer.render(
         scene, size, settings, options,
-        [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& declared) {
+        [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& declared) {
             last_ = declared;
-            radiance_ = gi::addLayer(graph, view, declared, gi::Layer::kRadiance);
-            graph.output(radiance_);
-            graph.output(declared.outputs.display);
+            radiance_ = gi::addLayer(scope, view, declared, gi::Layer::kRadiance);
+            scope.output(radiance_);
+            scope.output(declared.outputs.display);
             if (declared.rsm.empty() || settings.firstBounce == gi::FirstBounce::kNone) return;
-            graph.output(declared.rsm.texels);
+            scope.output(declared.rsm.texels);
             if (!declared.clusters.clusters) return;
             for (const BufferHandle b : {declared.clusters.clusters, declared.clusters.candidates,
                                          declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
-                graph.output(b);
-            graph.output(declared.vals.vals);
+                scope.output(b);
+            scope.output(declared.vals.vals);
         });
 }
 

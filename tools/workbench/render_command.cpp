@@ -62,8 +62,8 @@ void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSetti
     constexpr int kRepeats = 7;
     for (int i = 0; i < kRepeats; ++i) {
         renderer.render(loaded.scene, loaded.size, settings.gi, options,
-                        [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
-                            graph.output(frame.outputs.display);
+                        [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                            scope.output(frame.outputs.display);
                         });
         best.resize(renderer.graph().report().size(), 1e30);
         for (size_t p = 0; p < best.size(); ++p)
@@ -96,8 +96,8 @@ void printTimesOfWalk(gi::GiRenderer& renderer, LoadedScene& loaded, RenderSetti
         camera.worldFromClip = glm::inverse(camera.clipFromWorld);
         ++loaded.scene.cameraVersion;
         renderer.render(loaded.scene, loaded.size, settings.gi, options,
-                        [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
-                            graph.output(frame.outputs.display);
+                        [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                            scope.output(frame.outputs.display);
                         });
         for (const PassReport& pass : renderer.graph().report()) {
             const auto [entry, added] = sums.try_emplace(std::string(pass.name), 0.0);
@@ -232,16 +232,16 @@ class Rendering {
     void renderFrame() {
         const bool png = std::filesystem::path(options_.output).extension() == ".png";
         renderer_.render(loaded_.scene, loaded_.size, settings_.gi, settings_.graph,
-                         [&](FrameGraph& graph, const gi::SceneView& view, const gi::GiFrame& frame) {
+                         [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
                              shown_.missing =
                                  whyMissing(options_, loaded_.scene, frame, settings_.gi, asked_.layer);
-                             shown_.image = png ? gi::addLayerView(graph, view, frame, asked_.layer,
+                             shown_.image = png ? gi::addLayerView(scope, view, frame, asked_.layer,
                                                                    loaded_.size, settings_.gi.composite)
-                                                : gi::addLayer(graph, view, frame, asked_.layer);
+                                                : gi::addLayer(scope, view, frame, asked_.layer);
                              if (asked_.asRadiance)
-                                 shown_.albedo = gi::addLayer(graph, view, frame, gi::Layer::kAlbedo);
+                                 shown_.albedo = gi::addLayer(scope, view, frame, gi::Layer::kAlbedo);
                              for (const ImageHandle image : {shown_.image, shown_.albedo})
-                                 if (image) graph.output(image);
+                                 if (image) scope.output(image);
                          });
     }
 

@@ -63,8 +63,8 @@ gi::ProbeReading measureLight(gi::GiRenderer& renderer, const LitFlower& lit, co
     gi::ProbeReading light;
     for (uint32_t i = 0; i < frames; ++i) {
         renderer.render(scene, {64, 36}, settings, {.timing = TimingMode::kOff},
-                        [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
-                            graph.output(frame.outputs.display);
+                        [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                            scope.output(frame.outputs.display);
                         });
         scene.allInstancesChanged = false;
         scene.changedInstances.clear();

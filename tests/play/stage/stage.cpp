@@ -31,8 +31,8 @@ void Stage::tick(const Input& input) {
     if (++ticks % perFrame) return;
     game.frame(size);
     renderer.render(game.scene(), size, settings, options,
-                    [](FrameGraph& graph, const gi::SceneView&, const gi::GiFrame& frame) {
-                        graph.output(frame.outputs.display);
+                    [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                        scope.output(frame.outputs.display);
                     });
     game.takeReadings(renderer.probeReadings());
 }
