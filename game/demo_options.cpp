@@ -17,9 +17,9 @@ int refuse(const std::string& sentence) {
     return 2;
 }
 
-gpu::DeviceOptions deviceOptions(const Demo& demo, GLFWwindow* window) {
+gpu::DeviceOptions deviceOptions(const Demo& demo, std::optional<gpu::WindowSurface> window) {
     return {.validation = demo.options.validate,
-            .window = window,
+            .window = std::move(window),
             .without = demo.options.without,
             .fault = demo.fault};
 }

@@ -56,7 +56,7 @@ int runHeadless(Demo& demo);
 int runWindowed(Demo& demo);
 int refuse(const std::string& sentence);
 
-gpu::DeviceOptions deviceOptions(const Demo& demo, GLFWwindow* window);
+gpu::DeviceOptions deviceOptions(const Demo& demo, std::optional<gpu::WindowSurface> window = {});
 // The level anew, from its file.
 Status loadLevel(Demo& demo);
 // The preset's settings, or the automatic step's, with what the command line set over them.

@@ -151,7 +151,7 @@ class HeadlessRun {
 }  // namespace
 
 int runHeadless(Demo& demo) {
-    auto device = gpu::Device::create(deviceOptions(demo, nullptr));
+    auto device = gpu::Device::create(deviceOptions(demo));
     if (!device) return refuse(device.error().message);
     return HeadlessRun(demo, **device).run();
 }

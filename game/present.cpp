@@ -5,29 +5,31 @@
 namespace ag::game {
 namespace {
 
-void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
-    gpu::transitionImage(commands, image, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}, from, to);
+void transition(const gpu::Functions& vk, VkCommandBuffer commands, VkImage image, VkImageLayout from,
+                VkImageLayout to) {
+    gpu::transitionImage(vk, commands, image, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}, from, to);
 }
 
-void blit(VkCommandBuffer commands, const gpu::Image& from, VkImage to, glm::uvec2 size) {
+void blit(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Image& from, VkImage to,
+          glm::uvec2 size) {
     VkImageBlit region{.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                        .dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}};
     region.srcOffsets[1] = {int32_t(from.desc().size.x), int32_t(from.desc().size.y), 1};
     region.dstOffsets[1] = {int32_t(size.x), int32_t(size.y), 1};
-    vkCmdBlitImage(commands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
+    vk.CmdBlitImage(commands, from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
 }
 
 }  // namespace
 
-void presentImage(VkCommandBuffer commands, const gpu::Image& from, const gpu::SwapchainImage& target,
-                  glm::uvec2 size, FunctionRef<void()> drawOver) {
-    transition(commands, target.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-    blit(commands, from, target.image, size);
-    transition(commands, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+void presentImage(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Image& from,
+                  const gpu::SwapchainImage& target, glm::uvec2 size, FunctionRef<void()> drawOver) {
+    transition(vk, commands, target.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    blit(vk, commands, from, target.image, size);
+    transition(vk, commands, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     drawOver();
-    transition(commands, target.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+    transition(vk, commands, target.image, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 

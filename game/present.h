@@ -8,7 +8,7 @@
 namespace ag::game {
 
 // `from` is in TRANSFER_SRC_OPTIMAL; `drawOver` records with the target as a colour attachment.
-void presentImage(VkCommandBuffer commands, const gpu::Image& from, const gpu::SwapchainImage& target,
-                  glm::uvec2 size, FunctionRef<void()> drawOver);
+void presentImage(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Image& from,
+                  const gpu::SwapchainImage& target, glm::uvec2 size, FunctionRef<void()> drawOver);
 
 }  // namespace ag::game

@@ -283,10 +283,11 @@ class WindowedRun {
                 capture_.declare(scope, frame);
             },
             [&](VkCommandBuffer commands) {
-                presentImage(commands, renderer_.graph().physical(shown_), *image, swapchain_.size(), [&] {
-                    imgui_.draw(commands, image->view, swapchain_.format(), swapchain_.size(),
-                                uint32_t(drawn_++ % 2));
-                });
+                presentImage(device_.vk(), commands, renderer_.graph().physical(shown_), *image,
+                             swapchain_.size(), [&] {
+                                 imgui_.draw(commands, image->view, swapchain_.format(), swapchain_.size(),
+                                             uint32_t(drawn_++ % 2));
+                             });
             },
             {image->acquired, image->rendered});
         demo_.game->takeReadings(renderer_.probeReadings());
@@ -366,7 +367,9 @@ int runWindowed(Demo& demo) {
     if (!window) return refuse(window.error().message + "; try --headless");
     const auto renderDoc = gpu::RenderDoc::open(demo.options.renderDoc);
     if (!renderDoc) return refuse(renderDoc.error().message);
-    auto device = gpu::Device::create(deviceOptions(demo, (*window)->handle()));
+    auto surface = (*window)->surface();
+    if (!surface) return refuse(surface.error().message);
+    auto device = gpu::Device::create(deviceOptions(demo, *std::move(surface)));
     if (!device) return refuse(device.error().message);
     int exitCode = WindowedRun(demo, **window, **device, *renderDoc).loop();
     const int messages = (*device)->validationMessageCount();

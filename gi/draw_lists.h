@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <volk.h>
 #include <glm/glm.hpp>
+#include "engine/gpu/functions.h"
 
 #include "engine/scene/instance_bounds.h"
 

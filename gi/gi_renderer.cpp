@@ -22,13 +22,13 @@ GiRenderer::GiRenderer(gpu::Device& device, uint32_t threads)
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                            .queueFamilyIndex = device.queueFamily()};
-        AG_VK(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
+        AG_VK(device.vk().CreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
         device.setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame");
         const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = slot.pool,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                .commandBufferCount = 1};
-        AG_VK(vkAllocateCommandBuffers(device.handle(), &info, &slot.commands));
+        AG_VK(device.vk().AllocateCommandBuffers(device.handle(), &info, &slot.commands));
         device.setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, "frame");
     }
 }
@@ -36,7 +36,7 @@ GiRenderer::GiRenderer(gpu::Device& device, uint32_t threads)
 GiRenderer::~GiRenderer() {
     device_.waitIdle();
     for (Slot& slot : slots_)
-        vkDestroyCommandPool(device_.handle(), slot.pool, nullptr);
+        device_.vk().DestroyCommandPool(device_.handle(), slot.pool, nullptr);
 }
 
 void GiRenderer::load(const GeometryArrays& geometry) {
@@ -75,7 +75,7 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
     Slot& slot = slots_[index];
     moments_.begin = steadyNs();
     device_.waitFor(slot.submitted);
-    AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
+    AG_VK(device_.vk().ResetCommandPool(device_.handle(), slot.pool, 0));
 
     moments_.waited = steadyNs();
     const RenderScene& scene = inOwnUnits(given);
@@ -93,22 +93,22 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
 
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    AG_VK(vkBeginCommandBuffer(slot.commands, &begin));
+    AG_VK(device_.vk().BeginCommandBuffer(slot.commands, &begin));
     using Previous = SceneGpu::Previous;
     const Previous previous = graph_.isRead(view.previousInstances) ? Previous::kKept : Previous::kUnread;
     scene_.upload(slot.commands, view, previous, index);
     if (options.timing == TimingMode::kProcessCpu) {
         // The graph submits by itself, so the uploads must be on their way before it.
-        AG_VK(vkEndCommandBuffer(slot.commands));
+        AG_VK(device_.vk().EndCommandBuffer(slot.commands));
         device_.waitFor(device_.submit(slot.commands));
-        AG_VK(vkResetCommandPool(device_.handle(), slot.pool, 0));
+        AG_VK(device_.vk().ResetCommandPool(device_.handle(), slot.pool, 0));
         graph_.execute(VK_NULL_HANDLE);
-        AG_VK(vkBeginCommandBuffer(slot.commands, &begin));
+        AG_VK(device_.vk().BeginCommandBuffer(slot.commands, &begin));
     } else {
         graph_.execute(slot.commands);
     }
     present(slot.commands);
-    AG_VK(vkEndCommandBuffer(slot.commands));
+    AG_VK(device_.vk().EndCommandBuffer(slot.commands));
     moments_.recorded = steadyNs();
     slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
     moments_.submitted = steadyNs();

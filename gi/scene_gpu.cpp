@@ -73,7 +73,7 @@ uint64_t instanceSet(const RenderScene& scene) {
 
 enum class Transfer { kBefore, kBetweenCopies, kAfter };
 
-void transferBarrier(VkCommandBuffer commands, Transfer when) {
+void transferBarrier(const gpu::Functions& vk, VkCommandBuffer commands, Transfer when) {
     VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     const bool before = when == Transfer::kBefore, after = when == Transfer::kAfter;
     barrier.srcStageMask = before ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -82,7 +82,7 @@ void transferBarrier(VkCommandBuffer commands, Transfer when) {
     barrier.dstAccessMask = after ? VK_ACCESS_2_MEMORY_READ_BIT : VK_ACCESS_2_TRANSFER_WRITE_BIT;
     const VkDependencyInfo info{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &info);
+    vk.CmdPipelineBarrier2(commands, &info);
 }
 
 }  // namespace
@@ -277,9 +277,9 @@ void SceneGpu::stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<con
         staging.used = 0;
     }
     std::memcpy(staging.buffer->mapped() + staging.used, bytes.data(), bytes.size());
-    if (uploadedBytes_ == 0) transferBarrier(commands, Transfer::kBefore);
+    if (uploadedBytes_ == 0) transferBarrier(device_.vk(), commands, Transfer::kBefore);
     const VkBufferCopy region{.srcOffset = staging.used, .dstOffset = offset, .size = bytes.size()};
-    vkCmdCopyBuffer(commands, staging.buffer->handle(), to.handle(), 1, &region);
+    device_.vk().CmdCopyBuffer(commands, staging.buffer->handle(), to.handle(), 1, &region);
     staging.used += bytes.size();
     uploadedBytes_ += bytes.size();
 }
@@ -293,16 +293,16 @@ void SceneGpu::keepPrevious(VkCommandBuffer commands, const SceneView& view) {
         uploadedBytes_ += regions.back().size;
     }
     if (regions.empty()) return;
-    transferBarrier(commands, Transfer::kBefore);
-    vkCmdCopyBuffer(commands, instances_->handle(), previousInstances_->handle(), uint32_t(regions.size()),
-                    regions.data());
+    transferBarrier(device_.vk(), commands, Transfer::kBefore);
+    device_.vk().CmdCopyBuffer(commands, instances_->handle(), previousInstances_->handle(),
+                               uint32_t(regions.size()), regions.data());
     if (view.skin) {
         const std::vector<VkBufferCopy> joints = skin_.copiesToPrevious(*view.scene, view.moved);
         if (!joints.empty())
-            vkCmdCopyBuffer(commands, skin_.joints().handle(), skin_.previousJoints().handle(),
-                            uint32_t(joints.size()), joints.data());
+            device_.vk().CmdCopyBuffer(commands, skin_.joints().handle(), skin_.previousJoints().handle(),
+                                       uint32_t(joints.size()), joints.data());
     }
-    transferBarrier(commands, Transfer::kBetweenCopies);
+    transferBarrier(device_.vk(), commands, Transfer::kBetweenCopies);
 }
 
 void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot) {
@@ -342,7 +342,7 @@ void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, Previous 
                   std::as_bytes(
                       draws_.commands().subspan(slot * draws_.commandsPerView(), draws_.commandsPerView())),
                   *commands_, slot * stride);
-    if (uploadedBytes_ > 0) transferBarrier(commands, Transfer::kAfter);
+    if (uploadedBytes_ > 0) transferBarrier(device_.vk(), commands, Transfer::kAfter);
 }
 
 uint64_t SceneGpu::deviceBytes() const {

@@ -44,21 +44,21 @@ ImGuiPass::ImGuiPass(gpu::Device& device, gpu::PipelineLibrary& pipelines)
     const VkSamplerCreateInfo sampler{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                       .magFilter = VK_FILTER_LINEAR,
                                       .minFilter = VK_FILTER_LINEAR};
-    AG_VK(vkCreateSampler(device.handle(), &sampler, nullptr, &sampler_));
+    AG_VK(device.vk().CreateSampler(device.handle(), &sampler, nullptr, &sampler_));
     device.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler_, "imgui.sampler");
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
     const VkDescriptorPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = 1,
                                           .poolSizeCount = 1,
                                           .pPoolSizes = &size};
-    AG_VK(vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_));
+    AG_VK(device.vk().CreateDescriptorPool(device.handle(), &pool, nullptr, &pool_));
     device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "imgui.sets");
 }
 
 ImGuiPass::~ImGuiPass() {
     device_.waitIdle();
-    vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
-    vkDestroySampler(device_.handle(), sampler_, nullptr);
+    device_.vk().DestroyDescriptorPool(device_.handle(), pool_, nullptr);
+    device_.vk().DestroySampler(device_.handle(), sampler_, nullptr);
 }
 
 void ImGuiPass::upload(Buffers& buffers) {
@@ -90,7 +90,7 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
                                                .descriptorPool = pool_,
                                                .descriptorSetCount = 1,
                                                .pSetLayouts = &pipeline.setLayout};
-        AG_VK(vkAllocateDescriptorSets(device_.handle(), &info, &set_));
+        AG_VK(device_.vk().AllocateDescriptorSets(device_.handle(), &info, &set_));
         device_.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "imgui.font");
         const VkDescriptorImageInfo image{sampler_, font_->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
@@ -98,7 +98,7 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
                                          .descriptorCount = 1,
                                          .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                          .pImageInfo = &image};
-        vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+        device_.vk().UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
     }
     const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                           .imageView = target,
@@ -110,21 +110,21 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
                                     .layerCount = 1,
                                     .colorAttachmentCount = 1,
                                     .pColorAttachments = &color};
-    vkCmdBeginRendering(commands, &rendering);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set_, 0,
-                            nullptr);
+    device_.vk().CmdBeginRendering(commands, &rendering);
+    device_.vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+    device_.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1,
+                                       &set_, 0, nullptr);
     const VkBuffer vertices = buffers.vertices->handle();
     const VkDeviceSize zero = 0;
-    vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
-    vkCmdBindIndexBuffer(commands, buffers.indices->handle(), 0,
-                         sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+    device_.vk().CmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+    device_.vk().CmdBindIndexBuffer(commands, buffers.indices->handle(), 0,
+                                    sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
     const glm::vec2 scale(2 / data->DisplaySize.x, 2 / data->DisplaySize.y);
     const glm::vec2 push[] = {scale,
                               glm::vec2(-1) - glm::vec2(data->DisplayPos.x, data->DisplayPos.y) * scale};
-    vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, sizeof push, push);
+    device_.vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, sizeof push, push);
     const VkViewport viewport{0, 0, float(size.x), float(size.y), 0, 1};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
+    device_.vk().CmdSetViewport(commands, 0, 1, &viewport);
     int32_t firstVertex = 0;
     uint32_t firstIndex = 0;
     for (int i = 0; i < data->CmdListsCount; ++i) {
@@ -137,14 +137,14 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
                           y1 = std::clamp(int32_t(clip.w), y0, int32_t(size.y));
             if (x1 == x0 || y1 == y0) continue;
             const VkRect2D scissor{{x0, y0}, {uint32_t(x1 - x0), uint32_t(y1 - y0)}};
-            vkCmdSetScissor(commands, 0, 1, &scissor);
-            vkCmdDrawIndexed(commands, command.ElemCount, 1, firstIndex + command.IdxOffset,
-                             firstVertex + int32_t(command.VtxOffset), 0);
+            device_.vk().CmdSetScissor(commands, 0, 1, &scissor);
+            device_.vk().CmdDrawIndexed(commands, command.ElemCount, 1, firstIndex + command.IdxOffset,
+                                        firstVertex + int32_t(command.VtxOffset), 0);
         }
         firstVertex += list.VtxBuffer.Size;
         firstIndex += uint32_t(list.IdxBuffer.Size);
     }
-    vkCmdEndRendering(commands);
+    device_.vk().CmdEndRendering(commands);
 }
 
 }  // namespace ag

@@ -1,5 +1,8 @@
 #include "engine/app/window.h"
 
+// GLFW declares its Vulkan functions after these.
+#include "engine/gpu/functions.h"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -74,6 +77,16 @@ void Window::installCallbacks() {
             window.moved_ += glm::vec2(float(x - window.cursor_.x), float(y - window.cursor_.y));
         window.cursor_ = {x, y};
     });
+}
+
+Result<gpu::WindowSurface> Window::surface() const {
+    uint32_t count = 0;
+    const char** extensions = glfwGetRequiredInstanceExtensions(&count);
+    if (!extensions) return Error{"the window system has no Vulkan surface support"};
+    return gpu::WindowSurface{{extensions, extensions + count},
+                              [window = window_](VkInstance instance, VkSurfaceKHR* surface) {
+                                  return glfwCreateWindowSurface(instance, window, nullptr, surface);
+                              }};
 }
 
 Window::~Window() {

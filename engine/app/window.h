@@ -25,6 +25,8 @@ class Window {
     Window& operator=(const Window&) = delete;
 
     GLFWwindow* handle() const { return window_; }
+    // For the device that shall draw into it. Fails with a sentence where the window system has no Vulkan.
+    Result<gpu::WindowSurface> surface() const;
     bool wantsToClose() const;
     void close();
     glm::uvec2 framebufferSize() const;

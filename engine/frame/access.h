@@ -2,7 +2,7 @@
 // a barrier's fields.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <array>
 #include <cstddef>

@@ -19,7 +19,7 @@ FrameGraph::FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines)
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = device->queueFamily()};
-    AG_VK(vkCreateCommandPool(device->handle(), &pool, nullptr, &impl_->ownPool));
+    AG_VK(device->vk().CreateCommandPool(device->handle(), &pool, nullptr, &impl_->ownPool));
     device->setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, impl_->ownPool, "frame_graph.alone");
 }
 
@@ -28,10 +28,10 @@ FrameGraph::~FrameGraph() {
     const VkDevice device = impl_->device->handle();
     impl_->device->waitIdle();
     for (VkDescriptorPool pool : impl_->pools)
-        vkDestroyDescriptorPool(device, pool, nullptr);
+        impl_->device->vk().DestroyDescriptorPool(device, pool, nullptr);
     for (VkSampler sampler : impl_->samplers)
-        vkDestroySampler(device, sampler, nullptr);
-    vkDestroyCommandPool(device, impl_->ownPool, nullptr);
+        impl_->device->vk().DestroySampler(device, sampler, nullptr);
+    impl_->device->vk().DestroyCommandPool(device, impl_->ownPool, nullptr);
     impl_->slots.clear();
     impl_->device->collect();
     for (AliasBucket& bucket : impl_->buckets)

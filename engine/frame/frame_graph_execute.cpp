@@ -93,7 +93,7 @@ void FrameGraph::Impl::flushBarriers(VkCommandBuffer commands) {
                                 .pBufferMemoryBarriers = bufferBarriers.data(),
                                 .imageMemoryBarrierCount = uint32_t(imageBarriers.size()),
                                 .pImageMemoryBarriers = imageBarriers.data()};
-    vkCmdPipelineBarrier2(commands, &info);
+    device->vk().CmdPipelineBarrier2(commands, &info);
     imageBarriers.clear();
     bufferBarriers.clear();
 }
@@ -165,16 +165,16 @@ double timeOnCpu(gpu::Device& device, VkCommandPool pool, F&& record) {
                                            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                            .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    AG_VK(vkAllocateCommandBuffers(device.handle(), &info, &commands));
+    AG_VK(device.vk().AllocateCommandBuffers(device.handle(), &info, &commands));
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    AG_VK(vkBeginCommandBuffer(commands, &begin));
+    AG_VK(device.vk().BeginCommandBuffer(commands, &begin));
     record(commands);
-    AG_VK(vkEndCommandBuffer(commands));
+    AG_VK(device.vk().EndCommandBuffer(commands));
     const double before = processCpuMs();
     device.waitFor(device.submit(commands));
     const double spent = processCpuMs() - before;
-    vkFreeCommandBuffers(device.handle(), pool, 1, &commands);
+    device.vk().FreeCommandBuffers(device.handle(), pool, 1, &commands);
     return spent;
 }
 
@@ -200,7 +200,7 @@ void FrameGraph::Impl::repeatPass(VkCommandBuffer commands, const Pass& pass) {
     const VkDependencyInfo info{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
     for (uint32_t i = 1; i < options.repeats; ++i) {
-        vkCmdPipelineBarrier2(commands, &info);
+        device->vk().CmdPipelineBarrier2(commands, &info);
         recordPass(commands, pass);
     }
 }

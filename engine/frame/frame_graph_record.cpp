@@ -6,18 +6,18 @@
 namespace ag {
 namespace {
 
-void beginLabel(VkCommandBuffer commands, std::string_view name) {
-    if (!vkCmdBeginDebugUtilsLabelEXT) return;
+void beginLabel(const gpu::Functions& vk, VkCommandBuffer commands, std::string_view name) {
+    if (!vk.CmdBeginDebugUtilsLabelEXT) return;
     char text[96];
     const size_t length = std::min(name.size(), sizeof text - 1);
     std::copy_n(name.data(), length, text);
     text[length] = 0;
     const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = text};
-    vkCmdBeginDebugUtilsLabelEXT(commands, &label);
+    vk.CmdBeginDebugUtilsLabelEXT(commands, &label);
 }
 
-void endLabel(VkCommandBuffer commands) {
-    if (vkCmdEndDebugUtilsLabelEXT) vkCmdEndDebugUtilsLabelEXT(commands);
+void endLabel(const gpu::Functions& vk, VkCommandBuffer commands) {
+    if (vk.CmdEndDebugUtilsLabelEXT) vk.CmdEndDebugUtilsLabelEXT(commands);
 }
 
 VkExtent2D extentOf(glm::uvec2 size) {
@@ -28,24 +28,25 @@ VkExtent2D extentOf(glm::uvec2 size) {
 
 void FrameGraph::Impl::recordCompute(VkCommandBuffer commands, const Pass& pass) {
     const gpu::Pipeline& pipeline = *pass.pipeline;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
+    device->vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
     if (const VkDescriptorSet set = descriptorSet(pass, pipeline))
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &set, 0,
-                                nullptr);
+        device->vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1,
+                                           &set, 0, nullptr);
     if (pipeline.pushSizeBytes > 0)
-        vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
-                           pass.push.data());
+        device->vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0,
+                                      pipeline.pushSizeBytes, pass.push.data());
     if (pass.partCount > 0) return recordParts(commands, pass);
     if (pass.dispatchIndirect) {
         const auto all = usesOf(pass);
         const auto arguments = std::ranges::find(all, UseKind::kIndirect, &Use::kind);
-        vkCmdDispatchIndirect(commands, bufferOf(resources[arguments->resource]).handle(),
-                              pass.indirectOffset);
+        device->vk().CmdDispatchIndirect(commands, bufferOf(resources[arguments->resource]).handle(),
+                                         pass.indirectOffset);
         return;
     }
     const glm::uvec3 size = pass.threads ? pipeline.workgroupSize : glm::uvec3(1);
     const glm::uvec3 groups = (pass.dispatch + size - 1u) / size;
-    if (groups.x > 0 && groups.y > 0 && groups.z > 0) vkCmdDispatch(commands, groups.x, groups.y, groups.z);
+    if (groups.x > 0 && groups.y > 0 && groups.z > 0)
+        device->vk().CmdDispatch(commands, groups.x, groups.y, groups.z);
 }
 
 // Parts side by side that both changed are one dispatch.
@@ -59,9 +60,9 @@ void FrameGraph::Impl::recordParts(VkCommandBuffer commands, const Pass& pass) {
     counts.patchesDrawn = 0;
     const auto dispatch = [&](uint32_t first, uint32_t end) {
         for (; first < end; first += kMostGroups) {
-            vkCmdPushConstants(commands, pass.pipeline->layout, pass.pipeline->pushStages, 0, sizeof first,
-                               &first);
-            vkCmdDispatch(commands, std::min(end - first, kMostGroups), 1, 1);
+            device->vk().CmdPushConstants(commands, pass.pipeline->layout, pass.pipeline->pushStages, 0,
+                                          sizeof first, &first);
+            device->vk().CmdDispatch(commands, std::min(end - first, kMostGroups), 1, 1);
         }
     };
     uint32_t first = 0, end = 0;
@@ -96,31 +97,33 @@ VkRenderingAttachmentInfo attachment(const gpu::Image& image, const Use& use) {
     return info;
 }
 
-void setViewport(VkCommandBuffer commands, glm::uvec4 rect) {
+void setViewport(const gpu::Functions& vk, VkCommandBuffer commands, glm::uvec4 rect) {
     const VkViewport viewport{float(rect.x), float(rect.y), float(rect.z), float(rect.w), 0, 1};
     const VkRect2D scissor{{int32_t(rect.x), int32_t(rect.y)}, {rect.z, rect.w}};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
+    vk.CmdSetViewport(commands, 0, 1, &viewport);
+    vk.CmdSetScissor(commands, 0, 1, &scissor);
 }
 
-void bindVertices(VkCommandBuffer commands, const gpu::Buffer& positions, const gpu::Buffer* attributes) {
+void bindVertices(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Buffer& positions,
+                  const gpu::Buffer* attributes) {
     const VkBuffer buffers[] = {positions.handle(), attributes ? attributes->handle() : positions.handle()};
     const VkDeviceSize offsets[] = {0, 0};
-    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    vk.CmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
 }
 
-void bindGeometry(VkCommandBuffer commands, const Geometry& g) {
+void bindGeometry(const gpu::Functions& vk, VkCommandBuffer commands, const Geometry& g) {
     if (!g.positions) return;
-    bindVertices(commands, *g.positions, g.attributes);
-    vkCmdBindIndexBuffer(commands, g.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
+    bindVertices(vk, commands, *g.positions, g.attributes);
+    vk.CmdBindIndexBuffer(commands, g.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
 }
 
-void clearPatch(VkCommandBuffer commands, glm::uvec4 rect, std::span<const Use> uses) {
+void clearPatch(const gpu::Functions& vk, VkCommandBuffer commands, glm::uvec4 rect,
+                std::span<const Use> uses) {
     const auto atlas = std::ranges::find(uses, UseKind::kDepthPatch, &Use::kind);
     VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT};
     clear.clearValue.depthStencil = {atlas->clear.x, 0};
     const VkClearRect area{{{int32_t(rect.x), int32_t(rect.y)}, {rect.z, rect.w}}, 0, 1};
-    vkCmdClearAttachments(commands, 1, &clear, 1, &area);
+    vk.CmdClearAttachments(commands, 1, &clear, 1, &area);
 }
 
 }  // namespace
@@ -147,40 +150,40 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
                                .colorAttachmentCount = colorCount,
                                .pColorAttachments = colors.data(),
                                .pDepthAttachment = hasDepth ? &depth : nullptr};
-    vkCmdBeginRendering(commands, &info);
+    device->vk().CmdBeginRendering(commands, &info);
     recordDraws(commands, pass, pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE, size);
-    vkCmdEndRendering(commands);
+    device->vk().CmdEndRendering(commands);
 }
 
 void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
                                    glm::uvec2 size) {
     const glm::uvec4 whole(0, 0, size);
     const auto bind = [&](const gpu::Pipeline& pipeline, std::span<const std::byte> push, glm::uvec4 rect) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+        device->vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
         if (set)
-            vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set, 0,
-                                    nullptr);
+            device->vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0,
+                                               1, &set, 0, nullptr);
         if (pipeline.pushSizeBytes > 0) {
             AG_CHECK_EQ(pipeline.pushSizeBytes, push.size());
-            vkCmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
-                               push.data());
+            device->vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0,
+                                          pipeline.pushSizeBytes, push.data());
         }
-        setViewport(commands, rect == glm::uvec4(0) ? whole : rect);
+        setViewport(device->vk(), commands, rect == glm::uvec4(0) ? whole : rect);
     };
     if (pass.kind == PassKind::kFullscreen) {
         bind(*pass.pipeline, {pass.push.data(), pass.pushSizeBytes}, whole);
-        vkCmdDraw(commands, 3, 1, 0, 0);
+        device->vk().CmdDraw(commands, 3, 1, 0, 0);
     }
-    bindGeometry(commands, pass.geometry);
+    bindGeometry(device->vk(), commands, pass.geometry);
     bool deformed = false;  // the vertices bound
     const auto bindVerticesOf = [&](const RasterDraw& draw) {
         const Geometry& g = pass.geometry;
         if (std::exchange(deformed, draw.deformed) == draw.deformed) return;
         if (deformed)
-            bindVertices(commands, bufferOf(resources[g.deformedPositions.index]),
+            bindVertices(device->vk(), commands, bufferOf(resources[g.deformedPositions.index]),
                          &bufferOf(resources[g.deformedAttributes.index]));
         else
-            bindVertices(commands, *g.positions, g.attributes);
+            bindVertices(device->vk(), commands, *g.positions, g.attributes);
     };
     std::vector<Patch>* held = patchesOf(pass);
     const std::span<const RasterDraw> all = drawsOf(pass);
@@ -202,14 +205,14 @@ void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, V
                 continue;
             }
             ++counts.patchesDrawn;
-            clearPatch(commands, patch.rect, usesOf(pass));
+            clearPatch(device->vk(), commands, patch.rect, usesOf(pass));
             continue;
         }
         bindVerticesOf(draw);
         bind(pipelines->get(requestFor(pass, &draw)), {draw.push.data(), draw.pushSizeBytes}, draw.viewport);
-        vkCmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
-                                 draw.commandsOffsetBytes, draw.commandCount,
-                                 sizeof(VkDrawIndexedIndirectCommand));
+        device->vk().CmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
+                                            draw.commandsOffsetBytes, draw.commandCount,
+                                            sizeof(VkDrawIndexedIndirectCommand));
     }
     // Those not declared now may have been drawn over.
     if (held) std::swap(*held, patches);
@@ -223,12 +226,13 @@ std::vector<Patch>* FrameGraph::Impl::patchesOf(const Pass& pass) {
 
 namespace {
 
-void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Image& target) {
+void copyWhole(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Image& source,
+               const gpu::Image& target) {
     const VkImageCopy region{.srcSubresource = {source.aspect(), 0, 0, 1},
                              .dstSubresource = {target.aspect(), 0, 0, 1},
                              .extent = {source.desc().size.x, source.desc().size.y, 1}};
-    vkCmdCopyImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(),
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    vk.CmdCopyImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(),
+                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 }  // namespace
@@ -236,32 +240,36 @@ void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Im
 void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass) {
     const Use& to = usesOf(pass).back();
     if (pass.kind == PassKind::kFill) {
-        vkCmdFillBuffer(commands, bufferOf(resources[to.resource]).handle(), 0, VK_WHOLE_SIZE, pass.fillWord);
+        device->vk().CmdFillBuffer(commands, bufferOf(resources[to.resource]).handle(), 0, VK_WHOLE_SIZE,
+                                   pass.fillWord);
     } else if (pass.kind == PassKind::kUpload) {
         constexpr uint32_t kMost = 65536;  // of one command
         for (uint32_t at = 0; at < pass.dataSize; at += kMost)
-            vkCmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), at,
-                              std::min(kMost, pass.dataSize - at), data.data() + pass.dataOffset + at);
+            device->vk().CmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), at,
+                                         std::min(kMost, pass.dataSize - at),
+                                         data.data() + pass.dataOffset + at);
     } else if (pass.kind == PassKind::kCopyBuffer) {
         const gpu::Buffer& source = bufferOf(resources[usesOf(pass).front().resource]);
         const VkBufferCopy region{.size = resources[to.resource].buffer.sizeBytes};
-        vkCmdCopyBuffer(commands, source.handle(), bufferOf(resources[to.resource]).handle(), 1, &region);
+        device->vk().CmdCopyBuffer(commands, source.handle(), bufferOf(resources[to.resource]).handle(), 1,
+                                   &region);
     } else {
         const gpu::Image& source = imageOf(resources[usesOf(pass).front().resource]);
         const gpu::Image& target = imageOf(resources[to.resource]);
         if (source.desc().size == target.desc().size && source.desc().format == target.desc().format)
-            return copyWhole(commands, source, target);
+            return copyWhole(device->vk(), commands, source, target);
         VkImageBlit region{.srcSubresource = {source.aspect(), 0, 0, 1},
                            .dstSubresource = {target.aspect(), 0, 0, 1}};
         region.srcOffsets[1] = {int32_t(source.desc().size.x), int32_t(source.desc().size.y), 1};
         region.dstOffsets[1] = {int32_t(target.desc().size.x), int32_t(target.desc().size.y), 1};
-        vkCmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.handle(),
-                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+        device->vk().CmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                  target.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                                  VK_FILTER_NEAREST);
     }
 }
 
 void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
-    beginLabel(commands, pass.name);
+    beginLabel(device->vk(), commands, pass.name);
     switch (pass.kind) {
         case PassKind::kCompute:
             recordCompute(commands, pass);
@@ -274,7 +282,7 @@ void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
             recordTransfer(commands, pass);
             break;
     }
-    endLabel(commands);
+    endLabel(device->vk(), commands);
 }
 
 }  // namespace ag

@@ -46,7 +46,7 @@ VkSampler makeSampler(gpu::Device& device, Sampler kind) {
         .addressModeW = mode,
         .maxLod = mips ? VK_LOD_CLAMP_NONE : 0.25f};
     VkSampler sampler = VK_NULL_HANDLE;
-    AG_VK(vkCreateSampler(device.handle(), &info, nullptr, &sampler));
+    AG_VK(device.vk().CreateSampler(device.handle(), &info, nullptr, &sampler));
     constexpr const char* kNames[] = {"sampler.nearest_clamp", "sampler.linear_clamp",
                                       "sampler.linear_repeat", "sampler.trilinear_repeat"};
     device.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler, kNames[size_t(kind)]);
@@ -169,14 +169,14 @@ void FrameGraph::Impl::zeroNewHistories(VkCommandBuffer commands) {
             addBarrier(r, accessOf(UseKind::kTransferWrite), true, nullptr);
             flushBarriers(commands);
             if (half.buffer) {
-                vkCmdFillBuffer(commands, half.buffer->handle(), 0, VK_WHOLE_SIZE, 0);
+                device->vk().CmdFillBuffer(commands, half.buffer->handle(), 0, VK_WHOLE_SIZE, 0);
                 continue;
             }
             const VkClearColorValue zero{};
             const VkImageSubresourceRange all{half.image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
                                               VK_REMAINING_ARRAY_LAYERS};
-            vkCmdClearColorImage(commands, half.image->handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero,
-                                 1, &all);
+            device->vk().CmdClearColorImage(commands, half.image->handle(),
+                                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1, &all);
         }
     }
 }
@@ -234,7 +234,7 @@ VkDescriptorPool makePool(gpu::Device& device) {
                                           .poolSizeCount = uint32_t(sizes.size()),
                                           .pPoolSizes = sizes.data()};
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    AG_VK(vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool));
+    AG_VK(device.vk().CreateDescriptorPool(device.handle(), &info, nullptr, &pool));
     device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame_graph.sets");
     return pool;
 }
@@ -245,7 +245,8 @@ VkDescriptorSet tryAllocate(gpu::Device& device, VkDescriptorPool pool, VkDescri
                                            .descriptorSetCount = 1,
                                            .pSetLayouts = &layout};
     VkDescriptorSet set = VK_NULL_HANDLE;
-    return vkAllocateDescriptorSets(device.handle(), &info, &set) == VK_SUCCESS ? set : VK_NULL_HANDLE;
+    return device.vk().AllocateDescriptorSets(device.handle(), &info, &set) == VK_SUCCESS ? set
+                                                                                          : VK_NULL_HANDLE;
 }
 
 }  // namespace
@@ -271,7 +272,7 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
     if (const auto found = sets.find(key); found != sets.end()) return found->second;
     if (sets.size() >= kMostSets) {
         for (VkDescriptorPool pool : pools)
-            device->retire([d = device, pool] { vkDestroyDescriptorPool(d->handle(), pool, nullptr); });
+            device->retire([d = device, pool] { d->vk().DestroyDescriptorPool(d->handle(), pool, nullptr); });
         pools.clear();
         sets.clear();
     }
@@ -311,7 +312,8 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
             views[i] = buffer.texelView();
         }
     }
-    vkUpdateDescriptorSets(device->handle(), uint32_t(pipeline.bindings.size()), writes_.data(), 0, nullptr);
+    device->vk().UpdateDescriptorSets(device->handle(), uint32_t(pipeline.bindings.size()), writes_.data(), 0,
+                                      nullptr);
     sets.emplace(key, set);
     return set;
 }

@@ -5,7 +5,7 @@
 // work.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <array>
 #include <cstdint>

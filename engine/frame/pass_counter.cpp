@@ -23,36 +23,36 @@ PassCounter::PassCounter(gpu::Device& device) : device_(device) {
                                      .queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS,
                                      .queryCount = kMaxPasses,
                                      .pipelineStatistics = kStatistics};
-    AG_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &pool_));
+    AG_VK(device.vk().CreateQueryPool(device.handle(), &info, nullptr, &pool_));
     device.setDebugName(VK_OBJECT_TYPE_QUERY_POOL, pool_, "pass_counter");
 }
 
 PassCounter::~PassCounter() {
-    vkDestroyQueryPool(device_.handle(), pool_, nullptr);
+    device_.vk().DestroyQueryPool(device_.handle(), pool_, nullptr);
 }
 
 void PassCounter::beginFrame(VkCommandBuffer commands) {
-    vkCmdResetQueryPool(commands, pool_, 0, kMaxPasses);
+    device_.vk().CmdResetQueryPool(commands, pool_, 0, kMaxPasses);
     names_.clear();
 }
 
 void PassCounter::begin(VkCommandBuffer commands, std::string_view name) {
     open_ = names_.size() < kMaxPasses;
     if (!open_) return;
-    vkCmdBeginQuery(commands, pool_, uint32_t(names_.size()), 0);
+    device_.vk().CmdBeginQuery(commands, pool_, uint32_t(names_.size()), 0);
     names_.push_back(name);
 }
 
 void PassCounter::end(VkCommandBuffer commands) {
-    if (std::exchange(open_, false)) vkCmdEndQuery(commands, pool_, uint32_t(names_.size()) - 1);
+    if (std::exchange(open_, false)) device_.vk().CmdEndQuery(commands, pool_, uint32_t(names_.size()) - 1);
 }
 
 std::vector<PassCount> PassCounter::read() const {
     if (names_.empty()) return {};
     std::vector<std::array<uint64_t, kStatisticCount>> counts(names_.size());
-    AG_VK(vkGetQueryPoolResults(device_.handle(), pool_, 0, uint32_t(counts.size()),
-                                counts.size() * sizeof counts[0], counts.data(), sizeof counts[0],
-                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    AG_VK(device_.vk().GetQueryPoolResults(device_.handle(), pool_, 0, uint32_t(counts.size()),
+                                           counts.size() * sizeof counts[0], counts.data(), sizeof counts[0],
+                                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     std::vector<PassCount> passes;
     for (size_t i = 0; i < counts.size(); ++i)
         passes.push_back({.name = names_[i],

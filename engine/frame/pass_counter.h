@@ -2,7 +2,7 @@
 // drivers fail when one command buffer holds several kinds of queries.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <cstdint>
 #include <span>

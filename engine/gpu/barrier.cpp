@@ -2,8 +2,8 @@
 
 namespace ag::gpu {
 
-void transitionImage(VkCommandBuffer commands, VkImage image, const VkImageSubresourceRange& range,
-                     VkImageLayout from, VkImageLayout to) {
+void transitionImage(const Functions& vk, VkCommandBuffer commands, VkImage image,
+                     const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to) {
     const VkImageMemoryBarrier2 barrier{
         .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
         .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
@@ -19,7 +19,7 @@ void transitionImage(VkCommandBuffer commands, VkImage image, const VkImageSubre
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .imageMemoryBarrierCount = 1,
                                 .pImageMemoryBarriers = &barrier};
-    vkCmdPipelineBarrier2(commands, &info);
+    vk.CmdPipelineBarrier2(commands, &info);
 }
 
 }  // namespace ag::gpu

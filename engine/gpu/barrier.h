@@ -1,12 +1,12 @@
 // Whole-pipeline image barriers for code outside the frame graph: transfers and presenting.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 namespace ag::gpu {
 
 // Everything before is done and visible to everything after; the subresources change layout.
-void transitionImage(VkCommandBuffer commands, VkImage image, const VkImageSubresourceRange& range,
-                     VkImageLayout from, VkImageLayout to);
+void transitionImage(const Functions& vk, VkCommandBuffer commands, VkImage image,
+                     const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to);
 
 }  // namespace ag::gpu

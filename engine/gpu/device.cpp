@@ -1,7 +1,5 @@
 #include "engine/gpu/device.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <vulkan/vk_enum_string_helper.h>
 
 #include <cstdlib>
@@ -30,21 +28,21 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT 
     return VK_FALSE;
 }
 
-bool hasLayer(const char* name) {
+bool hasLayer(const Functions& vk, const char* name) {
     uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    vk.EnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    vk.EnumerateInstanceLayerProperties(&count, layers.data());
     for (const VkLayerProperties& layer : layers)
         if (std::strcmp(layer.layerName, name) == 0) return true;
     return false;
 }
 
-bool hasInstanceExtension(const char* name) {
+bool hasInstanceExtension(const Functions& vk, const char* name) {
     uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    vk.EnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    vk.EnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
     for (const VkExtensionProperties& extension : extensions)
         if (std::strcmp(extension.extensionName, name) == 0) return true;
     return false;
@@ -58,16 +56,6 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(const void* next) {
             .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
             .pfnUserCallback = onMessage};
-}
-
-// Of a device that has them as extensions only.
-void useExtensionNames() {
-    if (vkCmdPipelineBarrier2) return;
-    vkCmdBeginRendering = vkCmdBeginRenderingKHR;
-    vkCmdEndRendering = vkCmdEndRenderingKHR;
-    vkCmdPipelineBarrier2 = vkCmdPipelineBarrier2KHR;
-    vkCmdWriteTimestamp2 = vkCmdWriteTimestamp2KHR;
-    vkQueueSubmit2 = vkQueueSubmit2KHR;
 }
 
 constexpr uint64_t kMostCacheBytes = uint64_t(1) << 30;
@@ -88,6 +76,7 @@ struct Device::Impl {
         uint64_t value;
         std::function<void()> destroy;
     };
+    Functions vk;
     VkInstance instance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     VkSurfaceKHR surface = VK_NULL_HANDLE;
@@ -101,7 +90,7 @@ struct Device::Impl {
     uint64_t submitted = 0;
     std::deque<Retired> retired;
     int messagesBefore;
-    GLFWwindow* window;
+    std::optional<WindowSurface> window;
     FaultCounter faults;
 
     explicit Impl(const DeviceOptions& options)
@@ -113,19 +102,16 @@ struct Device::Impl {
 };
 
 Status Device::Impl::createInstance(const DeviceOptions& options) {
-    if (volkInitialize() != VK_SUCCESS) return Error{"no Vulkan loader found (Debian package libvulkan1)"};
+    const PFN_vkGetInstanceProcAddr loader = openLoader();
+    if (!loader) return Error{"no Vulkan loader found (Debian package libvulkan1)"};
+    loadGlobalFunctions(vk, loader);
     static constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-    if (options.validation && !hasLayer(kLayer))
+    if (options.validation && !hasLayer(vk, kLayer))
         return Error{
             "validation was asked for, but its layer is missing (Debian package vulkan-validationlayers)"};
     std::vector<const char*> extensions;
-    if (options.window) {
-        uint32_t count = 0;
-        const char** needed = glfwGetRequiredInstanceExtensions(&count);
-        if (!needed) return Error{"the window system has no Vulkan surface support"};
-        extensions.assign(needed, needed + count);
-    }
-    if (hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
+    if (options.window) extensions = options.window->instanceExtensions;
+    if (hasInstanceExtension(vk, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
     const VkValidationFeatureEnableEXT synchronization =
@@ -145,40 +131,39 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
                                     .ppEnabledLayerNames = &kLayer,
                                     .enabledExtensionCount = uint32_t(extensions.size()),
                                     .ppEnabledExtensionNames = extensions.data()};
-    if (const VkResult result = vkCreateInstance(&info, nullptr, &instance); result != VK_SUCCESS)
+    if (const VkResult result = vk.CreateInstance(&info, nullptr, &instance); result != VK_SUCCESS)
         return Error{std::string("cannot create a Vulkan instance: ") + string_VkResult(result)};
-    volkLoadInstanceOnly(instance);
+    loadInstanceFunctions(vk, instance);
     if (options.validation) {
         const VkDebugUtilsMessengerCreateInfoEXT own = messengerInfo(nullptr);
-        AG_VK(vkCreateDebugUtilsMessengerEXT(instance, &own, nullptr, &messenger));
+        AG_VK(vk.CreateDebugUtilsMessengerEXT(instance, &own, nullptr, &messenger));
     }
     return Ok{};
 }
 
 Status Device::Impl::createDevice(const DeviceOptions& options) {
-    if (options.window && glfwCreateWindowSurface(instance, options.window, nullptr, &surface) != VK_SUCCESS)
+    if (window && window->make(instance, &surface) != VK_SUCCESS)
         return Error{"cannot create a surface for the window"};
-    auto chosen = chooseDevice(instance, surface, options.deviceName, options.without);
+    auto chosen = chooseDevice(vk, instance, surface, options.deviceName, options.without);
     if (!chosen) return chosen.error();
     choice = std::move(*chosen);
-    auto opened = openDevice(choice, options.window != nullptr);
+    auto opened = openDevice(vk, choice, window.has_value());
     if (!opened) return opened.error();
     device = *opened;
-    volkLoadDevice(device);
-    useExtensionNames();
-    vkGetDeviceQueue(device, choice.queueFamily, 0, &queue);
+    loadDeviceFunctions(vk, device);
+    vk.GetDeviceQueue(device, choice.queueFamily, 0, &queue);
     const VkSemaphoreTypeCreateInfo type{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
     const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
-    AG_VK(vkCreateSemaphore(device, &semaphore, nullptr, &timeline));
-    gpu::setDebugName(device, VK_OBJECT_TYPE_SEMAPHORE, timeline, "device.timeline");
-    gpu::setDebugName(device, VK_OBJECT_TYPE_QUEUE, queue, "device.queue");
+    AG_VK(vk.CreateSemaphore(device, &semaphore, nullptr, &timeline));
+    gpu::setDebugName(vk, device, VK_OBJECT_TYPE_SEMAPHORE, timeline, "device.timeline");
+    gpu::setDebugName(vk, device, VK_OBJECT_TYPE_QUEUE, queue, "device.queue");
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = choice.queueFamily};
-    AG_VK(vkCreateCommandPool(device, &pool, nullptr, &oncePool));
-    memory = std::make_unique<MemoryAllocator>(choice.physical, device, faults);
-    gpu::setDebugName(device, VK_OBJECT_TYPE_COMMAND_POOL, oncePool, "device.once");
+    AG_VK(vk.CreateCommandPool(device, &pool, nullptr, &oncePool));
+    memory = std::make_unique<MemoryAllocator>(vk, choice.physical, device, faults);
+    gpu::setDebugName(vk, device, VK_OBJECT_TYPE_COMMAND_POOL, oncePool, "device.once");
     createPipelineCache();
     return Ok{};
 }
@@ -188,15 +173,15 @@ void Device::Impl::createPipelineCache() {
     VkPipelineCacheCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO,
                                    .initialDataSize = data ? data->size() : 0,
                                    .pInitialData = data ? data->data() : nullptr};
-    AG_VK(vkCreatePipelineCache(device, &info, nullptr, &pipelineCache));
-    gpu::setDebugName(device, VK_OBJECT_TYPE_PIPELINE_CACHE, pipelineCache, "device.pipelines");
+    AG_VK(vk.CreatePipelineCache(device, &info, nullptr, &pipelineCache));
+    gpu::setDebugName(vk, device, VK_OBJECT_TYPE_PIPELINE_CACHE, pipelineCache, "device.pipelines");
 }
 
 void Device::Impl::savePipelineCache() const {
     size_t size = 0;
-    vkGetPipelineCacheData(device, pipelineCache, &size, nullptr);
+    vk.GetPipelineCacheData(device, pipelineCache, &size, nullptr);
     std::string data(size, 0);
-    if (size == 0 || vkGetPipelineCacheData(device, pipelineCache, &size, data.data()) != VK_SUCCESS) return;
+    if (size == 0 || vk.GetPipelineCacheData(device, pipelineCache, &size, data.data()) != VK_SUCCESS) return;
     const std::string path = cacheFile().string();
     const auto before = readFile(path, kMostCacheBytes);
     if (path.empty() || (before && *before == data)) return;
@@ -220,17 +205,20 @@ Device::~Device() {
         waitIdle();
         collect();
         d.savePipelineCache();
-        vkDestroyPipelineCache(d.device, d.pipelineCache, nullptr);
-        vkDestroyCommandPool(d.device, d.oncePool, nullptr);
-        vkDestroySemaphore(d.device, d.timeline, nullptr);
+        d.vk.DestroyPipelineCache(d.device, d.pipelineCache, nullptr);
+        d.vk.DestroyCommandPool(d.device, d.oncePool, nullptr);
+        d.vk.DestroySemaphore(d.device, d.timeline, nullptr);
         d.memory.reset();
-        vkDestroyDevice(d.device, nullptr);
+        d.vk.DestroyDevice(d.device, nullptr);
     }
-    if (d.surface) vkDestroySurfaceKHR(d.instance, d.surface, nullptr);
-    if (d.messenger) vkDestroyDebugUtilsMessengerEXT(d.instance, d.messenger, nullptr);
-    if (d.instance) vkDestroyInstance(d.instance, nullptr);
+    if (d.surface) d.vk.DestroySurfaceKHR(d.instance, d.surface, nullptr);
+    if (d.messenger) d.vk.DestroyDebugUtilsMessengerEXT(d.instance, d.messenger, nullptr);
+    if (d.instance) d.vk.DestroyInstance(d.instance, nullptr);
 }
 
+const Functions& Device::vk() const {
+    return impl_->vk;
+}
 VkInstance Device::instance() const {
     return impl_->instance;
 }
@@ -250,9 +238,9 @@ VkSurfaceKHR Device::surface() const {
     return impl_->surface;
 }
 Status Device::renewSurface() {
-    vkDestroySurfaceKHR(impl_->instance, impl_->surface, nullptr);
+    impl_->vk.DestroySurfaceKHR(impl_->instance, impl_->surface, nullptr);
     impl_->surface = VK_NULL_HANDLE;
-    if (glfwCreateWindowSurface(impl_->instance, impl_->window, nullptr, &impl_->surface) != VK_SUCCESS)
+    if (impl_->window->make(impl_->instance, &impl_->surface) != VK_SUCCESS)
         return Error{"the window's surface was lost, and another one cannot be made"};
     return Ok{};
 }
@@ -290,14 +278,14 @@ uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore waitBinary, VkSema
                              .signalSemaphoreInfoCount = signalBinary ? 2u : 1u,
                              .pSignalSemaphoreInfos = signals};
     const bool lost = strikes(Fault::kSubmit);
-    checkVk(lost ? VK_ERROR_DEVICE_LOST : vkQueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE),
+    checkVk(lost ? VK_ERROR_DEVICE_LOST : impl_->vk.QueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE),
             "vkQueueSubmit2");
     return impl_->submitted;
 }
 
 uint64_t Device::completedValue() const {
     uint64_t value = 0;
-    AG_VK(vkGetSemaphoreCounterValue(impl_->device, impl_->timeline, &value));
+    AG_VK(impl_->vk.GetSemaphoreCounterValue(impl_->device, impl_->timeline, &value));
     return value;
 }
 
@@ -310,11 +298,11 @@ void Device::waitFor(uint64_t timelineValue) {
                                    .semaphoreCount = 1,
                                    .pSemaphores = &impl_->timeline,
                                    .pValues = &timelineValue};
-    AG_VK(vkWaitSemaphores(impl_->device, &info, UINT64_MAX));
+    AG_VK(impl_->vk.WaitSemaphores(impl_->device, &info, UINT64_MAX));
 }
 
 void Device::waitIdle() {
-    AG_VK(vkDeviceWaitIdle(impl_->device));
+    AG_VK(impl_->vk.DeviceWaitIdle(impl_->device));
 }
 
 void Device::retire(std::function<void()> destroy) {
@@ -338,11 +326,11 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
                                            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                            .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    AG_VK(vkAllocateCommandBuffers(impl_->device, &info, &commands));
-    gpu::setDebugName(impl_->device, VK_OBJECT_TYPE_COMMAND_BUFFER, commands, "device.once");
+    AG_VK(impl_->vk.AllocateCommandBuffers(impl_->device, &info, &commands));
+    gpu::setDebugName(impl_->vk, impl_->device, VK_OBJECT_TYPE_COMMAND_BUFFER, commands, "device.once");
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    AG_VK(vkBeginCommandBuffer(commands, &begin));
+    AG_VK(impl_->vk.BeginCommandBuffer(commands, &begin));
     record(commands);
     // What was written becomes visible to the host: waiting alone does not make it so.
     const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -352,12 +340,12 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
     const VkDependencyInfo dependency{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
-    vkCmdPipelineBarrier2(commands, &dependency);
-    AG_VK(vkEndCommandBuffer(commands));
+    impl_->vk.CmdPipelineBarrier2(commands, &dependency);
+    AG_VK(impl_->vk.EndCommandBuffer(commands));
     submit(commands);
     // Not the timeline: synchronization validation follows the queue's own wait only.
-    AG_VK(vkQueueWaitIdle(impl_->queue));
-    vkFreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
+    AG_VK(impl_->vk.QueueWaitIdle(impl_->queue));
+    impl_->vk.FreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
 }
 
 std::optional<ClockPair> Device::readClocks() const {
@@ -367,7 +355,7 @@ std::optional<ClockPair> Device::readClocks() const {
         {.sType = VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT,
          .timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT}};
     uint64_t times[2] = {0, 0}, deviation = 0;
-    AG_VK(vkGetCalibratedTimestampsEXT(impl_->device, 2, clocks, times, &deviation));
+    AG_VK(impl_->vk.GetCalibratedTimestampsEXT(impl_->device, 2, clocks, times, &deviation));
     return ClockPair{times[0], times[1]};
 }
 

@@ -1,10 +1,10 @@
-// One Vulkan 1.3 device with one queue (graphics, compute, transfer). Loaded through volk.
+// One Vulkan 1.3 device with one queue (graphics, compute, transfer).
 // Required features: dynamicRendering, synchronization2, timelineSemaphore, scalarBlockLayout,
 // hostQueryReset, multiDrawIndirect, drawIndirectFirstInstance; subgroup shuffle, ballot and arithmetic in
 // compute. bufferDeviceAddress stays off so that RenderDoc can capture on lavapipe.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <atomic>
 #include <functional>
@@ -18,14 +18,18 @@
 #include "engine/gpu/device_faults.h"
 #include "engine/gpu/memory.h"
 
-struct GLFWwindow;
-
 namespace ag::gpu {
 
+// What a window needs of Vulkan.
+struct WindowSurface {
+    std::vector<const char*> instanceExtensions;
+    std::function<VkResult(VkInstance, VkSurfaceKHR*)> make;
+};
+
 struct DeviceOptions {
-    bool validation = false;       // core and synchronization validation; messages are counted
-    GLFWwindow* window = nullptr;  // null: headless, no surface or swapchain extension
-    std::string deviceName;        // part of a device name to prefer; empty: discrete, integrated, then CPU
+    bool validation = false;              // core and synchronization validation; messages are counted
+    std::optional<WindowSurface> window;  // none: headless, no surface or swapchain extension
+    std::string deviceName;  // part of a device name to prefer; empty: discrete, integrated, then CPU
     std::vector<std::string> without;  // features and extensions to do without, as if the device lacked them
     FaultPlan fault;                   // for tests
 };
@@ -56,6 +60,7 @@ class Device {
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
+    const Functions& vk() const;
     VkInstance instance() const;
     VkPhysicalDevice physical() const;
     VkDevice handle() const;
@@ -94,7 +99,7 @@ class Device {
     int validationMessageCount() const;
     template <class Handle>
     void setDebugName(VkObjectType type, Handle handle, const std::string& name) {
-        gpu::setDebugName(this->handle(), type, handle, name);
+        gpu::setDebugName(vk(), this->handle(), type, handle, name);
     }
 
   private:

@@ -49,28 +49,29 @@ const std::array kRequired = {AG_FEATURE(core.features, multiDrawIndirect),
 
 constexpr const char* kSubgroupOperations = "subgroup shuffle, ballot and arithmetic";
 
-std::optional<uint32_t> findQueueFamily(VkPhysicalDevice physical, VkSurfaceKHR surface) {
+std::optional<uint32_t> findQueueFamily(const Functions& vk, VkPhysicalDevice physical,
+                                        VkSurfaceKHR surface) {
     uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
     for (uint32_t i = 0; i < count; ++i) {
         constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
         VkBool32 presents = surface == VK_NULL_HANDLE;
-        if (surface) vkGetPhysicalDeviceSurfaceSupportKHR(physical, i, surface, &presents);
+        if (surface) vk.GetPhysicalDeviceSurfaceSupportKHR(physical, i, surface, &presents);
         if ((families[i].queueFlags & kNeeded) == kNeeded && presents) return i;
     }
     return std::nullopt;
 }
 
-DeviceInfo describe(VkPhysicalDevice physical) {
+DeviceInfo describe(const Functions& vk, VkPhysicalDevice physical) {
     VkPhysicalDeviceSubgroupProperties subgroup{.sType =
                                                     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
                                             .pNext = &subgroup};
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                            .pNext = &driver};
-    vkGetPhysicalDeviceProperties2(physical, &properties);
+    vk.GetPhysicalDeviceProperties2(physical, &properties);
     DeviceInfo info;
     info.name = properties.properties.deviceName;
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
@@ -87,11 +88,11 @@ DeviceInfo describe(VkPhysicalDevice physical) {
     return info;
 }
 
-bool hasExtension(VkPhysicalDevice physical, const char* name) {
+bool hasExtension(const Functions& vk, VkPhysicalDevice physical, const char* name) {
     uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
     return std::ranges::any_of(
         extensions, [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
@@ -102,19 +103,20 @@ constexpr std::array kPartsOf13 = {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME,
                                    VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
                                    VK_KHR_MAINTENANCE_4_EXTENSION_NAME};
 
-bool hasParts(VkPhysicalDevice physical) {
-    return std::ranges::all_of(kPartsOf13, [&](const char* part) { return hasExtension(physical, part); });
+bool hasParts(const Functions& vk, VkPhysicalDevice physical) {
+    return std::ranges::all_of(kPartsOf13,
+                               [&](const char* part) { return hasExtension(vk, physical, part); });
 }
 
 // Fills enabled and missing with the required features.
-void listFeatures(VkPhysicalDevice physical, DeviceInfo& info) {
+void listFeatures(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& info) {
     if (info.apiVersion < VK_API_VERSION_1_2 ||
-        (info.apiVersion < VK_API_VERSION_1_3 && !hasParts(physical))) {
+        (info.apiVersion < VK_API_VERSION_1_3 && !hasParts(vk, physical))) {
         info.missing.push_back("Vulkan 1.3");
         return;
     }
     Features has;
-    vkGetPhysicalDeviceFeatures2(physical, &has.core);
+    vk.GetPhysicalDeviceFeatures2(physical, &has.core);
     for (const RequiredFeature& feature : kRequired)
         (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
     info.counts = has.core.features.pipelineStatisticsQuery;  // done without where not
@@ -122,12 +124,12 @@ void listFeatures(VkPhysicalDevice physical, DeviceInfo& info) {
 }
 
 // Whether its timestamps can be put on the clock of the host's spans; done without where not.
-bool sharesClock(VkPhysicalDevice physical) {
-    if (!hasExtension(physical, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
+bool sharesClock(const Functions& vk, VkPhysicalDevice physical) {
+    if (!hasExtension(vk, physical, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) return false;
     uint32_t count = 0;
-    vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, nullptr);
+    vk.GetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, nullptr);
     std::vector<VkTimeDomainEXT> domains(count);
-    vkGetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, domains.data());
+    vk.GetPhysicalDeviceCalibrateableTimeDomainsEXT(physical, &count, domains.data());
     return std::ranges::count(domains, VK_TIME_DOMAIN_DEVICE_EXT) > 0 &&
            std::ranges::count(domains, VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT) > 0;
 }
@@ -155,9 +157,10 @@ void leaveOut(std::span<const std::string> without, DeviceInfo& info) {
     }
 }
 
-int score(VkPhysicalDevice physical, const DeviceInfo& info, const std::string& preferredName) {
+int score(const Functions& vk, VkPhysicalDevice physical, const DeviceInfo& info,
+          const std::string& preferredName) {
     VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(physical, &properties);
+    vk.GetPhysicalDeviceProperties(physical, &properties);
     int points = 1;
     if (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU) points = 3;
     if (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU) points = 2;
@@ -167,37 +170,37 @@ int score(VkPhysicalDevice physical, const DeviceInfo& info, const std::string& 
 
 }  // namespace
 
-Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName,
-                                  std::span<const std::string> without) {
+Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSurfaceKHR surface,
+                                  const std::string& preferredName, std::span<const std::string> without) {
     for (const std::string& name : without)
         if (!isFeature(name))
             return Error{"there is no feature '" + name + "' to do without (there are: " + featureNames() +
                          ")"};
     uint32_t count = 0;
-    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    vk.EnumeratePhysicalDevices(instance, &count, nullptr);
     std::vector<VkPhysicalDevice> devices(count);
-    vkEnumeratePhysicalDevices(instance, &count, devices.data());
+    vk.EnumeratePhysicalDevices(instance, &count, devices.data());
     DeviceChoice best;
     int bestScore = 0;
     std::string lacks;
     for (VkPhysicalDevice physical : devices) {
-        DeviceChoice choice{.physical = physical, .info = describe(physical)};
-        listFeatures(physical, choice.info);
+        DeviceChoice choice{.physical = physical, .info = describe(vk, physical)};
+        listFeatures(vk, physical, choice.info);
         leaveOut(without, choice.info);
-        const auto family = findQueueFamily(physical, surface);
+        const auto family = findQueueFamily(vk, physical, surface);
         if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");
         if (!choice.info.missing.empty()) {
             lacks += " " + choice.info.name + " lacks " + choice.info.missing.front() + ";";
             continue;
         }
         choice.queueFamily = *family;
-        if (const int points = score(physical, choice.info, preferredName); points > bestScore) {
+        if (const int points = score(vk, physical, choice.info, preferredName); points > bestScore) {
             bestScore = points;
             best = std::move(choice);
         }
     }
     if (bestScore > 0) {
-        best.info.calibrated = sharesClock(best.physical);
+        best.info.calibrated = sharesClock(vk, best.physical);
         if (best.info.calibrated) best.info.enabled.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
         return best;
     }
@@ -206,7 +209,7 @@ Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, con
     return Error{"no usable Vulkan 1.3 device:" + lacks};
 }
 
-Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain) {
+Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, bool withSwapchain) {
     Features features;
     for (const RequiredFeature& feature : kRequired)
         feature.field(features) = VK_TRUE;
@@ -228,7 +231,7 @@ Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain) {
                                   .enabledExtensionCount = uint32_t(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
     VkDevice device = VK_NULL_HANDLE;
-    const VkResult result = vkCreateDevice(choice.physical, &info, nullptr, &device);
+    const VkResult result = vk.CreateDevice(choice.physical, &info, nullptr, &device);
     if (result != VK_SUCCESS)
         return Error{"cannot open " + choice.info.name + " (Vulkan error " + std::to_string(result) + ")"};
     return device;

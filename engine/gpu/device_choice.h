@@ -15,10 +15,10 @@ struct DeviceChoice {
 
 // The best device that has everything required; otherwise a sentence saying what each one lacks. `without`:
 // features to take as missing.
-Result<DeviceChoice> chooseDevice(VkInstance instance, VkSurfaceKHR surface, const std::string& preferredName,
-                                  std::span<const std::string> without);
+Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSurfaceKHR surface,
+                                  const std::string& preferredName, std::span<const std::string> without);
 
 // Device with one queue of the chosen family and the required features.
-Result<VkDevice> openDevice(const DeviceChoice& choice, bool withSwapchain);
+Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, bool withSwapchain);
 
 }  // namespace ag::gpu

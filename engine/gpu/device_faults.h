@@ -1,7 +1,7 @@
 // What goes wrong with devices: how it ends, and how to make it happen on purpose.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <atomic>
 #include <string>

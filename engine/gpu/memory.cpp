@@ -17,14 +17,15 @@ uint64_t alignUp(uint64_t value, uint64_t alignment) {
 
 }  // namespace
 
-MemoryAllocator::MemoryAllocator(VkPhysicalDevice physical, VkDevice device, FaultCounter& faults)
-    : device_(device), faults_(faults) {
-    vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
+MemoryAllocator::MemoryAllocator(const Functions& vk, VkPhysicalDevice physical, VkDevice device,
+                                 FaultCounter& faults)
+    : vk_(vk), device_(device), faults_(faults) {
+    vk_.GetPhysicalDeviceMemoryProperties(physical, &properties_);
 }
 
 MemoryAllocator::~MemoryAllocator() {
     for (Block& block : blocks_)
-        if (block.memory) vkFreeMemory(device_, block.memory, nullptr);
+        if (block.memory) vk_.FreeMemory(device_, block.memory, nullptr);
 }
 
 uint32_t MemoryAllocator::findType(uint32_t allowed, bool hostVisible) const {
@@ -63,14 +64,14 @@ uint32_t MemoryAllocator::addBlock(uint64_t sizeBytes, uint32_t type, bool hostV
     const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                     .allocationSize = sizeBytes,
                                     .memoryTypeIndex = type};
-    AG_VK(vkAllocateMemory(device_, &info, nullptr, &block.memory));
-    setDebugName(device_, VK_OBJECT_TYPE_DEVICE_MEMORY, block.memory,
+    AG_VK(vk_.AllocateMemory(device_, &info, nullptr, &block.memory));
+    setDebugName(vk_, device_, VK_OBJECT_TYPE_DEVICE_MEMORY, block.memory,
                  hostVisible                 ? "memory.host"
                  : use == MemoryUse::kBuffer ? "memory.buffers"
                                              : "memory.images");
     if (hostVisible) {
         void* mapped = nullptr;
-        AG_VK(vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+        AG_VK(vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
         block.mapped = static_cast<std::byte*>(mapped);
     }
     for (uint32_t i = 0; i < blocks_.size(); ++i) {
@@ -114,7 +115,7 @@ void MemoryAllocator::free(const MemoryRange& range) {
     }
     liveBytes_ -= range.sizeBytes;
     if (block.gaps.size() != 1 || block.gaps[0].sizeBytes != block.sizeBytes) return;
-    vkFreeMemory(device_, block.memory, nullptr);  // wholly free: give it back
+    vk_.FreeMemory(device_, block.memory, nullptr);  // wholly free: give it back
     block = {};
 }
 

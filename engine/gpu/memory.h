@@ -2,7 +2,7 @@
 // bufferImageGranularity does not matter.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ enum class MemoryUse : uint32_t { kBuffer, kImage };
 class MemoryAllocator {
   public:
     // `faults` may make an allocation fail.
-    MemoryAllocator(VkPhysicalDevice physical, VkDevice device, FaultCounter& faults);
+    MemoryAllocator(const Functions& vk, VkPhysicalDevice physical, VkDevice device, FaultCounter& faults);
     ~MemoryAllocator();
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
@@ -56,6 +56,7 @@ class MemoryAllocator {
     bool takeFrom(Block& block, const VkMemoryRequirements& requirements, MemoryRange& range);
     uint32_t addBlock(uint64_t sizeBytes, uint32_t type, bool hostVisible, MemoryUse use);
 
+    const Functions& vk_;
     VkDevice device_;
     FaultCounter& faults_;
     VkPhysicalDeviceMemoryProperties properties_{};

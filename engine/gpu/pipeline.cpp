@@ -119,7 +119,7 @@ bool PipelineLibrary::Impl::open(const std::string& path, Shader& shader, std::s
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .codeSize = shader.module.spirv.size() * 4,
                                         .pCode = shader.module.spirv.data()};
-    AG_VK(vkCreateShaderModule(device.handle(), &info, nullptr, &shader.handle));
+    AG_VK(device.vk().CreateShaderModule(device.handle(), &info, nullptr, &shader.handle));
     device.setDebugName(VK_OBJECT_TYPE_SHADER_MODULE, shader.handle, path);
     return true;
 }
@@ -164,7 +164,7 @@ void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash,
             .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
             .bindingCount = uint32_t(bindings.size()),
             .pBindings = bindings.data()};
-        AG_VK(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &layout.set));
+        AG_VK(device.vk().CreateDescriptorSetLayout(device.handle(), &set, nullptr, &layout.set));
         device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout.set, name);
         const VkPushConstantRange push{pipeline.pushStages, 0, pipeline.pushSizeBytes};
         const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -172,7 +172,7 @@ void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash,
                                               .pSetLayouts = &layout.set,
                                               .pushConstantRangeCount = pipeline.pushSizeBytes ? 1u : 0u,
                                               .pPushConstantRanges = &push};
-        AG_VK(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout.pipeline));
+        AG_VK(device.vk().CreatePipelineLayout(device.handle(), &info, nullptr, &layout.pipeline));
         device.setDebugName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout.pipeline, name);
     }
     pipeline.setLayout = layout.set;
@@ -225,8 +225,8 @@ void PipelineLibrary::Impl::makeCompute(const PipelineRequest& request, Pipeline
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = stageInfo(compute.handle, compute.module, specialization),
                                            .layout = pipeline.layout};
-    AG_VK(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
-                                   &pipeline.handle));
+    AG_VK(device.vk().CreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
+                                             &pipeline.handle));
     device.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, compute.module.path);
 }
 
@@ -312,8 +312,8 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
                                             .pColorBlendState = &blend,
                                             .pDynamicState = &dynamic,
                                             .layout = pipeline.layout};
-    AG_VK(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
-                                    &pipeline.handle));
+    AG_VK(device.vk().CreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
+                                              &pipeline.handle));
     device.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, fragment.module.path);
 }
 
@@ -321,15 +321,16 @@ PipelineLibrary::PipelineLibrary(Device& device) : impl_(new Impl{.device = devi
 
 PipelineLibrary::~PipelineLibrary() {
     const VkDevice device = impl_->device.handle();
+    const Functions& vk = impl_->device.vk();
     impl_->device.waitIdle();
     for (auto& [hash, pipeline] : impl_->pipelines)
-        vkDestroyPipeline(device, pipeline->handle, nullptr);
+        vk.DestroyPipeline(device, pipeline->handle, nullptr);
     for (auto& [hash, layout] : impl_->layouts) {
-        vkDestroyPipelineLayout(device, layout.pipeline, nullptr);
-        vkDestroyDescriptorSetLayout(device, layout.set, nullptr);
+        vk.DestroyPipelineLayout(device, layout.pipeline, nullptr);
+        vk.DestroyDescriptorSetLayout(device, layout.set, nullptr);
     }
     for (auto& [path, shader] : impl_->shaders)
-        vkDestroyShaderModule(device, shader.handle, nullptr);
+        vk.DestroyShaderModule(device, shader.handle, nullptr);
 }
 
 const Pipeline& PipelineLibrary::get(const PipelineRequest& request) {
@@ -354,17 +355,17 @@ int PipelineLibrary::reloadChanged(std::vector<std::string>* errors) {
             continue;
         }
         if (fresh.hash == shader.hash) {
-            vkDestroyShaderModule(impl_->device.handle(), fresh.handle, nullptr);
+            impl_->device.vk().DestroyShaderModule(impl_->device.handle(), fresh.handle, nullptr);
             continue;
         }
-        vkDestroyShaderModule(impl_->device.handle(), shader.handle, nullptr);
+        impl_->device.vk().DestroyShaderModule(impl_->device.handle(), shader.handle, nullptr);
         shader = std::move(fresh);
         ++changed;
     }
     if (changed == 0) return 0;
     impl_->device.waitIdle();
     for (auto& [hash, pipeline] : impl_->pipelines)
-        vkDestroyPipeline(impl_->device.handle(), pipeline->handle, nullptr);
+        impl_->device.vk().DestroyPipeline(impl_->device.handle(), pipeline->handle, nullptr);
     impl_->pipelines.clear();  // layouts stay: descriptor sets made from them live on
     return changed;
 }

@@ -2,7 +2,7 @@
 // state).
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <array>
 #include <cstdint>

@@ -21,7 +21,7 @@ VkBufferUsageFlags usageOf(Device& device, const BufferDesc& desc) {
     if (desc.vertexOrIndex) usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
     if (desc.texelFormat == VK_FORMAT_UNDEFINED) return usage;
     VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(device.physical(), desc.texelFormat, &properties);
+    device.vk().GetPhysicalDeviceFormatProperties(device.physical(), desc.texelFormat, &properties);
     if (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT)
         usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     if (properties.bufferFeatures & VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT)
@@ -31,7 +31,7 @@ VkBufferUsageFlags usageOf(Device& device, const BufferDesc& desc) {
 
 VkImageUsageFlags usageOf(Device& device, const ImageDesc& desc) {
     VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(device.physical(), desc.format, &properties);
+    device.vk().GetPhysicalDeviceFormatProperties(device.physical(), desc.format, &properties);
     const VkFormatFeatureFlags features = properties.optimalTilingFeatures;
     VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (features & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -51,7 +51,7 @@ VkImageView makeView(Device& device, const Image& image, uint32_t firstMip, uint
         .format = desc.format,
         .subresourceRange = {image.aspect(), firstMip, mips, 0, desc.layers}};
     VkImageView view = VK_NULL_HANDLE;
-    AG_VK(vkCreateImageView(device.handle(), &info, nullptr, &view));
+    AG_VK(device.vk().CreateImageView(device.handle(), &info, nullptr, &view));
     device.setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, desc.name);
     return view;
 }
@@ -68,11 +68,11 @@ Buffer::Buffer(Device& device, const BufferDesc& desc) : device_(device), desc_(
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                   .size = desc.sizeBytes,
                                   .usage = usageOf(device, desc)};
-    AG_VK(vkCreateBuffer(device.handle(), &info, nullptr, &handle_));
+    AG_VK(device.vk().CreateBuffer(device.handle(), &info, nullptr, &handle_));
     VkMemoryRequirements requirements;
-    vkGetBufferMemoryRequirements(device.handle(), handle_, &requirements);
+    device.vk().GetBufferMemoryRequirements(device.handle(), handle_, &requirements);
     memory_ = device.memory().allocate(requirements, desc.hostVisible, MemoryUse::kBuffer);
-    AG_VK(vkBindBufferMemory(device.handle(), handle_, memory_.memory, memory_.offset));
+    AG_VK(device.vk().BindBufferMemory(device.handle(), handle_, memory_.memory, memory_.offset));
     mapped_ = desc.hostVisible ? memory_.mapped : nullptr;
     device.setDebugName(VK_OBJECT_TYPE_BUFFER, handle_, desc.name);
     if (desc.texelFormat == VK_FORMAT_UNDEFINED) return;
@@ -80,13 +80,13 @@ Buffer::Buffer(Device& device, const BufferDesc& desc) : device_(device), desc_(
                                       .buffer = handle_,
                                       .format = desc.texelFormat,
                                       .range = VK_WHOLE_SIZE};
-    AG_VK(vkCreateBufferView(device.handle(), &view, nullptr, &texelView_));
+    AG_VK(device.vk().CreateBufferView(device.handle(), &view, nullptr, &texelView_));
     device.setDebugName(VK_OBJECT_TYPE_BUFFER_VIEW, texelView_, desc.name);
 }
 
 Buffer::~Buffer() {
-    vkDestroyBufferView(device_.handle(), texelView_, nullptr);
-    vkDestroyBuffer(device_.handle(), handle_, nullptr);
+    device_.vk().DestroyBufferView(device_.handle(), texelView_, nullptr);
+    device_.vk().DestroyBuffer(device_.handle(), handle_, nullptr);
     device_.memory().free(memory_);
 }
 
@@ -99,10 +99,10 @@ Image::Image(Device& device, const ImageDesc& desc, const MemoryRange* memory)
         place = *memory;
     } else {
         VkMemoryRequirements requirements;
-        vkGetImageMemoryRequirements(device.handle(), handle_, &requirements);
+        device.vk().GetImageMemoryRequirements(device.handle(), handle_, &requirements);
         place = memory_ = device.memory().allocate(requirements, false, MemoryUse::kImage);
     }
-    AG_VK(vkBindImageMemory(device.handle(), handle_, place.memory, place.offset));
+    AG_VK(device.vk().BindImageMemory(device.handle(), handle_, place.memory, place.offset));
     device.setDebugName(VK_OBJECT_TYPE_IMAGE, handle_, desc.name);
     view_ = makeView(device, *this, 0, desc.mips);
     mipViews_ = std::make_unique<VkImageView[]>(desc.mips);
@@ -112,9 +112,9 @@ Image::Image(Device& device, const ImageDesc& desc, const MemoryRange* memory)
 
 Image::~Image() {
     for (uint32_t mip = 0; mip < desc_.mips; ++mip)
-        vkDestroyImageView(device_.handle(), mipViews_[mip], nullptr);
-    vkDestroyImageView(device_.handle(), view_, nullptr);
-    vkDestroyImage(device_.handle(), handle_, nullptr);
+        device_.vk().DestroyImageView(device_.handle(), mipViews_[mip], nullptr);
+    device_.vk().DestroyImageView(device_.handle(), view_, nullptr);
+    device_.vk().DestroyImage(device_.handle(), handle_, nullptr);
     if (memory_) device_.memory().free(memory_);
 }
 
@@ -130,15 +130,15 @@ VkImage makeImage(Device& device, const ImageDesc& desc) {
                                  .usage = usageOf(device, desc),
                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     VkImage image = VK_NULL_HANDLE;
-    AG_VK(vkCreateImage(device.handle(), &info, nullptr, &image));
+    AG_VK(device.vk().CreateImage(device.handle(), &info, nullptr, &image));
     return image;
 }
 
 VkMemoryRequirements imageRequirements(Device& device, const ImageDesc& desc) {
     const VkImage probe = makeImage(device, desc);
     VkMemoryRequirements requirements;
-    vkGetImageMemoryRequirements(device.handle(), probe, &requirements);
-    vkDestroyImage(device.handle(), probe, nullptr);
+    device.vk().GetImageMemoryRequirements(device.handle(), probe, &requirements);
+    device.vk().DestroyImage(device.handle(), probe, nullptr);
     return requirements;
 }
 

@@ -2,7 +2,7 @@
 // sure the device no longer uses it (FrameGraph retires its own through Device::retire).
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <algorithm>
 #include <cstddef>

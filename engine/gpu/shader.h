@@ -1,7 +1,7 @@
 // SPIR-V loaded from the build's shader folder, with what reflection says of its interface.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <cstdint>
 #include <string>

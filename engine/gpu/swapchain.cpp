@@ -10,7 +10,7 @@ namespace {
 VkSemaphore makeSemaphore(Device& device, const char* name) {
     const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
-    AG_VK(vkCreateSemaphore(device.handle(), &info, nullptr, &semaphore));
+    AG_VK(device.vk().CreateSemaphore(device.handle(), &info, nullptr, &semaphore));
     device.setDebugName(VK_OBJECT_TYPE_SEMAPHORE, semaphore, name);
     return semaphore;
 }
@@ -22,7 +22,7 @@ VkImageView makeView(Device& device, VkImage image, VkFormat format) {
                                      .format = format,
                                      .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
-    AG_VK(vkCreateImageView(device.handle(), &info, nullptr, &view));
+    AG_VK(device.vk().CreateImageView(device.handle(), &info, nullptr, &view));
     device.setDebugName(VK_OBJECT_TYPE_IMAGE, image, "swapchain.image");
     device.setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, "swapchain.image");
     return view;
@@ -32,9 +32,10 @@ VkImageView makeView(Device& device, VkImage image, VkFormat format) {
 
 Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
     uint32_t count = 0;
-    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count, nullptr);
+    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
-    vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count, formats.data());
+    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count,
+                                                   formats.data());
     // UNORM: the display image is sRGB-encoded already.
     const auto found = std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& f) {
         return f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM;
@@ -43,9 +44,10 @@ Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
         format_ = found->format;
         colorSpace_ = found->colorSpace;
     }
-    vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count, nullptr);
+    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count, nullptr);
     std::vector<VkPresentModeKHR> modes(count);
-    vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count, modes.data());
+    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count,
+                                                        modes.data());
     if (std::ranges::find(modes, VK_PRESENT_MODE_MAILBOX_KHR) != modes.end())
         presentMode_ = VK_PRESENT_MODE_MAILBOX_KHR;
     create(size);
@@ -54,16 +56,16 @@ Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
 Swapchain::~Swapchain() {
     device_.waitIdle();
     destroyImages();
-    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    device_.vk().DestroySwapchainKHR(device_.handle(), handle_, nullptr);
 }
 
 void Swapchain::destroyImages() {
     for (VkSemaphore s : rendered_)
-        vkDestroySemaphore(device_.handle(), s, nullptr);
+        device_.vk().DestroySemaphore(device_.handle(), s, nullptr);
     for (VkSemaphore s : acquired_)
-        vkDestroySemaphore(device_.handle(), s, nullptr);
+        device_.vk().DestroySemaphore(device_.handle(), s, nullptr);
     for (VkImageView v : views_)
-        vkDestroyImageView(device_.handle(), v, nullptr);
+        device_.vk().DestroyImageView(device_.handle(), v, nullptr);
     views_.clear();
     rendered_.clear();
     acquired_.clear();
@@ -72,7 +74,7 @@ void Swapchain::destroyImages() {
 
 void Swapchain::create(glm::uvec2 wanted) {
     VkSurfaceCapabilitiesKHR caps;
-    AG_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), device_.surface(), &caps));
+    AG_VK(device_.vk().GetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), device_.surface(), &caps));
     VkExtent2D extent = caps.currentExtent;
     if (extent.width == UINT32_MAX)
         extent = {std::clamp(wanted.x, caps.minImageExtent.width, caps.maxImageExtent.width),
@@ -100,14 +102,14 @@ void Swapchain::create(glm::uvec2 wanted) {
         .clipped = VK_TRUE,
         .oldSwapchain = handle_};
     VkSwapchainKHR fresh = VK_NULL_HANDLE;
-    AG_VK(vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh));
-    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    AG_VK(device_.vk().CreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh));
+    device_.vk().DestroySwapchainKHR(device_.handle(), handle_, nullptr);
     handle_ = fresh;
     device_.setDebugName(VK_OBJECT_TYPE_SWAPCHAIN_KHR, handle_, "swapchain");
     uint32_t count = 0;
-    vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr);
+    device_.vk().GetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr);
     images_.resize(count);
-    vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data());
+    device_.vk().GetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data());
     for (VkImage image : images_)
         views_.push_back(makeView(device_, image, format_));
     for (uint32_t i = 0; i < count; ++i)
@@ -120,14 +122,15 @@ void Swapchain::create(glm::uvec2 wanted) {
 VkResult Swapchain::tryAcquire(VkSemaphore acquired, uint32_t& index) {
     if (device_.strikes(Fault::kOutOfDate)) return VK_ERROR_OUT_OF_DATE_KHR;
     if (device_.strikes(Fault::kSurfaceLost)) return VK_ERROR_SURFACE_LOST_KHR;
-    return vkAcquireNextImageKHR(device_.handle(), handle_, UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
+    return device_.vk().AcquireNextImageKHR(device_.handle(), handle_, UINT64_MAX, acquired, VK_NULL_HANDLE,
+                                            &index);
 }
 
 // A lost surface takes its swapchain with it; without another one there is nothing to go on with.
 void Swapchain::renewSurface() {
     device_.waitIdle();
     destroyImages();
-    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    device_.vk().DestroySwapchainKHR(device_.handle(), handle_, nullptr);
     handle_ = VK_NULL_HANDLE;
     if (const Status renewed = device_.renewSurface(); !renewed)
         checkVk(VK_ERROR_SURFACE_LOST_KHR, renewed.error().message.c_str());
@@ -160,7 +163,7 @@ void Swapchain::present(const SwapchainImage& image) {
                                 .swapchainCount = 1,
                                 .pSwapchains = &handle_,
                                 .pImageIndices = &image.index};
-    const VkResult result = vkQueuePresentKHR(device_.queue(), &info);
+    const VkResult result = device_.vk().QueuePresentKHR(device_.queue(), &info);
     // A lost surface says so again when the next image is asked for.
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
         result == VK_ERROR_SURFACE_LOST_KHR)

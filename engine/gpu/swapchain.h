@@ -1,7 +1,7 @@
 // Images of a window, acquired and presented with one semaphore pair a frame in flight.
 #pragma once
 
-#include <volk.h>
+#include "engine/gpu/functions.h"
 
 #include <optional>
 #include <vector>

@@ -9,9 +9,9 @@
 namespace ag::gpu {
 namespace {
 
-void barrier(VkCommandBuffer commands, const Image& image, uint32_t layer, uint32_t mip, uint32_t mips,
-             VkImageLayout from, VkImageLayout to) {
-    transitionImage(commands, image.handle(), {image.aspect(), mip, mips, layer, 1}, from, to);
+void barrier(const Device& device, VkCommandBuffer commands, const Image& image, uint32_t layer, uint32_t mip,
+             uint32_t mips, VkImageLayout from, VkImageLayout to) {
+    transitionImage(device.vk(), commands, image.handle(), {image.aspect(), mip, mips, layer, 1}, from, to);
 }
 
 VkOffset3D mipEnd(const ImageDesc& desc, uint32_t mip) {
@@ -19,21 +19,22 @@ VkOffset3D mipEnd(const ImageDesc& desc, uint32_t mip) {
 }
 
 // Mip 0 is in TRANSFER_DST; every level ends in SHADER_READ_ONLY.
-void blitMips(VkCommandBuffer commands, const Image& image, uint32_t layer) {
+void blitMips(const Device& device, VkCommandBuffer commands, const Image& image, uint32_t layer) {
     const ImageDesc& desc = image.desc();
     for (uint32_t mip = 1; mip < desc.mips; ++mip) {
-        barrier(commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        barrier(device, commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         VkImageBlit region{.srcSubresource = {image.aspect(), mip - 1, layer, 1},
                            .dstSubresource = {image.aspect(), mip, layer, 1}};
         region.srcOffsets[1] = mipEnd(desc, mip - 1);
         region.dstOffsets[1] = mipEnd(desc, mip);
-        vkCmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(),
-                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
-        barrier(commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        device.vk().CmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                 image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                                 VK_FILTER_LINEAR);
+        barrier(device, commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
-    barrier(commands, image, layer, desc.mips - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+    barrier(device, commands, image, layer, desc.mips - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
             VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
@@ -50,7 +51,7 @@ void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> byt
     std::memcpy(staging.mapped(), bytes.data(), bytes.size());
     device.runOnce([&](VkCommandBuffer commands) {
         const VkBufferCopy region{.dstOffset = offset, .size = bytes.size()};
-        vkCmdCopyBuffer(commands, staging.handle(), buffer.handle(), 1, &region);
+        device.vk().CmdCopyBuffer(commands, staging.handle(), buffer.handle(), 1, &region);
     });
 }
 
@@ -64,9 +65,9 @@ void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> b
                                        .dstAccessMask = VK_ACCESS_2_TRANSFER_READ_BIT};
         const VkDependencyInfo info{
             .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &written};
-        vkCmdPipelineBarrier2(commands, &info);
+        device.vk().CmdPipelineBarrier2(commands, &info);
         const VkBufferCopy region{.srcOffset = offset, .size = bytes.size()};
-        vkCmdCopyBuffer(commands, buffer.handle(), staging.handle(), 1, &region);
+        device.vk().CmdCopyBuffer(commands, buffer.handle(), staging.handle(), 1, &region);
     });
     std::memcpy(bytes.data(), staging.mapped(), bytes.size());
 }
@@ -78,16 +79,16 @@ void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const s
     Buffer staging(device, {.name = "transfer.upload", .sizeBytes = texels.size(), .hostVisible = true});
     std::memcpy(staging.mapped(), texels.data(), texels.size());
     device.runOnce([&](VkCommandBuffer commands) {
-        barrier(commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_UNDEFINED,
+        barrier(device, commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_UNDEFINED,
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, layer, 1},
                                        .imageExtent = {desc.size.x, desc.size.y, 1}};
-        vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(),
-                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        device.vk().CmdCopyBufferToImage(commands, staging.handle(), image.handle(),
+                                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
         if (makeMips)
-            blitMips(commands, image, layer);
+            blitMips(device, commands, image, layer);
         else
-            barrier(commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+            barrier(device, commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
 }
@@ -97,12 +98,12 @@ void downloadImage(Device& device, const Image& image, VkImageLayout layout, std
     AG_CHECK_EQ(texels.size(), size_t(desc.size.x) * desc.size.y * texelSizeBytes(desc.format));
     Buffer staging(device, {.name = "transfer.download", .sizeBytes = texels.size(), .hostVisible = true});
     device.runOnce([&](VkCommandBuffer commands) {
-        barrier(commands, image, 0, 0, 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        barrier(device, commands, image, 0, 0, 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, 0, 1},
                                        .imageExtent = {desc.size.x, desc.size.y, 1}};
-        vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                               staging.handle(), 1, &region);
-        barrier(commands, image, 0, 0, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+        device.vk().CmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                         staging.handle(), 1, &region);
+        barrier(device, commands, image, 0, 0, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
     });
     std::memcpy(texels.data(), staging.mapped(), texels.size());
 }
