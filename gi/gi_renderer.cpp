@@ -5,6 +5,9 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "engine/gpu/shader_files.h"
+#include "engine/gpu/transfer.h"
+
 namespace ag::gi {
 namespace {
 
@@ -17,19 +20,23 @@ uint64_t steadyNs() {
 }  // namespace
 
 GiRenderer::GiRenderer(gpu::Device& device, uint32_t threads)
-    : device_(device), jobs_(threads), pipelines_(device), scene_(device), graph_(&device, &pipelines_) {
+    : device_(device),
+      jobs_(threads),
+      pipelines_(device, gpu::loadShader),
+      scene_(device),
+      graph_(&device.context(), &pipelines_) {
     for (Slot& slot : slots_) {
         const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                            .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                            .queueFamilyIndex = device.queueFamily()};
         AG_VK(device.vk().CreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
-        device.setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame");
+        device.context().setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame");
         const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = slot.pool,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                .commandBufferCount = 1};
         AG_VK(device.vk().AllocateCommandBuffers(device.handle(), &info, &slot.commands));
-        device.setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, "frame");
+        device.context().setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, "frame");
     }
 }
 
@@ -75,6 +82,7 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
     Slot& slot = slots_[index];
     moments_.begin = steadyNs();
     device_.waitFor(slot.submitted);
+    device_.collect();
     AG_VK(device_.vk().ResetCommandPool(device_.handle(), slot.pool, 0));
 
     moments_.waited = steadyNs();
@@ -102,7 +110,7 @@ void GiRenderer::render(const RenderScene& given, glm::uvec2 size, const GiSetti
         AG_VK(device_.vk().EndCommandBuffer(slot.commands));
         device_.waitFor(device_.submit(slot.commands));
         AG_VK(device_.vk().ResetCommandPool(device_.handle(), slot.pool, 0));
-        graph_.execute(VK_NULL_HANDLE);
+        graph_.executeAlone([&](const auto& record) { return device_.timeOnCpu(record); });
         AG_VK(device_.vk().BeginCommandBuffer(slot.commands, &begin));
     } else {
         graph_.execute(slot.commands);

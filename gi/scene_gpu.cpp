@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "engine/core/hash.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/transfer.h"
 #include "gi/bounce_points.h"
 #include "gi/light_clusters.h"
 #include "gi/surface_sampling.h"

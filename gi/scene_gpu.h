@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/frame/frame_graph.h"
+#include "engine/gpu/device.h"
 #include "engine/gpu/resources.h"
 #include "engine/scene/render_scene.h"
 #include "gi/draw_lists.h"

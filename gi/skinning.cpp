@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/hash.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/transfer.h"
 #include "gi/scene_gpu.h"
 
 namespace ag::gi {

@@ -7,6 +7,7 @@
 
 #include "engine/core/function_ref.h"
 #include "engine/frame/frame_graph.h"
+#include "engine/gpu/device.h"
 #include "engine/gpu/resources.h"
 #include "engine/scene/render_scene.h"
 #include "shaders/skinning/skinning_io.h"

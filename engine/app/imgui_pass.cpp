@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "engine/gpu/device.h"
+#include "engine/gpu/transfer.h"
 
 namespace ag {
 namespace {
@@ -45,14 +45,14 @@ ImGuiPass::ImGuiPass(gpu::Device& device, gpu::PipelineLibrary& pipelines)
                                       .magFilter = VK_FILTER_LINEAR,
                                       .minFilter = VK_FILTER_LINEAR};
     AG_VK(device.vk().CreateSampler(device.handle(), &sampler, nullptr, &sampler_));
-    device.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler_, "imgui.sampler");
+    device.context().setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler_, "imgui.sampler");
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1};
     const VkDescriptorPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = 1,
                                           .poolSizeCount = 1,
                                           .pPoolSizes = &size};
     AG_VK(device.vk().CreateDescriptorPool(device.handle(), &pool, nullptr, &pool_));
-    device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "imgui.sets");
+    device.context().setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "imgui.sets");
 }
 
 ImGuiPass::~ImGuiPass() {
@@ -91,7 +91,7 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
                                                .descriptorSetCount = 1,
                                                .pSetLayouts = &pipeline.setLayout};
         AG_VK(device_.vk().AllocateDescriptorSets(device_.handle(), &info, &set_));
-        device_.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "imgui.font");
+        device_.context().setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "imgui.font");
         const VkDescriptorImageInfo image{sampler_, font_->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                          .dstSet = set_,

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "engine/gpu/device.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/resources.h"
 

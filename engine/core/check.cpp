@@ -1,14 +1,13 @@
 #include "engine/core/check.h"
 
-#include <cstdio>
-#include <cstdlib>
+#include "engine/core/failure.h"
 
 namespace ag {
 
 void checkFailed(const char* file, int line, const char* expression, const std::string& detail) {
-    std::fprintf(stderr, "%s:%d: check failed: %s%s%s\n", file, line, expression, detail.empty() ? "" : ": ",
-                 detail.c_str());
-    std::abort();
+    std::string sentence = std::string(file) + ":" + std::to_string(line) + ": check failed: " + expression;
+    if (!detail.empty()) sentence += ": " + detail;
+    fail(FailureKind::kMistake, sentence);
 }
 
 }  // namespace ag

@@ -1,5 +1,5 @@
-// Programmer mistakes: print the expression with its operands and abort. Faults of the outside world (files,
-// devices, shaders) are Result<T> instead, see result.h.
+// Programmer mistakes: fail with the expression and its operands (failure.h). Faults of the outside world
+// (files, devices, shaders) are Result<T> instead, see result.h.
 #pragma once
 
 #include <sstream>

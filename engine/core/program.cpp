@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "engine/core/failure.h"
 #include "engine/core/log.h"
 
 namespace ag {
@@ -21,6 +22,11 @@ std::unique_ptr<char[]> gReserve;
 constexpr size_t kReserveBytes = size_t(4) << 20;
 
 constexpr const char* kOutOfMemory = "out of memory: a smaller scene, size or quality needs less";
+
+void endOnFailure(FailureKind kind, const std::string& sentence) {
+    if (kind == FailureKind::kMistake) abortWith(sentence);
+    endProgram(sentence);
+}
 
 void onOutOfMemory() {
     if (gEnding) std::_Exit(kExitOutOfReach);
@@ -81,6 +87,7 @@ int runProgram(FunctionRef<int()> body) {
     initLogging(false);
     gReserve = std::make_unique<char[]>(kReserveBytes);
     std::set_new_handler(onOutOfMemory);
+    onFailure(endOnFailure);
     catchCrashes();
     try {
         return body();

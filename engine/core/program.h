@@ -11,8 +11,8 @@ namespace ag {
 // Exit codes: 0 good, 1 a check failed, 2 bad arguments or input, 3 no memory or no device.
 constexpr int kExitRefused = 2, kExitOutOfReach = 3;
 
-// Logs to stderr and returns what `body` does. Running out of memory, on any thread, is one sentence and exit
-// code 3.
+// Logs to stderr and returns what `body` does. Running out of memory and failures of the device (failure.h),
+// on any thread, are one sentence and exit code 3.
 int runProgram(FunctionRef<int()> body);
 
 // Whether there is address space left to go on with: libraries that do not check their allocations crash

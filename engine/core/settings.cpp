@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/core/number.h"
@@ -93,20 +92,6 @@ std::string Settings::table() const {
     for (const Setting& s : settings_)
         out += fmt::format("{:<38} {:<12} {:<32} {:<10} {}\n", fullName(s), settingText(s, s.defaultValue),
                            allowed(s), s.info.unit, s.info.help);
-    return out;
-}
-
-nlohmann::json Settings::json() const {
-    nlohmann::json out;
-    for (const Setting& s : settings_) {
-        nlohmann::json& slot = out[s.info.group][s.info.name];
-        if (std::holds_alternative<bool*>(s.value))
-            slot = settingValue(s) != 0;
-        else if (!s.info.choices.empty())
-            slot = settingText(s, settingValue(s));
-        else
-            slot = settingValue(s);
-    }
     return out;
 }
 

@@ -1,11 +1,9 @@
 // The registry of tunables: plain structs keep the values, the registry knows their names, ranges, units and
-// help. One registration gives `--set group.name=value`, `--list-settings`, the JSON beside every capture,
-// and the UI.
+// help. One registration gives `--set group.name=value`, `--list-settings` and the UI.
 #pragma once
 
 #include <cstdint>
 #include <initializer_list>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -47,7 +45,6 @@ class Settings {
     Status set(std::string_view assignment);
     const std::vector<Setting>& all() const { return settings_; }
     std::string table() const;  // one line a setting: name, default, range, unit, help
-    nlohmann::json json() const;
 
   private:
     void insert(SettingInfo info, std::variant<bool*, int32_t*, uint32_t*, float*> value);

@@ -7,35 +7,24 @@
 
 namespace ag {
 
-FrameGraph::FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines)
+FrameGraph::FrameGraph(gpu::Context* context, gpu::PipelineLibrary* pipelines)
     : GraphScope(*this, 0), impl_(new Impl) {
-    AG_CHECK_EQ(device == nullptr, pipelines == nullptr);
-    impl_->device = device;
+    AG_CHECK_EQ(context == nullptr, pipelines == nullptr);
+    impl_->context = context;
     impl_->pipelines = pipelines;
-    if (!device) return;
-    impl_->timer = std::make_unique<FrameTimer>(*device);
-    if (device->info().counts) impl_->counter = std::make_unique<PassCounter>(*device);
-    impl_->spans.reserve(FrameTimer::kMaxPasses);
-    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                       .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                       .queueFamilyIndex = device->queueFamily()};
-    AG_VK(device->vk().CreateCommandPool(device->handle(), &pool, nullptr, &impl_->ownPool));
-    device->setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, impl_->ownPool, "frame_graph.alone");
+    if (context) impl_->spans.reserve(FrameTimer::kMaxPasses);
 }
 
 FrameGraph::~FrameGraph() {
-    if (!impl_->device) return;
-    const VkDevice device = impl_->device->handle();
-    impl_->device->waitIdle();
+    gpu::Context* const context = impl_->context;
+    if (!context) return;
     for (VkDescriptorPool pool : impl_->pools)
-        impl_->device->vk().DestroyDescriptorPool(device, pool, nullptr);
+        context->vk().DestroyDescriptorPool(context->handle(), pool, context->hostAllocation());
     for (VkSampler sampler : impl_->samplers)
-        impl_->device->vk().DestroySampler(device, sampler, nullptr);
-    impl_->device->vk().DestroyCommandPool(device, impl_->ownPool, nullptr);
+        context->vk().DestroySampler(context->handle(), sampler, context->hostAllocation());
     impl_->slots.clear();
-    impl_->device->collect();
     for (AliasBucket& bucket : impl_->buckets)
-        if (bucket.range) impl_->device->memory().free(bucket.range);
+        if (bucket.range) context->memory().free(bucket.range);
 }
 
 void FrameGraph::beginFrame(const FrameGraphOptions& options) {

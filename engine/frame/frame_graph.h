@@ -20,6 +20,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,6 +29,7 @@
 
 #include <glm/glm.hpp>
 
+#include "engine/core/function_ref.h"
 #include "engine/frame/pass_counter.h"
 #include "engine/gpu/pipeline.h"
 
@@ -37,7 +39,7 @@ constexpr uint32_t kFramesInFlight = 2;
 
 namespace gpu {
 class Buffer;
-class Device;
+class Context;
 class Image;
 }  // namespace gpu
 
@@ -222,7 +224,7 @@ struct FrameSpans {
 
 enum class TimingMode {
     kTimestamps,  // barrier, timestamp, barrier round every pass
-    kProcessCpu,  // submit and wait per pass, process CPU time around it: the true cost on a CPU device
+    kProcessCpu,  // executeAlone(): process CPU time around each pass, the true cost on a CPU device
     kCounts,      // no times: what the device counts in each pass (see counts())
     kOff,
 };
@@ -324,8 +326,8 @@ class FrameGraph : public GraphScope {
   public:
     // Null device and library: nothing is recorded or allocated; barriers, placement and skips are still
     // computed (pipelines then count by shader name).
-    FrameGraph(gpu::Device* device, gpu::PipelineLibrary* pipelines);
-    ~FrameGraph();
+    FrameGraph(gpu::Context* context, gpu::PipelineLibrary* pipelines);
+    ~FrameGraph();  // the device is done with its frames
     FrameGraph(const FrameGraph&) = delete;
     FrameGraph& operator=(const FrameGraph&) = delete;
 
@@ -337,9 +339,12 @@ class FrameGraph : public GraphScope {
     void removeScope(const GraphScope& scope);
 
     // --- Running it ---
-    // Decides what runs and records it. `commands` null: decide only (null recorder). With
-    // TimingMode::kProcessCpu the graph submits by itself and leaves `commands` empty.
+    // Decides what runs and records it. `commands` null: decide only (null recorder).
     void execute(VkCommandBuffer commands);
+    // The same with each pass submitted and waited for by itself, as TimingMode::kProcessCpu asks for:
+    // `submit` returns what that took, ms.
+    using Submit = FunctionRef<double(const std::function<void(VkCommandBuffer)>& record)>;
+    void executeAlone(Submit submit);
     // Physical resources behind handles of the frame last executed.
     const gpu::Image& physical(ImageHandle image) const;
     const gpu::Buffer& physical(BufferHandle buffer) const;

@@ -1,21 +1,9 @@
 // Running a planned frame: barriers and timing.
-#include <time.h>
-
 #include <algorithm>
 
 #include "engine/frame/frame_graph_impl.h"
 
 namespace ag {
-namespace {
-
-double processCpuMs() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
-}
-
-}  // namespace
-
 // A dependency on what was done to the resource before, if this access needs one.
 void FrameGraph::Impl::addBarrier(Resource& r, const Access& access, bool discard, PassRecord* record) {
     if (r.kind == ResourceKind::kImport)
@@ -93,7 +81,7 @@ void FrameGraph::Impl::flushBarriers(VkCommandBuffer commands) {
                                 .pBufferMemoryBarriers = bufferBarriers.data(),
                                 .imageMemoryBarrierCount = uint32_t(imageBarriers.size()),
                                 .pImageMemoryBarriers = imageBarriers.data()};
-    device->vk().CmdPipelineBarrier2(commands, &info);
+    context->vk().CmdPipelineBarrier2(commands, &info);
     imageBarriers.clear();
     bufferBarriers.clear();
 }
@@ -155,31 +143,6 @@ void FrameGraph::Impl::finishPass(const Pass& pass) {
         }
 }
 
-namespace {
-
-// Runs `record` as a submission of its own and returns the process CPU time it took, driver threads included.
-template <class F>
-double timeOnCpu(gpu::Device& device, VkCommandPool pool, F&& record) {
-    const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                           .commandPool = pool,
-                                           .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                           .commandBufferCount = 1};
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    AG_VK(device.vk().AllocateCommandBuffers(device.handle(), &info, &commands));
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    AG_VK(device.vk().BeginCommandBuffer(commands, &begin));
-    record(commands);
-    AG_VK(device.vk().EndCommandBuffer(commands));
-    const double before = processCpuMs();
-    device.waitFor(device.submit(commands));
-    const double spent = processCpuMs() - before;
-    device.vk().FreeCommandBuffers(device.handle(), pool, 1, &commands);
-    return spent;
-}
-
-}  // namespace
-
 void FrameGraph::Impl::readTimes(VkCommandBuffer commands) {
     size_t count = 0;
     const uint64_t read = timer->beginFrame(commands, frame, [&](uint32_t tag, uint64_t begin, uint64_t end) {
@@ -200,65 +163,80 @@ void FrameGraph::Impl::repeatPass(VkCommandBuffer commands, const Pass& pass) {
     const VkDependencyInfo info{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
     for (uint32_t i = 1; i < options.repeats; ++i) {
-        device->vk().CmdPipelineBarrier2(commands, &info);
+        context->vk().CmdPipelineBarrier2(commands, &info);
         recordPass(commands, pass);
     }
 }
 
+PassReport FrameGraph::Impl::finishReport(const Pass& pass, PassReport made) {
+    PassStats& known = stats[pass.stats];
+    if (!pass.runs) known.gpuMs = known.cpuMs = 0;
+    made.gpuMs = known.gpuMs;
+    made.cpuMs = known.cpuMs;
+    made.runCount = known.runCount;
+    made.patches = known.patches;
+    made.patchesDrawn = known.patchesDrawn;
+    return made;
+}
+
+// `run` does the work of a pass and what must happen before it.
+template <class Run>
+void FrameGraph::Impl::runPasses(Run&& run) {
+    report.clear();
+    records.clear();
+    for (const Pass& pass : passes) {
+        const PassReport before = reportOf(pass);
+        if (pass.runs) {
+            run(pass);
+            finishPass(pass);
+        }
+        report.push_back(finishReport(pass, before));
+    }
+    commitHistories();
+}
+
 void FrameGraph::execute(VkCommandBuffer commands) {
     Impl& g = *impl_;
+    AG_CHECK(g.options.timing != TimingMode::kProcessCpu);
     g.plan();
-    const bool timed = g.device && g.options.timing == TimingMode::kTimestamps && commands;
-    const bool counted = g.counter && g.options.timing == TimingMode::kCounts && commands;
-    const bool alone = g.device && g.options.timing == TimingMode::kProcessCpu;
-    if (g.device) {
-        g.device->collect();
+    const bool timed = g.context && g.options.timing == TimingMode::kTimestamps && commands;
+    const bool counted =
+        g.context && g.context->info().counts && g.options.timing == TimingMode::kCounts && commands;
+    if (timed && !g.timer) g.timer = std::make_unique<FrameTimer>(*g.context);
+    if (counted && !g.counter) g.counter = std::make_unique<PassCounter>(*g.context);
+    if (g.context) {
         g.createResources();
-        if (alone)
-            timeOnCpu(*g.device, g.ownPool, [&](VkCommandBuffer own) { g.zeroNewHistories(own); });
-        else
-            g.zeroNewHistories(commands);
+        g.zeroNewHistories(commands);
     }
     if (timed) g.readTimes(commands);
     if (counted) g.counter->beginFrame(commands);
-    g.report.clear();
-    g.records.clear();
-    for (const Pass& pass : g.passes) {
-        PassStats& stats = g.stats[pass.stats];
-        PassReport report = g.reportOf(pass);
-        if (pass.runs) {
-            PassRecord* record = g.device ? nullptr : &g.records.emplace_back(PassRecord{pass.name, {}});
-            if (alone) {
-                stats.cpuMs = timeOnCpu(*g.device, g.ownPool, [&](VkCommandBuffer own) {
-                    g.synchronize(own, pass, record);
-                    g.recordPass(own, pass);
-                });
-            } else {
-                g.synchronize(commands, pass, record);
-                if (timed) g.timer->begin(commands, pass.stats);
-                if (counted) g.counter->begin(commands, pass.name);
-                if (g.device) g.recordPass(commands, pass);
-                if (g.device && pass.name == g.options.repeatPass) g.repeatPass(commands, pass);
-                if (counted) g.counter->end(commands);
-                if (timed) g.timer->end(commands);
-            }
-            g.finishPass(pass);
-        } else {
-            stats.gpuMs = stats.cpuMs = 0;
-        }
-        report.gpuMs = stats.gpuMs;
-        report.cpuMs = stats.cpuMs;
-        report.runCount = stats.runCount;
-        report.patches = stats.patches;
-        report.patchesDrawn = stats.patchesDrawn;
-        g.report.push_back(report);
-    }
+    g.runPasses([&](const Pass& pass) {
+        PassRecord* record = g.context ? nullptr : &g.records.emplace_back(PassRecord{pass.name, {}});
+        g.synchronize(commands, pass, record);
+        if (timed) g.timer->begin(commands, pass.stats);
+        if (counted) g.counter->begin(commands, pass.name);
+        if (g.context) g.recordPass(commands, pass);
+        if (g.context && pass.name == g.options.repeatPass) g.repeatPass(commands, pass);
+        if (counted) g.counter->end(commands);
+        if (timed) g.timer->end(commands);
+    });
     if (timed) g.timer->endFrame(commands);
-    g.commitHistories();
-    if (alone)
-        timeOnCpu(*g.device, g.ownPool, [&](VkCommandBuffer own) { g.synchronizeOutputs(own); });
-    else
-        g.synchronizeOutputs(commands);
+    g.synchronizeOutputs(commands);
+    g.retireUnused();
+}
+
+void FrameGraph::executeAlone(Submit submit) {
+    Impl& g = *impl_;
+    g.plan();
+    g.createResources();
+    submit([&](VkCommandBuffer own) { g.zeroNewHistories(own); });
+    g.runPasses([&](const Pass& pass) {
+        g.stats[pass.stats].cpuMs = submit([&](VkCommandBuffer own) {
+            g.synchronize(own, pass, nullptr);
+            g.recordPass(own, pass);
+        });
+    });
+    submit([&](VkCommandBuffer own) { g.synchronizeOutputs(own); });
     g.retireUnused();
 }
 

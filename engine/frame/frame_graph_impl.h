@@ -11,7 +11,7 @@
 #include "engine/frame/access.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/frame_timer.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/context.h"
 #include "engine/gpu/resources.h"
 
 namespace ag {
@@ -162,7 +162,7 @@ struct Scope {
 };
 
 struct FrameGraph::Impl {
-    gpu::Device* device = nullptr;
+    gpu::Context* context = nullptr;
     gpu::PipelineLibrary* pipelines = nullptr;
     FrameGraphOptions options;
     uint64_t frame = 0;
@@ -194,9 +194,8 @@ struct FrameGraph::Impl {
     std::array<VkSampler, 4> samplers{};
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
-    std::unique_ptr<FrameTimer> timer;
-    std::unique_ptr<PassCounter> counter;                // null where the device counts nothing
-    VkCommandPool ownPool = VK_NULL_HANDLE;              // TimingMode::kProcessCpu
+    std::unique_ptr<FrameTimer> timer;     // made when passes are timed first
+    std::unique_ptr<PassCounter> counter;  // made when they are counted first
     std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
 
@@ -258,6 +257,9 @@ struct FrameGraph::Impl {
     void readTimes(VkCommandBuffer commands);
     void repeatPass(VkCommandBuffer commands, const Pass& pass);
     PassReport reportOf(const Pass& pass) const;
+    PassReport finishReport(const Pass& pass, PassReport made);
+    template <class Run>
+    void runPasses(Run&& run);
 
     std::span<Use> usesOf(const Pass& pass) { return {uses.data() + pass.firstUse, pass.useCount}; }
     std::span<const Use> usesOf(const Pass& pass) const {

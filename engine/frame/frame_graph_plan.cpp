@@ -58,7 +58,7 @@ void FrameGraph::Impl::resolvePipelines() {
         pass.pipelineKey = pipelineNameKey(pass);
         const bool shader = pass.kind == PassKind::kCompute || pass.kind == PassKind::kFullscreen ||
                             (pass.kind == PassKind::kRaster && firstDraw(drawsOf(pass)));
-        if (!device || !shader) continue;
+        if (!context || !shader) continue;
         const RasterDraw* draw = pass.kind == PassKind::kRaster ? firstDraw(drawsOf(pass)) : nullptr;
         pass.pipeline = &pipelines->get(requestFor(pass, draw));
         pass.pipelineKey = pass.pipeline->id;

@@ -28,25 +28,25 @@ VkExtent2D extentOf(glm::uvec2 size) {
 
 void FrameGraph::Impl::recordCompute(VkCommandBuffer commands, const Pass& pass) {
     const gpu::Pipeline& pipeline = *pass.pipeline;
-    device->vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
+    context->vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle);
     if (const VkDescriptorSet set = descriptorSet(pass, pipeline))
-        device->vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1,
-                                           &set, 0, nullptr);
+        context->vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1,
+                                            &set, 0, nullptr);
     if (pipeline.pushSizeBytes > 0)
-        device->vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0,
-                                      pipeline.pushSizeBytes, pass.push.data());
+        context->vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0,
+                                       pipeline.pushSizeBytes, pass.push.data());
     if (pass.partCount > 0) return recordParts(commands, pass);
     if (pass.dispatchIndirect) {
         const auto all = usesOf(pass);
         const auto arguments = std::ranges::find(all, UseKind::kIndirect, &Use::kind);
-        device->vk().CmdDispatchIndirect(commands, bufferOf(resources[arguments->resource]).handle(),
-                                         pass.indirectOffset);
+        context->vk().CmdDispatchIndirect(commands, bufferOf(resources[arguments->resource]).handle(),
+                                          pass.indirectOffset);
         return;
     }
     const glm::uvec3 size = pass.threads ? pipeline.workgroupSize : glm::uvec3(1);
     const glm::uvec3 groups = (pass.dispatch + size - 1u) / size;
     if (groups.x > 0 && groups.y > 0 && groups.z > 0)
-        device->vk().CmdDispatch(commands, groups.x, groups.y, groups.z);
+        context->vk().CmdDispatch(commands, groups.x, groups.y, groups.z);
 }
 
 // Parts side by side that both changed are one dispatch.
@@ -60,9 +60,9 @@ void FrameGraph::Impl::recordParts(VkCommandBuffer commands, const Pass& pass) {
     counts.patchesDrawn = 0;
     const auto dispatch = [&](uint32_t first, uint32_t end) {
         for (; first < end; first += kMostGroups) {
-            device->vk().CmdPushConstants(commands, pass.pipeline->layout, pass.pipeline->pushStages, 0,
-                                          sizeof first, &first);
-            device->vk().CmdDispatch(commands, std::min(end - first, kMostGroups), 1, 1);
+            context->vk().CmdPushConstants(commands, pass.pipeline->layout, pass.pipeline->pushStages, 0,
+                                           sizeof first, &first);
+            context->vk().CmdDispatch(commands, std::min(end - first, kMostGroups), 1, 1);
         }
     };
     uint32_t first = 0, end = 0;
@@ -150,40 +150,40 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
                                .colorAttachmentCount = colorCount,
                                .pColorAttachments = colors.data(),
                                .pDepthAttachment = hasDepth ? &depth : nullptr};
-    device->vk().CmdBeginRendering(commands, &info);
+    context->vk().CmdBeginRendering(commands, &info);
     recordDraws(commands, pass, pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE, size);
-    device->vk().CmdEndRendering(commands);
+    context->vk().CmdEndRendering(commands);
 }
 
 void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
                                    glm::uvec2 size) {
     const glm::uvec4 whole(0, 0, size);
     const auto bind = [&](const gpu::Pipeline& pipeline, std::span<const std::byte> push, glm::uvec4 rect) {
-        device->vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+        context->vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
         if (set)
-            device->vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0,
-                                               1, &set, 0, nullptr);
+            context->vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0,
+                                                1, &set, 0, nullptr);
         if (pipeline.pushSizeBytes > 0) {
             AG_CHECK_EQ(pipeline.pushSizeBytes, push.size());
-            device->vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0,
-                                          pipeline.pushSizeBytes, push.data());
+            context->vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0,
+                                           pipeline.pushSizeBytes, push.data());
         }
-        setViewport(device->vk(), commands, rect == glm::uvec4(0) ? whole : rect);
+        setViewport(context->vk(), commands, rect == glm::uvec4(0) ? whole : rect);
     };
     if (pass.kind == PassKind::kFullscreen) {
         bind(*pass.pipeline, {pass.push.data(), pass.pushSizeBytes}, whole);
-        device->vk().CmdDraw(commands, 3, 1, 0, 0);
+        context->vk().CmdDraw(commands, 3, 1, 0, 0);
     }
-    bindGeometry(device->vk(), commands, pass.geometry);
+    bindGeometry(context->vk(), commands, pass.geometry);
     bool deformed = false;  // the vertices bound
     const auto bindVerticesOf = [&](const RasterDraw& draw) {
         const Geometry& g = pass.geometry;
         if (std::exchange(deformed, draw.deformed) == draw.deformed) return;
         if (deformed)
-            bindVertices(device->vk(), commands, bufferOf(resources[g.deformedPositions.index]),
+            bindVertices(context->vk(), commands, bufferOf(resources[g.deformedPositions.index]),
                          &bufferOf(resources[g.deformedAttributes.index]));
         else
-            bindVertices(device->vk(), commands, *g.positions, g.attributes);
+            bindVertices(context->vk(), commands, *g.positions, g.attributes);
     };
     std::vector<Patch>* held = patchesOf(pass);
     const std::span<const RasterDraw> all = drawsOf(pass);
@@ -205,14 +205,14 @@ void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, V
                 continue;
             }
             ++counts.patchesDrawn;
-            clearPatch(device->vk(), commands, patch.rect, usesOf(pass));
+            clearPatch(context->vk(), commands, patch.rect, usesOf(pass));
             continue;
         }
         bindVerticesOf(draw);
         bind(pipelines->get(requestFor(pass, &draw)), {draw.push.data(), draw.pushSizeBytes}, draw.viewport);
-        device->vk().CmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
-                                            draw.commandsOffsetBytes, draw.commandCount,
-                                            sizeof(VkDrawIndexedIndirectCommand));
+        context->vk().CmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
+                                             draw.commandsOffsetBytes, draw.commandCount,
+                                             sizeof(VkDrawIndexedIndirectCommand));
     }
     // Those not declared now may have been drawn over.
     if (held) std::swap(*held, patches);
@@ -240,36 +240,36 @@ void copyWhole(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Im
 void FrameGraph::Impl::recordTransfer(VkCommandBuffer commands, const Pass& pass) {
     const Use& to = usesOf(pass).back();
     if (pass.kind == PassKind::kFill) {
-        device->vk().CmdFillBuffer(commands, bufferOf(resources[to.resource]).handle(), 0, VK_WHOLE_SIZE,
-                                   pass.fillWord);
+        context->vk().CmdFillBuffer(commands, bufferOf(resources[to.resource]).handle(), 0, VK_WHOLE_SIZE,
+                                    pass.fillWord);
     } else if (pass.kind == PassKind::kUpload) {
         constexpr uint32_t kMost = 65536;  // of one command
         for (uint32_t at = 0; at < pass.dataSize; at += kMost)
-            device->vk().CmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), at,
-                                         std::min(kMost, pass.dataSize - at),
-                                         data.data() + pass.dataOffset + at);
+            context->vk().CmdUpdateBuffer(commands, bufferOf(resources[to.resource]).handle(), at,
+                                          std::min(kMost, pass.dataSize - at),
+                                          data.data() + pass.dataOffset + at);
     } else if (pass.kind == PassKind::kCopyBuffer) {
         const gpu::Buffer& source = bufferOf(resources[usesOf(pass).front().resource]);
         const VkBufferCopy region{.size = resources[to.resource].buffer.sizeBytes};
-        device->vk().CmdCopyBuffer(commands, source.handle(), bufferOf(resources[to.resource]).handle(), 1,
-                                   &region);
+        context->vk().CmdCopyBuffer(commands, source.handle(), bufferOf(resources[to.resource]).handle(), 1,
+                                    &region);
     } else {
         const gpu::Image& source = imageOf(resources[usesOf(pass).front().resource]);
         const gpu::Image& target = imageOf(resources[to.resource]);
         if (source.desc().size == target.desc().size && source.desc().format == target.desc().format)
-            return copyWhole(device->vk(), commands, source, target);
+            return copyWhole(context->vk(), commands, source, target);
         VkImageBlit region{.srcSubresource = {source.aspect(), 0, 0, 1},
                            .dstSubresource = {target.aspect(), 0, 0, 1}};
         region.srcOffsets[1] = {int32_t(source.desc().size.x), int32_t(source.desc().size.y), 1};
         region.dstOffsets[1] = {int32_t(target.desc().size.x), int32_t(target.desc().size.y), 1};
-        device->vk().CmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                  target.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
-                                  VK_FILTER_NEAREST);
+        context->vk().CmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                   target.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                                   VK_FILTER_NEAREST);
     }
 }
 
 void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
-    beginLabel(device->vk(), commands, pass.name);
+    beginLabel(context->vk(), commands, pass.name);
     switch (pass.kind) {
         case PassKind::kCompute:
             recordCompute(commands, pass);
@@ -282,7 +282,7 @@ void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
             recordTransfer(commands, pass);
             break;
     }
-    endLabel(device->vk(), commands);
+    endLabel(context->vk(), commands);
 }
 
 }  // namespace ag

@@ -80,7 +80,7 @@ std::vector<PassCount> FrameGraph::counts() const {
     return impl_->counter ? impl_->counter->read() : std::vector<PassCount>{};
 }
 FrameSpans FrameGraph::spans() const {
-    return {impl_->spansFrame, impl_->spans, impl_->device ? impl_->device->info().timestampPeriodNs : 1.0};
+    return {impl_->spansFrame, impl_->spans, impl_->context ? impl_->context->info().timestampPeriodNs : 1.0};
 }
 
 uint64_t FrameGraph::transientBytes() const {

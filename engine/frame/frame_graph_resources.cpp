@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/core/log.h"
+#include "engine/core/failure.h"
 #include "engine/frame/frame_graph_impl.h"
 
 namespace ag {
@@ -11,11 +11,6 @@ namespace {
 constexpr uint64_t kFramesKept = 16;  // a resource not declared for so long is given back
 constexpr uint32_t kSetsPerPool = 256;
 constexpr size_t kMostSets = 8192;  // then the cache starts anew
-
-[[noreturn]] void fatal(const std::string& sentence) {
-    spdlog::critical("{}", sentence);
-    std::abort();
-}
 
 gpu::ImageDesc descOf(const Slot& slot) {
     return {.name = slot.name, .format = slot.image.format, .size = slot.image.size, .mips = slot.image.mips};
@@ -30,7 +25,7 @@ gpu::BufferDesc descOf(const Slot& slot, const BufferInfo& info) {
             .texelFormat = info.texelFormat};
 }
 
-VkSampler makeSampler(gpu::Device& device, Sampler kind) {
+VkSampler makeSampler(gpu::Context& context, Sampler kind) {
     const bool repeat = kind == Sampler::kLinearRepeat || kind == Sampler::kTrilinearRepeat;
     const VkFilter filter = kind == Sampler::kNearestClamp ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
     const VkSamplerAddressMode mode =
@@ -46,10 +41,10 @@ VkSampler makeSampler(gpu::Device& device, Sampler kind) {
         .addressModeW = mode,
         .maxLod = mips ? VK_LOD_CLAMP_NONE : 0.25f};
     VkSampler sampler = VK_NULL_HANDLE;
-    AG_VK(device.vk().CreateSampler(device.handle(), &info, nullptr, &sampler));
+    AG_VK(context.vk().CreateSampler(context.handle(), &info, context.hostAllocation(), &sampler));
     constexpr const char* kNames[] = {"sampler.nearest_clamp", "sampler.linear_clamp",
                                       "sampler.linear_repeat", "sampler.trilinear_repeat"};
-    device.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler, kNames[size_t(kind)]);
+    context.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler, kNames[size_t(kind)]);
     return sampler;
 }
 
@@ -61,10 +56,10 @@ bool isBuffer(gpu::BindingKind kind) {
 
 void FrameGraph::Impl::retireMemory(Slot& slot) {
     for (Memory& half : slot.halves) {
-        if (device && (half.image || half.buffer)) {
+        if (context && (half.image || half.buffer)) {
             std::shared_ptr<gpu::Image> image = std::move(half.image);
             std::shared_ptr<gpu::Buffer> buffer = std::move(half.buffer);
-            device->retire([image, buffer]() mutable { image.reset(), buffer.reset(); });
+            context->retire([image, buffer]() mutable { image.reset(), buffer.reset(); });
         }
         half = {};
     }
@@ -110,7 +105,7 @@ void FrameGraph::Impl::placeScratch() {
             retireMemory(slots[slot]);
             slots[slot].bucket = ~0u;
         }
-        if (bucket.range) device->retire([d = device, range = bucket.range] { d->memory().free(range); });
+        if (bucket.range) context->retire([d = context, range = bucket.range] { d->memory().free(range); });
     }
     buckets.clear();
     for (Resource& r : resources) {
@@ -125,8 +120,8 @@ void FrameGraph::Impl::placeScratch() {
         bucket.busyUntil = r.lastPass + 1;
         bucket.slots.push_back(r.slot);
         slot.bucket = found;
-        if (!device) continue;
-        const VkMemoryRequirements need = gpu::imageRequirements(*device, descOf(slot));
+        if (!context) continue;
+        const VkMemoryRequirements need = gpu::imageRequirements(*context, descOf(slot));
         const bool first = bucket.slots.size() == 1;
         bucket.requirements.size = std::max(bucket.requirements.size, need.size);
         bucket.requirements.alignment = std::max(bucket.requirements.alignment, need.alignment);
@@ -134,24 +129,24 @@ void FrameGraph::Impl::placeScratch() {
             first ? need.memoryTypeBits : bucket.requirements.memoryTypeBits & need.memoryTypeBits;
         AG_CHECK(bucket.requirements.memoryTypeBits != 0);
     }
-    if (!device) return;
+    if (!context) return;
     for (AliasBucket& bucket : buckets)
-        bucket.range = device->memory().allocate(bucket.requirements, false, gpu::MemoryUse::kImage);
+        bucket.range = context->memory().allocate(bucket.requirements, false, gpu::MemoryUse::kImage);
 }
 
 void FrameGraph::Impl::createResources() {
     if (!samplers[0])
         for (size_t i = 0; i < samplers.size(); ++i)
-            samplers[i] = makeSampler(*device, Sampler(i));
+            samplers[i] = makeSampler(*context, Sampler(i));
     for (const Resource& r : resources) {
         if (r.slot == ~0u || !slots[r.slot].fresh || r.firstPass == ~0u) continue;
         Slot& slot = slots[r.slot];
         const gpu::MemoryRange* range = slot.bucket == ~0u ? nullptr : &buckets[slot.bucket].range;
         for (uint32_t half = 0; half < (slot.isHistory ? 2u : 1u); ++half) {
             if (slot.isImage)
-                slot.halves[half].image = std::make_unique<gpu::Image>(*device, descOf(slot), range);
+                slot.halves[half].image = std::make_unique<gpu::Image>(*context, descOf(slot), range);
             else
-                slot.halves[half].buffer = std::make_unique<gpu::Buffer>(*device, descOf(slot, slot.buffer));
+                slot.halves[half].buffer = std::make_unique<gpu::Buffer>(*context, descOf(slot, slot.buffer));
             slot.halves[half].needsZero = slot.isHistory;
         }
         slot.fresh = false;
@@ -169,14 +164,14 @@ void FrameGraph::Impl::zeroNewHistories(VkCommandBuffer commands) {
             addBarrier(r, accessOf(UseKind::kTransferWrite), true, nullptr);
             flushBarriers(commands);
             if (half.buffer) {
-                device->vk().CmdFillBuffer(commands, half.buffer->handle(), 0, VK_WHOLE_SIZE, 0);
+                context->vk().CmdFillBuffer(commands, half.buffer->handle(), 0, VK_WHOLE_SIZE, 0);
                 continue;
             }
             const VkClearColorValue zero{};
             const VkImageSubresourceRange all{half.image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
                                               VK_REMAINING_ARRAY_LAYERS};
-            device->vk().CmdClearColorImage(commands, half.image->handle(),
-                                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1, &all);
+            context->vk().CmdClearColorImage(commands, half.image->handle(),
+                                             VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &zero, 1, &all);
         }
     }
 }
@@ -200,28 +195,31 @@ void FrameGraph::Impl::checkBindings(const Pass& pass, const gpu::Pipeline& pipe
         if (use.name.empty()) continue;
         const auto b = std::ranges::find(pipeline.bindings, use.name, &gpu::ShaderBinding::name);
         const std::string what = where + std::string(use.name);
-        if (b == pipeline.bindings.end()) fatal(what + " is declared but the shader has no such binding");
+        if (b == pipeline.bindings.end())
+            fail(FailureKind::kMistake, what + " is declared but the shader has no such binding");
         const Resource& r = resources[use.resource];
         if (isBuffer(b->kind) == r.isImage)
-            fatal(what + " is a buffer on one side and an image on the other");
-        if (writes(use.kind) && !b->writes) fatal(what + " is declared written but the shader only reads it");
-        if (!writes(use.kind) && b->writes) fatal(what + " is declared read but the shader writes it");
+            fail(FailureKind::kMistake, what + " is a buffer on one side and an image on the other");
+        if (writes(use.kind) && !b->writes)
+            fail(FailureKind::kMistake, what + " is declared written but the shader only reads it");
+        if (!writes(use.kind) && b->writes)
+            fail(FailureKind::kMistake, what + " is declared read but the shader writes it");
         const bool texel = b->kind == gpu::BindingKind::kUniformTexelBuffer ||
                            b->kind == gpu::BindingKind::kStorageTexelBuffer;
         if (texel && r.buffer.texelFormat == VK_FORMAT_UNDEFINED)
-            fatal(what + " needs a buffer with a texel format");
+            fail(FailureKind::kMistake, what + " needs a buffer with a texel format");
     }
     for (const gpu::ShaderBinding& b : pipeline.bindings)
         if (std::ranges::find(usesOf(pass), b.name, &Use::name) == usesOf(pass).end())
-            fatal(where + "binding " + b.name + " is not declared");
+            fail(FailureKind::kMistake, where + "binding " + b.name + " is not declared");
     if (pass.kind == PassKind::kCompute && pass.pushSizeBytes != pipeline.pushSizeBytes)
-        fatal(where + "pushes " + std::to_string(pass.pushSizeBytes) + " bytes, the shader takes " +
-              std::to_string(pipeline.pushSizeBytes));
+        fail(FailureKind::kMistake, where + "pushes " + std::to_string(pass.pushSizeBytes) +
+                                        " bytes, the shader takes " + std::to_string(pipeline.pushSizeBytes));
 }
 
 namespace {
 
-VkDescriptorPool makePool(gpu::Device& device) {
+VkDescriptorPool makePool(gpu::Context& context) {
     constexpr std::array kTypes = {
         VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
         VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,   VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER,
@@ -234,19 +232,19 @@ VkDescriptorPool makePool(gpu::Device& device) {
                                           .poolSizeCount = uint32_t(sizes.size()),
                                           .pPoolSizes = sizes.data()};
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    AG_VK(device.vk().CreateDescriptorPool(device.handle(), &info, nullptr, &pool));
-    device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame_graph.sets");
+    AG_VK(context.vk().CreateDescriptorPool(context.handle(), &info, context.hostAllocation(), &pool));
+    context.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame_graph.sets");
     return pool;
 }
 
-VkDescriptorSet tryAllocate(gpu::Device& device, VkDescriptorPool pool, VkDescriptorSetLayout layout) {
+VkDescriptorSet tryAllocate(gpu::Context& context, VkDescriptorPool pool, VkDescriptorSetLayout layout) {
     const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                            .descriptorPool = pool,
                                            .descriptorSetCount = 1,
                                            .pSetLayouts = &layout};
     VkDescriptorSet set = VK_NULL_HANDLE;
-    return device.vk().AllocateDescriptorSets(device.handle(), &info, &set) == VK_SUCCESS ? set
-                                                                                          : VK_NULL_HANDLE;
+    return context.vk().AllocateDescriptorSets(context.handle(), &info, &set) == VK_SUCCESS ? set
+                                                                                            : VK_NULL_HANDLE;
 }
 
 }  // namespace
@@ -272,19 +270,21 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
     if (const auto found = sets.find(key); found != sets.end()) return found->second;
     if (sets.size() >= kMostSets) {
         for (VkDescriptorPool pool : pools)
-            device->retire([d = device, pool] { d->vk().DestroyDescriptorPool(d->handle(), pool, nullptr); });
+            context->retire([d = context, pool] {
+                d->vk().DestroyDescriptorPool(d->handle(), pool, d->hostAllocation());
+            });
         pools.clear();
         sets.clear();
     }
 
     VkDescriptorSet set =
-        pools.empty() ? VK_NULL_HANDLE : tryAllocate(*device, pools.back(), pipeline.setLayout);
+        pools.empty() ? VK_NULL_HANDLE : tryAllocate(*context, pools.back(), pipeline.setLayout);
     if (!set) {
-        pools.push_back(makePool(*device));
-        set = tryAllocate(*device, pools.back(), pipeline.setLayout);
+        pools.push_back(makePool(*context));
+        set = tryAllocate(*context, pools.back(), pipeline.setLayout);
     }
     AG_CHECK(set != VK_NULL_HANDLE);
-    device->setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, std::string(pass.name));
+    context->setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, std::string(pass.name));
     std::array<VkDescriptorBufferInfo, kMostBindings> bufferInfos{};
     std::array<VkDescriptorImageInfo, kMostBindings> imageInfos{};
     std::array<VkBufferView, kMostBindings> views{};
@@ -312,8 +312,8 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
             views[i] = buffer.texelView();
         }
     }
-    device->vk().UpdateDescriptorSets(device->handle(), uint32_t(pipeline.bindings.size()), writes_.data(), 0,
-                                      nullptr);
+    context->vk().UpdateDescriptorSets(context->handle(), uint32_t(pipeline.bindings.size()), writes_.data(),
+                                       0, nullptr);
     sets.emplace(key, set);
     return set;
 }

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/gpu/device.h"
+#include "engine/gpu/context.h"
 #include "engine/gpu/resources.h"
 
 namespace ag {
@@ -12,25 +12,28 @@ constexpr uint32_t kTimestamps = FrameTimer::kMaxPasses + 1;
 
 }  // namespace
 
-FrameTimer::FrameTimer(gpu::Device& device) : device_(device), periodNs_(device.info().timestampPeriodNs) {
+FrameTimer::FrameTimer(gpu::Context& context)
+    : context_(context), periodNs_(context.info().timestampPeriodNs) {
+    for (Ring& ring : rings_) {
+        ring.ticks = std::make_unique<gpu::Buffer>(
+            context, gpu::BufferDesc{.name = "frame_timer.ticks",
+                                     .sizeBytes = kTimestamps * sizeof(uint64_t),
+                                     .hostVisible = true});
+        ring.tags.reserve(kMaxPasses);
+    }
     for (Ring& ring : rings_) {
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                          .queryCount = kTimestamps};
-        AG_VK(device.vk().CreateQueryPool(device.handle(), &info, nullptr, &ring.pool));
-        device.vk().ResetQueryPool(device.handle(), ring.pool, 0, kTimestamps);
-        device.setDebugName(VK_OBJECT_TYPE_QUERY_POOL, ring.pool, "frame_timer");
-        ring.ticks =
-            std::make_unique<gpu::Buffer>(device, gpu::BufferDesc{.name = "frame_timer.ticks",
-                                                                  .sizeBytes = kTimestamps * sizeof(uint64_t),
-                                                                  .hostVisible = true});
-        ring.tags.reserve(kMaxPasses);
+        AG_VK(context.vk().CreateQueryPool(context.handle(), &info, context.hostAllocation(), &ring.pool));
+        context.vk().ResetQueryPool(context.handle(), ring.pool, 0, kTimestamps);
+        context.setDebugName(VK_OBJECT_TYPE_QUERY_POOL, ring.pool, "frame_timer");
     }
 }
 
 FrameTimer::~FrameTimer() {
     for (Ring& ring : rings_)
-        device_.vk().DestroyQueryPool(device_.handle(), ring.pool, nullptr);
+        context_.vk().DestroyQueryPool(context_.handle(), ring.pool, context_.hostAllocation());
 }
 
 std::span<const uint64_t> FrameTimer::ticksOf(const Ring& ring) {
@@ -39,7 +42,7 @@ std::span<const uint64_t> FrameTimer::ticksOf(const Ring& ring) {
 }
 
 void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
-    device_.vk().CmdResetQueryPool(commands, ring.pool, 0, kTimestamps);
+    context_.vk().CmdResetQueryPool(commands, ring.pool, 0, kTimestamps);
     ring.tags.clear();
     active_ = next_;
     next_ = (next_ + 1) % rings_.size();
@@ -53,10 +56,10 @@ void FrameTimer::stamp(VkCommandBuffer commands, uint32_t query) {
                                .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
     const VkDependencyInfo info{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
-    device_.vk().CmdPipelineBarrier2(commands, &info);
-    device_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, rings_[active_].pool,
-                                    query);
-    device_.vk().CmdPipelineBarrier2(commands, &info);
+    context_.vk().CmdPipelineBarrier2(commands, &info);
+    context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, rings_[active_].pool,
+                                     query);
+    context_.vk().CmdPipelineBarrier2(commands, &info);
 }
 
 void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {
@@ -75,9 +78,9 @@ void FrameTimer::end(VkCommandBuffer commands) {
 void FrameTimer::endFrame(VkCommandBuffer commands) {
     const Ring& ring = rings_[active_];
     if (ring.tags.empty()) return;
-    device_.vk().CmdCopyQueryPoolResults(commands, ring.pool, 0, uint32_t(ring.tags.size()) + 1,
-                                         ring.ticks->handle(), 0, sizeof(uint64_t),
-                                         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    context_.vk().CmdCopyQueryPoolResults(commands, ring.pool, 0, uint32_t(ring.tags.size()) + 1,
+                                          ring.ticks->handle(), 0, sizeof(uint64_t),
+                                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                   .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -85,7 +88,7 @@ void FrameTimer::endFrame(VkCommandBuffer commands) {
                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
     const VkDependencyInfo info{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
-    device_.vk().CmdPipelineBarrier2(commands, &info);
+    context_.vk().CmdPipelineBarrier2(commands, &info);
 }
 
 }  // namespace ag

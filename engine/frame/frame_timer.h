@@ -19,14 +19,14 @@ constexpr uint32_t kTimerFrames = 3;  // so many later the times of a frame are 
 
 namespace gpu {
 class Buffer;
-class Device;
+class Context;
 }  // namespace gpu
 
 class FrameTimer {
   public:
     static constexpr uint32_t kMaxPasses = 256;
 
-    explicit FrameTimer(gpu::Device& device);
+    explicit FrameTimer(gpu::Context& context);
     ~FrameTimer();
     FrameTimer(const FrameTimer&) = delete;
     FrameTimer& operator=(const FrameTimer&) = delete;
@@ -60,7 +60,7 @@ class FrameTimer {
     void restart(VkCommandBuffer commands, Ring& ring);
     void stamp(VkCommandBuffer commands, uint32_t query);
 
-    gpu::Device& device_;
+    gpu::Context& context_;
     double periodNs_;
     std::array<Ring, kTimerFrames> rings_;
     size_t next_ = 0, active_ = 0;

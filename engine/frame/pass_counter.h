@@ -12,7 +12,7 @@
 namespace ag {
 
 namespace gpu {
-class Device;
+class Context;
 }
 
 struct PassCount {
@@ -27,7 +27,7 @@ class PassCounter {
   public:
     static constexpr uint32_t kMaxPasses = 256;
 
-    explicit PassCounter(gpu::Device& device);  // whose DeviceInfo::counts is true
+    explicit PassCounter(gpu::Context& context);  // whose DeviceInfo::counts is true
     ~PassCounter();
     PassCounter(const PassCounter&) = delete;
     PassCounter& operator=(const PassCounter&) = delete;
@@ -39,7 +39,7 @@ class PassCounter {
     std::vector<PassCount> read() const;
 
   private:
-    gpu::Device& device_;
+    gpu::Context& context_;
     VkQueryPool pool_ = VK_NULL_HANDLE;
     std::vector<std::string_view> names_;
     bool open_ = false;  // a begin() waits for its end()

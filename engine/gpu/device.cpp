@@ -1,16 +1,15 @@
 #include "engine/gpu/device.h"
 
+#include <time.h>
 #include <vulkan/vk_enum_string_helper.h>
 
 #include <cstdlib>
 #include <cstring>
-#include <deque>
 #include <filesystem>
 
 #include "engine/core/log.h"
 #include "engine/core/program.h"
 #include "engine/core/safe_file.h"
-#include "engine/gpu/debug_name.h"
 #include "engine/gpu/device_choice.h"
 
 namespace ag::gpu {
@@ -58,6 +57,12 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(const void* next) {
             .pfnUserCallback = onMessage};
 }
 
+double processCpuMs() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
+}
+
 constexpr uint64_t kMostCacheBytes = uint64_t(1) << 30;
 
 std::filesystem::path cacheFile() {
@@ -72,10 +77,6 @@ std::filesystem::path cacheFile() {
 }  // namespace
 
 struct Device::Impl {
-    struct Retired {
-        uint64_t value;
-        std::function<void()> destroy;
-    };
     Functions vk;
     VkInstance instance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
@@ -86,19 +87,18 @@ struct Device::Impl {
     VkSemaphore timeline = VK_NULL_HANDLE;
     VkCommandPool oncePool = VK_NULL_HANDLE;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
-    std::unique_ptr<MemoryAllocator> memory;
+    std::unique_ptr<Context> context;
     uint64_t submitted = 0;
-    std::deque<Retired> retired;
     int messagesBefore;
     std::optional<WindowSurface> window;
-    FaultCounter faults;
 
     explicit Impl(const DeviceOptions& options)
-        : messagesBefore(gValidationMessages), window(options.window), faults(options.fault) {}
+        : messagesBefore(gValidationMessages), window(options.window) {}
     Status createInstance(const DeviceOptions& options);
     Status createDevice(const DeviceOptions& options);
     void createPipelineCache();
     void savePipelineCache() const;
+    VkCommandBuffer recordOnce(const std::function<void(VkCommandBuffer)>& record);
 };
 
 Status Device::Impl::createInstance(const DeviceOptions& options) {
@@ -152,19 +152,25 @@ Status Device::Impl::createDevice(const DeviceOptions& options) {
     device = *opened;
     loadDeviceFunctions(vk, device);
     vk.GetDeviceQueue(device, choice.queueFamily, 0, &queue);
+    createPipelineCache();
+    context = std::make_unique<Context>(vk,
+                                        ContextHandles{.instance = instance,
+                                                       .physical = choice.physical,
+                                                       .device = device,
+                                                       .queueFamily = choice.queueFamily,
+                                                       .pipelineCache = pipelineCache},
+                                        choice.info, MemorySource{}, options.fault);
     const VkSemaphoreTypeCreateInfo type{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
     const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
     AG_VK(vk.CreateSemaphore(device, &semaphore, nullptr, &timeline));
-    gpu::setDebugName(vk, device, VK_OBJECT_TYPE_SEMAPHORE, timeline, "device.timeline");
-    gpu::setDebugName(vk, device, VK_OBJECT_TYPE_QUEUE, queue, "device.queue");
+    context->setDebugName(VK_OBJECT_TYPE_SEMAPHORE, timeline, "device.timeline");
+    context->setDebugName(VK_OBJECT_TYPE_QUEUE, queue, "device.queue");
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = choice.queueFamily};
     AG_VK(vk.CreateCommandPool(device, &pool, nullptr, &oncePool));
-    memory = std::make_unique<MemoryAllocator>(vk, choice.physical, device, faults);
-    gpu::setDebugName(vk, device, VK_OBJECT_TYPE_COMMAND_POOL, oncePool, "device.once");
-    createPipelineCache();
+    context->setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, oncePool, "device.once");
     return Ok{};
 }
 
@@ -201,38 +207,28 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
 
 Device::~Device() {
     Impl& d = *impl_;
-    if (d.device) {
+    if (d.context) {
         waitIdle();
-        collect();
         d.savePipelineCache();
         d.vk.DestroyPipelineCache(d.device, d.pipelineCache, nullptr);
         d.vk.DestroyCommandPool(d.device, d.oncePool, nullptr);
         d.vk.DestroySemaphore(d.device, d.timeline, nullptr);
-        d.memory.reset();
-        d.vk.DestroyDevice(d.device, nullptr);
+        d.context.reset();
     }
+    if (d.device) d.vk.DestroyDevice(d.device, nullptr);
     if (d.surface) d.vk.DestroySurfaceKHR(d.instance, d.surface, nullptr);
     if (d.messenger) d.vk.DestroyDebugUtilsMessengerEXT(d.instance, d.messenger, nullptr);
     if (d.instance) d.vk.DestroyInstance(d.instance, nullptr);
 }
 
-const Functions& Device::vk() const {
-    return impl_->vk;
+Context& Device::context() {
+    return *impl_->context;
 }
-VkInstance Device::instance() const {
-    return impl_->instance;
-}
-VkPhysicalDevice Device::physical() const {
-    return impl_->choice.physical;
-}
-VkDevice Device::handle() const {
-    return impl_->device;
+const Context& Device::asContext() const {
+    return *impl_->context;
 }
 VkQueue Device::queue() const {
     return impl_->queue;
-}
-uint32_t Device::queueFamily() const {
-    return impl_->choice.queueFamily;
 }
 VkSurfaceKHR Device::surface() const {
     return impl_->surface;
@@ -243,18 +239,6 @@ Status Device::renewSurface() {
     if (impl_->window->make(impl_->instance, &impl_->surface) != VK_SUCCESS)
         return Error{"the window's surface was lost, and another one cannot be made"};
     return Ok{};
-}
-bool Device::strikes(Fault kind) {
-    return impl_->faults.strikes(kind);
-}
-VkPipelineCache Device::pipelineCache() const {
-    return impl_->pipelineCache;
-}
-const DeviceInfo& Device::info() const {
-    return impl_->choice.info;
-}
-MemoryAllocator& Device::memory() {
-    return *impl_->memory;
 }
 
 uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore waitBinary, VkSemaphore signalBinary) {
@@ -277,7 +261,8 @@ uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore waitBinary, VkSema
                              .pCommandBufferInfos = &buffer,
                              .signalSemaphoreInfoCount = signalBinary ? 2u : 1u,
                              .pSignalSemaphoreInfos = signals};
-    const bool lost = strikes(Fault::kSubmit);
+    context().record(impl_->submitted + 1);
+    const bool lost = context().strikes(Fault::kSubmit);
     checkVk(lost ? VK_ERROR_DEVICE_LOST : impl_->vk.QueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE),
             "vkQueueSubmit2");
     return impl_->submitted;
@@ -305,32 +290,21 @@ void Device::waitIdle() {
     AG_VK(impl_->vk.DeviceWaitIdle(impl_->device));
 }
 
-void Device::retire(std::function<void()> destroy) {
-    // What is being recorded now may use it too: it goes once that is done.
-    impl_->retired.push_back({impl_->submitted + 1, std::move(destroy)});
-}
-
 void Device::collect() {
-    if (impl_->retired.empty()) return;
-    const uint64_t done = completedValue();
-    while (!impl_->retired.empty() && impl_->retired.front().value <= done) {
-        const std::function<void()> destroy = std::move(impl_->retired.front().destroy);
-        impl_->retired.pop_front();
-        destroy();
-    }
+    context().finish(completedValue());
 }
 
-void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
+VkCommandBuffer Device::Impl::recordOnce(const std::function<void(VkCommandBuffer)>& record) {
     const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                           .commandPool = impl_->oncePool,
+                                           .commandPool = oncePool,
                                            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                            .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    AG_VK(impl_->vk.AllocateCommandBuffers(impl_->device, &info, &commands));
-    gpu::setDebugName(impl_->vk, impl_->device, VK_OBJECT_TYPE_COMMAND_BUFFER, commands, "device.once");
+    AG_VK(vk.AllocateCommandBuffers(device, &info, &commands));
+    context->setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, commands, "device.once");
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                          .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    AG_VK(impl_->vk.BeginCommandBuffer(commands, &begin));
+    AG_VK(vk.BeginCommandBuffer(commands, &begin));
     record(commands);
     // What was written becomes visible to the host: waiting alone does not make it so.
     const VkMemoryBarrier2 toHost{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -340,12 +314,26 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
     const VkDependencyInfo dependency{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &toHost};
-    impl_->vk.CmdPipelineBarrier2(commands, &dependency);
-    AG_VK(impl_->vk.EndCommandBuffer(commands));
+    vk.CmdPipelineBarrier2(commands, &dependency);
+    AG_VK(vk.EndCommandBuffer(commands));
+    return commands;
+}
+
+void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
+    const VkCommandBuffer commands = impl_->recordOnce(record);
     submit(commands);
     // Not the timeline: synchronization validation follows the queue's own wait only.
     AG_VK(impl_->vk.QueueWaitIdle(impl_->queue));
     impl_->vk.FreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
+}
+
+double Device::timeOnCpu(const std::function<void(VkCommandBuffer)>& record) {
+    const VkCommandBuffer commands = impl_->recordOnce(record);
+    const double before = processCpuMs();
+    waitFor(submit(commands));
+    const double spent = processCpuMs() - before;
+    impl_->vk.FreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
+    return spent;
 }
 
 std::optional<ClockPair> Device::readClocks() const {

@@ -1,10 +1,6 @@
-// One Vulkan 1.3 device with one queue (graphics, compute, transfer).
-// Required features: dynamicRendering, synchronization2, timelineSemaphore, scalarBlockLayout,
-// hostQueryReset, multiDrawIndirect, drawIndirectFirstInstance; subgroup shuffle, ballot and arithmetic in
-// compute. bufferDeviceAddress stays off so that RenderDoc can capture on lavapipe.
+// Our own Vulkan device with one queue (graphics, compute, transfer), and the context of it that everything
+// else works on. bufferDeviceAddress stays off so that RenderDoc can capture on lavapipe.
 #pragma once
-
-#include "engine/gpu/functions.h"
 
 #include <atomic>
 #include <functional>
@@ -14,9 +10,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/gpu/debug_name.h"
-#include "engine/gpu/device_faults.h"
-#include "engine/gpu/memory.h"
+#include "engine/gpu/context.h"
 
 namespace ag::gpu {
 
@@ -34,20 +28,6 @@ struct DeviceOptions {
     FaultPlan fault;                   // for tests
 };
 
-struct DeviceInfo {
-    std::string name;    // "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string driver;  // driver name and version
-    uint32_t apiVersion = 0;
-    uint32_t subgroupSize = 0;
-    float timestampPeriodNs = 0;  // 0: no timestamps
-    bool calibrated = false;      // the device's clock can be read together with the host's
-    bool counts = false;          // pipeline statistics
-    bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
-    VkPhysicalDeviceLimits limits{};
-    std::vector<std::string> enabled;  // feature and extension names switched on
-    std::vector<std::string> missing;  // "name: what is done without it"
-};
-
 // The same moment on the device's clock and on the host's (std::chrono::steady_clock).
 struct ClockPair {
     uint64_t deviceTicks = 0, hostNs = 0;
@@ -60,20 +40,18 @@ class Device {
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    const Functions& vk() const;
-    VkInstance instance() const;
-    VkPhysicalDevice physical() const;
-    VkDevice handle() const;
+    Context& context();
+    operator Context&() { return context(); }
+    const Functions& vk() const { return asContext().vk(); }
+    VkDevice handle() const { return asContext().handle(); }
+    const DeviceInfo& info() const { return asContext().info(); }
+    uint32_t queueFamily() const { return asContext().queueFamily(); }
+    MemoryAllocator& memory() { return context().memory(); }
+
     VkQueue queue() const;
-    uint32_t queueFamily() const;
     VkSurfaceKHR surface() const;  // null when headless
     // After it was lost: another one of the same window. Nothing may be under way, no swapchain may be left.
     Status renewSurface();
-    bool strikes(Fault kind);  // see DeviceOptions::fault
-    VkPipelineCache pipelineCache() const;
-    const DeviceInfo& info() const;
-
-    MemoryAllocator& memory();
 
     // The one timeline of submitted work: submit() signals the next value and returns it.
     // `waitBinary`/`signalBinary`: swapchain semaphores, may be null.
@@ -84,26 +62,22 @@ class Device {
     void waitFor(uint64_t timelineValue);  // fatal on device loss
     void waitIdle();
 
-    // Runs `destroy` once all work submitted so far, and what is being recorded, has finished (checked in
-    // collect()).
-    void retire(std::function<void()> destroy);
-    void collect();
+    void collect();  // what was retired and is done with
 
     // Nothing where the driver cannot tell (DeviceInfo::calibrated).
     std::optional<ClockPair> readClocks() const;
 
     // Records with `record`, submits and waits: for loading and tests.
     void runOnce(const std::function<void(VkCommandBuffer)>& record);
+    // The same; the process CPU time that took, ms, driver threads included: the true cost on a CPU device.
+    double timeOnCpu(const std::function<void(VkCommandBuffer)>& record);
 
     // Warnings and errors of the validation layers so far (also those while creating the device).
     int validationMessageCount() const;
-    template <class Handle>
-    void setDebugName(VkObjectType type, Handle handle, const std::string& name) {
-        gpu::setDebugName(vk(), this->handle(), type, handle, name);
-    }
 
   private:
     explicit Device(const DeviceOptions& options);
+    const Context& asContext() const;
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -1,53 +1,10 @@
 #include "engine/gpu/device_choice.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <optional>
 
 namespace ag::gpu {
 namespace {
-
-// Vulkan's feature structs, chained. Kept together so that asking and enabling use one list.
-struct Features {
-    VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceDynamicRenderingFeatures rendering{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES};
-    VkPhysicalDeviceSynchronization2Features synchronization{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
-    VkPhysicalDeviceMaintenance4Features maintenance{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
-    Features() {
-        core.pNext = &v12;
-        v12.pNext = &rendering;
-        rendering.pNext = &synchronization;
-        synchronization.pNext = &maintenance;
-    }
-    Features(const Features&) = delete;
-    Features& operator=(const Features&) = delete;
-};
-
-struct RequiredFeature {
-    const char* name;
-    VkBool32& (*field)(Features&);
-};
-
-#define AG_FEATURE(part, member)                                         \
-    RequiredFeature {                                                    \
-#member, [](Features & f) -> VkBool32& { return f.part.member; } \
-    }
-
-const std::array kRequired = {AG_FEATURE(core.features, multiDrawIndirect),
-                              AG_FEATURE(core.features, drawIndirectFirstInstance),
-                              AG_FEATURE(v12, timelineSemaphore),
-                              AG_FEATURE(v12, scalarBlockLayout),
-                              AG_FEATURE(v12, hostQueryReset),
-                              AG_FEATURE(rendering, dynamicRendering),
-                              AG_FEATURE(synchronization, synchronization2),
-                              AG_FEATURE(maintenance, maintenance4)};
-
-constexpr const char* kSubgroupOperations = "subgroup shuffle, ballot and arithmetic";
 
 std::optional<uint32_t> findQueueFamily(const Functions& vk, VkPhysicalDevice physical,
                                         VkSurfaceKHR surface) {
@@ -62,65 +19,6 @@ std::optional<uint32_t> findQueueFamily(const Functions& vk, VkPhysicalDevice ph
         if ((families[i].queueFlags & kNeeded) == kNeeded && presents) return i;
     }
     return std::nullopt;
-}
-
-DeviceInfo describe(const Functions& vk, VkPhysicalDevice physical) {
-    VkPhysicalDeviceSubgroupProperties subgroup{.sType =
-                                                    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
-                                            .pNext = &subgroup};
-    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
-                                           .pNext = &driver};
-    vk.GetPhysicalDeviceProperties2(physical, &properties);
-    DeviceInfo info;
-    info.name = properties.properties.deviceName;
-    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    info.apiVersion = properties.properties.apiVersion;
-    info.subgroupSize = subgroup.subgroupSize;
-    info.limits = properties.properties.limits;
-    info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    info.timestampPeriodNs = info.limits.timestampComputeAndGraphics ? info.limits.timestampPeriod : 0;
-    constexpr VkSubgroupFeatureFlags kSubgroup =
-        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
-    const bool has = (subgroup.supportedOperations & kSubgroup) == kSubgroup &&
-                     (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
-    (has ? info.enabled : info.missing).push_back(kSubgroupOperations);
-    return info;
-}
-
-bool hasExtension(const Functions& vk, VkPhysicalDevice physical, const char* name) {
-    uint32_t count = 0;
-    vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-    return std::ranges::any_of(
-        extensions, [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
-}
-
-// What is used of Vulkan 1.3. A device that cannot replay buffer addresses is shown by RenderDoc as one
-// of 1.2 with these.
-constexpr std::array kPartsOf13 = {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME,
-                                   VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
-                                   VK_KHR_MAINTENANCE_4_EXTENSION_NAME};
-
-bool hasParts(const Functions& vk, VkPhysicalDevice physical) {
-    return std::ranges::all_of(kPartsOf13,
-                               [&](const char* part) { return hasExtension(vk, physical, part); });
-}
-
-// Fills enabled and missing with the required features.
-void listFeatures(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& info) {
-    if (info.apiVersion < VK_API_VERSION_1_2 ||
-        (info.apiVersion < VK_API_VERSION_1_3 && !hasParts(vk, physical))) {
-        info.missing.push_back("Vulkan 1.3");
-        return;
-    }
-    Features has;
-    vk.GetPhysicalDeviceFeatures2(physical, &has.core);
-    for (const RequiredFeature& feature : kRequired)
-        (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
-    info.counts = has.core.features.pipelineStatisticsQuery;  // done without where not
-    if (info.counts) info.enabled.push_back("pipelineStatisticsQuery");
 }
 
 // Whether its timestamps can be put on the clock of the host's spans; done without where not.
@@ -138,12 +36,12 @@ constexpr const char* kTimestamps = "timestamps";
 
 bool isFeature(std::string_view name) {
     return name == kTimestamps || name == kSubgroupOperations ||
-           std::ranges::any_of(kRequired, [&](const RequiredFeature& f) { return name == f.name; });
+           std::ranges::any_of(requiredFeatures(), [&](const RequiredFeature& f) { return name == f.name; });
 }
 
 std::string featureNames() {
     std::string names = std::string(kTimestamps) + ", " + kSubgroupOperations;
-    for (const RequiredFeature& f : kRequired)
+    for (const RequiredFeature& f : requiredFeatures())
         names += std::string(", ") + f.name;
     return names;
 }
@@ -184,8 +82,7 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
     int bestScore = 0;
     std::string lacks;
     for (VkPhysicalDevice physical : devices) {
-        DeviceChoice choice{.physical = physical, .info = describe(vk, physical)};
-        listFeatures(vk, physical, choice.info);
+        DeviceChoice choice{.physical = physical, .info = describeDevice(vk, physical)};
         leaveOut(without, choice.info);
         const auto family = findQueueFamily(vk, physical, surface);
         if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");
@@ -210,9 +107,8 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
 }
 
 Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, bool withSwapchain) {
-    Features features;
-    for (const RequiredFeature& feature : kRequired)
-        feature.field(features) = VK_TRUE;
+    DeviceFeatures features;
+    requireAll(features);
     features.core.features.pipelineStatisticsQuery = choice.info.counts;
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -222,7 +118,7 @@ Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, boo
     std::vector<const char*> extensions;
     if (withSwapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (choice.info.apiVersion < VK_API_VERSION_1_3)
-        extensions.insert(extensions.end(), kPartsOf13.begin(), kPartsOf13.end());
+        extensions.insert(extensions.end(), extensionsOf13().begin(), extensionsOf13().end());
     if (choice.info.calibrated) extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.core,

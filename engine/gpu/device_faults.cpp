@@ -7,7 +7,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "engine/core/program.h"
+#include "engine/core/failure.h"
 
 namespace ag::gpu {
 namespace {
@@ -26,6 +26,13 @@ std::string sentence(VkResult result, const char* call) {
     }
 }
 
+FailureKind kindOf(VkResult result) {
+    if (result == VK_ERROR_DEVICE_LOST) return FailureKind::kDeviceLost;
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) return FailureKind::kDeviceMemory;
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY) return FailureKind::kHostMemory;
+    return FailureKind::kDevice;
+}
+
 struct NamedFault {
     std::string_view name;
     Fault kind;
@@ -38,7 +45,7 @@ constexpr std::array kFaults = {
 
 void checkVk(VkResult result, const char* call) {
     if (result >= 0) return;  // success codes such as VK_INCOMPLETE are the caller's business
-    endProgram(sentence(result, call));
+    fail(kindOf(result), sentence(result, call));
 }
 
 Result<FaultPlan> parseFaultPlan(const std::string& text) {

@@ -30,7 +30,7 @@ class FaultCounter {
     std::atomic<uint64_t> seen_{0};
 };
 
-// Ends the program with one sentence that names the call: a Vulkan call that fails is not recoverable here.
+// Fails (failure.h) with one sentence that names the call: nobody near a Vulkan call can go on without it.
 void checkVk(VkResult result, const char* call);
 #define AG_VK(call) ::ag::gpu::checkVk((call), #call)
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/check.h"
-#include "engine/gpu/debug_name.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/context.h"
 
 namespace ag::gpu {
 namespace {
@@ -17,15 +16,36 @@ uint64_t alignUp(uint64_t value, uint64_t alignment) {
 
 }  // namespace
 
-MemoryAllocator::MemoryAllocator(const Functions& vk, VkPhysicalDevice physical, VkDevice device,
-                                 FaultCounter& faults)
-    : vk_(vk), device_(device), faults_(faults) {
-    vk_.GetPhysicalDeviceMemoryProperties(physical, &properties_);
+MemoryAllocator::MemoryAllocator(Context& context, MemorySource source)
+    : context_(context), source_(std::move(source)) {
+    context_.vk().GetPhysicalDeviceMemoryProperties(context_.physical(), &properties_);
 }
 
 MemoryAllocator::~MemoryAllocator() {
     for (Block& block : blocks_)
-        if (block.memory) vk_.FreeMemory(device_, block.memory, nullptr);
+        if (block.place.memory) release(block.place);
+}
+
+VkResult MemoryAllocator::allocateBlock(uint64_t sizeBytes, uint32_t type, bool hostVisible,
+                                        MemoryBlock& block) {
+    if (source_.allocate) return source_.allocate(sizeBytes, type, hostVisible, block);
+    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    .allocationSize = sizeBytes,
+                                    .memoryTypeIndex = type};
+    const Functions& vk = context_.vk();
+    const VkDevice device = context_.handle();
+    VkResult result = vk.AllocateMemory(device, &info, context_.hostAllocation(), &block.memory);
+    void* mapped = nullptr;
+    if (result == VK_SUCCESS && hostVisible)
+        result = vk.MapMemory(device, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+    block.mapped = static_cast<std::byte*>(mapped);
+    if (result != VK_SUCCESS) vk.FreeMemory(device, block.memory, context_.hostAllocation());
+    return result;
+}
+
+void MemoryAllocator::release(const MemoryBlock& block) {
+    if (source_.release) return source_.release(block);
+    context_.vk().FreeMemory(context_.handle(), block.memory, context_.hostAllocation());
 }
 
 uint32_t MemoryAllocator::findType(uint32_t allowed, bool hostVisible) const {
@@ -52,7 +72,9 @@ bool MemoryAllocator::takeFrom(Block& block, const VkMemoryRequirements& require
         if (end < gap.offset + gap.sizeBytes)
             block.gaps.insert(block.gaps.begin() + i, {end, gap.offset + gap.sizeBytes - end});
         if (offset > gap.offset) block.gaps.insert(block.gaps.begin() + i, {gap.offset, offset - gap.offset});
-        range = {block.memory, offset, requirements.size, block.mapped ? block.mapped + offset : nullptr,
+        std::byte* const mapped = block.place.mapped;
+        range = {block.place.memory, offset, requirements.size,
+                 mapped ? mapped + (offset - block.place.offset) : nullptr,
                  uint32_t(&block - blocks_.data())};
         return true;
     }
@@ -60,22 +82,16 @@ bool MemoryAllocator::takeFrom(Block& block, const VkMemoryRequirements& require
 }
 
 uint32_t MemoryAllocator::addBlock(uint64_t sizeBytes, uint32_t type, bool hostVisible, MemoryUse use) {
-    Block block{.sizeBytes = sizeBytes, .type = type, .use = use, .gaps = {{0, sizeBytes}}};
-    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                    .allocationSize = sizeBytes,
-                                    .memoryTypeIndex = type};
-    AG_VK(vk_.AllocateMemory(device_, &info, nullptr, &block.memory));
-    setDebugName(vk_, device_, VK_OBJECT_TYPE_DEVICE_MEMORY, block.memory,
-                 hostVisible                 ? "memory.host"
-                 : use == MemoryUse::kBuffer ? "memory.buffers"
-                                             : "memory.images");
-    if (hostVisible) {
-        void* mapped = nullptr;
-        AG_VK(vk_.MapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
-        block.mapped = static_cast<std::byte*>(mapped);
-    }
+    Block block{.sizeBytes = sizeBytes, .type = type, .use = use};
+    checkVk(allocateBlock(sizeBytes, type, hostVisible, block.place), "vkAllocateMemory");
+    block.gaps = {{block.place.offset, sizeBytes}};
+    if (!source_.allocate)
+        context_.setDebugName(VK_OBJECT_TYPE_DEVICE_MEMORY, block.place.memory,
+                              hostVisible                 ? "memory.host"
+                              : use == MemoryUse::kBuffer ? "memory.buffers"
+                                                          : "memory.images");
     for (uint32_t i = 0; i < blocks_.size(); ++i) {
-        if (blocks_[i].memory) continue;
+        if (blocks_[i].place.memory) continue;
         blocks_[i] = std::move(block);
         return i;
     }
@@ -86,17 +102,22 @@ uint32_t MemoryAllocator::addBlock(uint64_t sizeBytes, uint32_t type, bool hostV
 MemoryRange MemoryAllocator::allocate(const VkMemoryRequirements& requirements, bool hostVisible,
                                       MemoryUse use) {
     const std::lock_guard lock(mutex_);
-    if (faults_.strikes(Fault::kAllocation)) checkVk(VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory");
+    if (context_.strikes(Fault::kAllocation)) checkVk(VK_ERROR_OUT_OF_DEVICE_MEMORY, "vkAllocateMemory");
     const uint32_t type = findType(requirements.memoryTypeBits, hostVisible);
     MemoryRange range;
-    liveBytes_ += requirements.size;
+    bool taken = false;
     for (Block& block : blocks_) {
-        const bool fits =
-            block.memory && block.type == type && block.use == use && bool(block.mapped) == hostVisible;
-        if (fits && takeFrom(block, requirements, range)) return range;
+        const bool fits = block.place.memory && block.type == type && block.use == use &&
+                          bool(block.place.mapped) == hostVisible;
+        if (taken = fits && takeFrom(block, requirements, range); taken) break;
     }
-    const uint32_t added = addBlock(std::max(kBlockBytes, requirements.size), type, hostVisible, use);
-    AG_CHECK(takeFrom(blocks_[added], requirements, range));
+    if (!taken) {
+        const uint64_t aside = source_.allocate ? requirements.alignment : 0;  // a host's offset may be any
+        const uint32_t added =
+            addBlock(std::max(kBlockBytes, requirements.size + aside), type, hostVisible, use);
+        AG_CHECK(takeFrom(blocks_[added], requirements, range));
+    }
+    liveBytes_ += requirements.size;
     return range;
 }
 
@@ -115,7 +136,7 @@ void MemoryAllocator::free(const MemoryRange& range) {
     }
     liveBytes_ -= range.sizeBytes;
     if (block.gaps.size() != 1 || block.gaps[0].sizeBytes != block.sizeBytes) return;
-    vk_.FreeMemory(device_, block.memory, nullptr);  // wholly free: give it back
+    release(block.place);  // wholly free: give it back
     block = {};
 }
 
@@ -127,7 +148,7 @@ uint64_t MemoryAllocator::liveBytes() const {
 uint64_t MemoryAllocator::blockCount() const {
     const std::lock_guard lock(mutex_);
     return uint64_t(
-        std::ranges::count_if(blocks_, [](const Block& b) { return b.memory != VK_NULL_HANDLE; }));
+        std::ranges::count_if(blocks_, [](const Block& b) { return b.place.memory != VK_NULL_HANDLE; }));
 }
 
 }  // namespace ag::gpu

@@ -6,17 +6,12 @@
 #include <map>
 #include <unordered_map>
 
+#include "engine/core/failure.h"
 #include "engine/core/hash.h"
-#include "engine/core/log.h"
-#include "engine/gpu/device.h"
+#include "engine/gpu/context.h"
 
 namespace ag::gpu {
 namespace {
-
-[[noreturn]] void fatal(const std::string& sentence) {
-    spdlog::critical("{}", sentence);
-    std::abort();
-}
 
 uint64_t requestHash(const PipelineRequest& r) {
     uint64_t hash = hashText(r.computeShader);
@@ -95,7 +90,8 @@ struct PipelineLibrary::Impl {
         VkDescriptorSetLayout set = VK_NULL_HANDLE;
         VkPipelineLayout pipeline = VK_NULL_HANDLE;
     };
-    Device& device;
+    Context& context;
+    ShaderSource source;
     std::map<std::string, Shader, std::less<>> shaders;
     std::map<uint64_t, Layout> layouts;
     std::unordered_map<uint64_t, std::unique_ptr<Pipeline>> pipelines;  // by request hash
@@ -109,7 +105,7 @@ struct PipelineLibrary::Impl {
 };
 
 bool PipelineLibrary::Impl::open(const std::string& path, Shader& shader, std::string* error) const {
-    auto loaded = loadShader(path);
+    auto loaded = source(path);
     if (!loaded) {
         *error = loaded.error().message;
         return false;
@@ -119,8 +115,8 @@ bool PipelineLibrary::Impl::open(const std::string& path, Shader& shader, std::s
     const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                         .codeSize = shader.module.spirv.size() * 4,
                                         .pCode = shader.module.spirv.data()};
-    AG_VK(device.vk().CreateShaderModule(device.handle(), &info, nullptr, &shader.handle));
-    device.setDebugName(VK_OBJECT_TYPE_SHADER_MODULE, shader.handle, path);
+    AG_VK(context.vk().CreateShaderModule(context.handle(), &info, context.hostAllocation(), &shader.handle));
+    context.setDebugName(VK_OBJECT_TYPE_SHADER_MODULE, shader.handle, path);
     return true;
 }
 
@@ -129,20 +125,23 @@ PipelineLibrary::Impl::Shader& PipelineLibrary::Impl::shader(std::string_view pa
     if (found != shaders.end()) return found->second;
     Shader made;
     std::string error;
-    if (!open(std::string(path), made, &error)) fatal(error);
+    if (!open(std::string(path), made, &error)) fail(FailureKind::kMistake, error);
     return shaders.emplace(std::string(path), std::move(made)).first->second;
 }
 
 void PipelineLibrary::Impl::mergeBindings(Pipeline& pipeline, const Shader& shader) const {
     for (const ShaderBinding& b : shader.module.bindings) {
-        if (b.set != 0) fatal("shader " + shader.module.path + ": binding " + b.name + " is not in set 0");
+        if (b.set != 0)
+            fail(FailureKind::kMistake,
+                 "shader " + shader.module.path + ": binding " + b.name + " is not in set 0");
         const auto same = std::ranges::find(pipeline.bindings, b.name, &ShaderBinding::name);
         const auto place = std::ranges::find(pipeline.bindings, b.binding, &ShaderBinding::binding);
         if (same != pipeline.bindings.end() && (same->binding != b.binding || same->kind != b.kind))
-            fatal("shader " + shader.module.path + ": binding " + b.name + " differs between stages");
+            fail(FailureKind::kMistake,
+                 "shader " + shader.module.path + ": binding " + b.name + " differs between stages");
         if (same == pipeline.bindings.end() && place != pipeline.bindings.end())
-            fatal("shader " + shader.module.path + ": bindings " + b.name + " and " + place->name +
-                  " share a number");
+            fail(FailureKind::kMistake, "shader " + shader.module.path + ": bindings " + b.name + " and " +
+                                            place->name + " share a number");
         if (same == pipeline.bindings.end()) {
             pipeline.bindings.push_back(b);
         } else {
@@ -156,24 +155,27 @@ void PipelineLibrary::Impl::mergeBindings(Pipeline& pipeline, const Shader& shad
 
 void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash, const std::string& name) {
     Layout& layout = layouts[shadersHash];
-    if (!layout.pipeline) {
+    const VkDevice device = context.handle();
+    if (!layout.set) {
         std::vector<VkDescriptorSetLayoutBinding> bindings;
         for (const ShaderBinding& b : pipeline.bindings)
             bindings.push_back({b.binding, descriptorType(b.kind), 1, VK_SHADER_STAGE_ALL, nullptr});
-        const VkDescriptorSetLayoutCreateInfo set{
+        const VkDescriptorSetLayoutCreateInfo info{
             .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
             .bindingCount = uint32_t(bindings.size()),
             .pBindings = bindings.data()};
-        AG_VK(device.vk().CreateDescriptorSetLayout(device.handle(), &set, nullptr, &layout.set));
-        device.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout.set, name);
+        AG_VK(context.vk().CreateDescriptorSetLayout(device, &info, context.hostAllocation(), &layout.set));
+        context.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout.set, name);
+    }
+    if (!layout.pipeline) {
         const VkPushConstantRange push{pipeline.pushStages, 0, pipeline.pushSizeBytes};
         const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                               .setLayoutCount = 1,
                                               .pSetLayouts = &layout.set,
                                               .pushConstantRangeCount = pipeline.pushSizeBytes ? 1u : 0u,
                                               .pPushConstantRanges = &push};
-        AG_VK(device.vk().CreatePipelineLayout(device.handle(), &info, nullptr, &layout.pipeline));
-        device.setDebugName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout.pipeline, name);
+        AG_VK(context.vk().CreatePipelineLayout(device, &info, context.hostAllocation(), &layout.pipeline));
+        context.setDebugName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout.pipeline, name);
     }
     pipeline.setLayout = layout.set;
     pipeline.layout = layout.pipeline;
@@ -221,13 +223,13 @@ void PipelineLibrary::Impl::makeCompute(const PipelineRequest& request, Pipeline
     makeLayout(pipeline, compute.hash, compute.module.path);
     pipeline.workgroupSize = compute.module.workgroupSize;
     pipeline.id = combineHash(compute.hash, requestHash(request));
-    const Specialization specialization(request, compute.module, device.info());
+    const Specialization specialization(request, compute.module, context.info());
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = stageInfo(compute.handle, compute.module, specialization),
                                            .layout = pipeline.layout};
-    AG_VK(device.vk().CreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
-                                             &pipeline.handle));
-    device.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, compute.module.path);
+    AG_VK(context.vk().CreateComputePipelines(context.handle(), context.pipelineCache(), 1, &info,
+                                              context.hostAllocation(), &pipeline.handle));
+    context.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, compute.module.path);
 }
 
 void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline& pipeline) {
@@ -242,8 +244,8 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
         combineHash(combineHash(vertex.hash, hasFragment ? fragment.hash : 0), requestHash(request));
 
     const RasterState& state = request.raster;
-    const Specialization vertexConstants(request, vertex.module, device.info());
-    const Specialization fragmentConstants(request, fragment.module, device.info());
+    const Specialization vertexConstants(request, vertex.module, context.info());
+    const Specialization fragmentConstants(request, fragment.module, context.info());
     const VkPipelineShaderStageCreateInfo stages[] = {
         stageInfo(vertex.handle, vertex.module, vertexConstants),
         stageInfo(fragment.handle, fragment.module, fragmentConstants)};
@@ -312,25 +314,26 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
                                             .pColorBlendState = &blend,
                                             .pDynamicState = &dynamic,
                                             .layout = pipeline.layout};
-    AG_VK(device.vk().CreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr,
-                                              &pipeline.handle));
-    device.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, fragment.module.path);
+    AG_VK(context.vk().CreateGraphicsPipelines(context.handle(), context.pipelineCache(), 1, &info,
+                                               context.hostAllocation(), &pipeline.handle));
+    context.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, fragment.module.path);
 }
 
-PipelineLibrary::PipelineLibrary(Device& device) : impl_(new Impl{.device = device}) {}
+PipelineLibrary::PipelineLibrary(Context& context, ShaderSource source)
+    : impl_(new Impl{.context = context, .source = std::move(source)}) {}
 
 PipelineLibrary::~PipelineLibrary() {
-    const VkDevice device = impl_->device.handle();
-    const Functions& vk = impl_->device.vk();
-    impl_->device.waitIdle();
+    const VkDevice device = impl_->context.handle();
+    const VkAllocationCallbacks* host = impl_->context.hostAllocation();
+    const Functions& vk = impl_->context.vk();
     for (auto& [hash, pipeline] : impl_->pipelines)
-        vk.DestroyPipeline(device, pipeline->handle, nullptr);
+        vk.DestroyPipeline(device, pipeline->handle, host);
     for (auto& [hash, layout] : impl_->layouts) {
-        vk.DestroyPipelineLayout(device, layout.pipeline, nullptr);
-        vk.DestroyDescriptorSetLayout(device, layout.set, nullptr);
+        vk.DestroyPipelineLayout(device, layout.pipeline, host);
+        vk.DestroyDescriptorSetLayout(device, layout.set, host);
     }
     for (auto& [path, shader] : impl_->shaders)
-        vk.DestroyShaderModule(device, shader.handle, nullptr);
+        vk.DestroyShaderModule(device, shader.handle, host);
 }
 
 const Pipeline& PipelineLibrary::get(const PipelineRequest& request) {
@@ -346,6 +349,7 @@ const Pipeline& PipelineLibrary::get(const PipelineRequest& request) {
 }
 
 int PipelineLibrary::reloadChanged(std::vector<std::string>* errors) {
+    Context& context = impl_->context;
     int changed = 0;
     for (auto& [path, shader] : impl_->shaders) {
         Impl::Shader fresh;
@@ -354,18 +358,18 @@ int PipelineLibrary::reloadChanged(std::vector<std::string>* errors) {
             if (errors) errors->push_back(error);
             continue;
         }
-        if (fresh.hash == shader.hash) {
-            impl_->device.vk().DestroyShaderModule(impl_->device.handle(), fresh.handle, nullptr);
-            continue;
-        }
-        impl_->device.vk().DestroyShaderModule(impl_->device.handle(), shader.handle, nullptr);
+        const bool same = fresh.hash == shader.hash;
+        context.vk().DestroyShaderModule(context.handle(), same ? fresh.handle : shader.handle,
+                                         context.hostAllocation());
+        if (same) continue;
         shader = std::move(fresh);
         ++changed;
     }
     if (changed == 0) return 0;
-    impl_->device.waitIdle();
     for (auto& [hash, pipeline] : impl_->pipelines)
-        impl_->device.vk().DestroyPipeline(impl_->device.handle(), pipeline->handle, nullptr);
+        context.retire([&context, handle = pipeline->handle] {
+            context.vk().DestroyPipeline(context.handle(), handle, context.hostAllocation());
+        });
     impl_->pipelines.clear();  // layouts stay: descriptor sets made from them live on
     return changed;
 }

@@ -15,7 +15,7 @@
 
 namespace ag::gpu {
 
-class Device;
+class Context;
 
 struct SpecConstant {
     uint32_t id = 0;
@@ -25,7 +25,7 @@ struct SpecConstant {
 constexpr size_t kMaxSpecConstants = 8;
 constexpr size_t kMaxColorTargets = 4;
 
-// Ids every shader may declare; filled in from the device.
+// Ids every shader may declare; filled in from the context.
 constexpr uint32_t kSpecSubgroupSize = 100;  // uint: lanes of a subgroup
 constexpr uint32_t kSpecLaneParallel = 101;  // bool: load one light a lane and shuffle (CPU devices)
 
@@ -78,12 +78,13 @@ VkDescriptorType descriptorType(BindingKind kind);
 
 class PipelineLibrary {
   public:
-    explicit PipelineLibrary(Device& device);
-    ~PipelineLibrary();
+    PipelineLibrary(Context& context, ShaderSource source);
+    ~PipelineLibrary();  // the device is done with its pipelines
     PipelineLibrary(const PipelineLibrary&) = delete;
     PipelineLibrary& operator=(const PipelineLibrary&) = delete;
 
-    // No allocation when the pipeline already exists. Fatal with the shader's name if it cannot be made.
+    // No allocation when the pipeline already exists. Fails (failure.h) with the shader's name if it cannot
+    // be made.
     const Pipeline& get(const PipelineRequest& request);
     // Drops pipelines whose SPIR-V changed on disk since they were made; returns how many. A shader that
     // no longer loads keeps its old pipeline and is reported through `errors`.

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "engine/gpu/shader.h"
+#include "engine/gpu/shader_files.h"
 
 namespace ag::gpu {
 namespace {

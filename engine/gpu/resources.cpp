@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/gpu/device.h"
+#include "engine/gpu/context.h"
 
 namespace ag::gpu {
 namespace {
@@ -13,7 +13,7 @@ uint64_t nextId() {
     return ++last;
 }
 
-VkBufferUsageFlags usageOf(Device& device, const BufferDesc& desc) {
+VkBufferUsageFlags usageOf(Context& context, const BufferDesc& desc) {
     VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (desc.sizeBytes <= 65536) usage |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
@@ -21,7 +21,7 @@ VkBufferUsageFlags usageOf(Device& device, const BufferDesc& desc) {
     if (desc.vertexOrIndex) usage |= VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
     if (desc.texelFormat == VK_FORMAT_UNDEFINED) return usage;
     VkFormatProperties properties;
-    device.vk().GetPhysicalDeviceFormatProperties(device.physical(), desc.texelFormat, &properties);
+    context.vk().GetPhysicalDeviceFormatProperties(context.physical(), desc.texelFormat, &properties);
     if (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT)
         usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     if (properties.bufferFeatures & VK_FORMAT_FEATURE_STORAGE_TEXEL_BUFFER_BIT)
@@ -29,9 +29,9 @@ VkBufferUsageFlags usageOf(Device& device, const BufferDesc& desc) {
     return usage;
 }
 
-VkImageUsageFlags usageOf(Device& device, const ImageDesc& desc) {
+VkImageUsageFlags usageOf(Context& context, const ImageDesc& desc) {
     VkFormatProperties properties;
-    device.vk().GetPhysicalDeviceFormatProperties(device.physical(), desc.format, &properties);
+    context.vk().GetPhysicalDeviceFormatProperties(context.physical(), desc.format, &properties);
     const VkFormatFeatureFlags features = properties.optimalTilingFeatures;
     VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (features & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT) usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -42,7 +42,7 @@ VkImageUsageFlags usageOf(Device& device, const ImageDesc& desc) {
     return usage;
 }
 
-VkImageView makeView(Device& device, const Image& image, uint32_t firstMip, uint32_t mips) {
+VkImageView makeView(Context& context, const Image& image, uint32_t firstMip, uint32_t mips) {
     const ImageDesc& desc = image.desc();
     const VkImageViewCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
@@ -51,8 +51,8 @@ VkImageView makeView(Device& device, const Image& image, uint32_t firstMip, uint
         .format = desc.format,
         .subresourceRange = {image.aspect(), firstMip, mips, 0, desc.layers}};
     VkImageView view = VK_NULL_HANDLE;
-    AG_VK(device.vk().CreateImageView(device.handle(), &info, nullptr, &view));
-    device.setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, desc.name);
+    AG_VK(context.vk().CreateImageView(context.handle(), &info, context.hostAllocation(), &view));
+    context.setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, desc.name);
     return view;
 }
 
@@ -63,62 +63,102 @@ bool isDepthFormat(VkFormat format) {
            format == VK_FORMAT_D24_UNORM_S8_UINT;
 }
 
-Buffer::Buffer(Device& device, const BufferDesc& desc) : device_(device), desc_(desc), id_(nextId()) {
+Buffer::Buffer(Context& context, const BufferDesc& desc) : context_(context), desc_(desc), id_(nextId()) {
     AG_CHECK_MSG(desc.sizeBytes > 0, desc.name);
-    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                  .size = desc.sizeBytes,
-                                  .usage = usageOf(device, desc)};
-    AG_VK(device.vk().CreateBuffer(device.handle(), &info, nullptr, &handle_));
-    VkMemoryRequirements requirements;
-    device.vk().GetBufferMemoryRequirements(device.handle(), handle_, &requirements);
-    memory_ = device.memory().allocate(requirements, desc.hostVisible, MemoryUse::kBuffer);
-    AG_VK(device.vk().BindBufferMemory(device.handle(), handle_, memory_.memory, memory_.offset));
-    mapped_ = desc.hostVisible ? memory_.mapped : nullptr;
-    device.setDebugName(VK_OBJECT_TYPE_BUFFER, handle_, desc.name);
-    if (desc.texelFormat == VK_FORMAT_UNDEFINED) return;
-    const VkBufferViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
-                                      .buffer = handle_,
-                                      .format = desc.texelFormat,
-                                      .range = VK_WHOLE_SIZE};
-    AG_VK(device.vk().CreateBufferView(device.handle(), &view, nullptr, &texelView_));
-    device.setDebugName(VK_OBJECT_TYPE_BUFFER_VIEW, texelView_, desc.name);
+    try {
+        create();
+        createTexelView();
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+Buffer::Buffer(Context& context, const BufferDesc& desc, VkBuffer borrowed)
+    : context_(context), desc_(desc), id_(nextId()), handle_(borrowed), borrowed_(true) {
+    createTexelView();
 }
 
 Buffer::~Buffer() {
-    device_.vk().DestroyBufferView(device_.handle(), texelView_, nullptr);
-    device_.vk().DestroyBuffer(device_.handle(), handle_, nullptr);
-    device_.memory().free(memory_);
+    destroy();
 }
 
-Image::Image(Device& device, const ImageDesc& desc, const MemoryRange* memory)
-    : device_(device), desc_(desc), id_(nextId()) {
+void Buffer::create() {
+    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                  .size = desc_.sizeBytes,
+                                  .usage = usageOf(context_, desc_)};
+    AG_VK(context_.vk().CreateBuffer(context_.handle(), &info, context_.hostAllocation(), &handle_));
+    VkMemoryRequirements requirements;
+    context_.vk().GetBufferMemoryRequirements(context_.handle(), handle_, &requirements);
+    memory_ = context_.memory().allocate(requirements, desc_.hostVisible, MemoryUse::kBuffer);
+    AG_VK(context_.vk().BindBufferMemory(context_.handle(), handle_, memory_.memory, memory_.offset));
+    mapped_ = desc_.hostVisible ? memory_.mapped : nullptr;
+    context_.setDebugName(VK_OBJECT_TYPE_BUFFER, handle_, desc_.name);
+}
+
+void Buffer::createTexelView() {
+    if (desc_.texelFormat == VK_FORMAT_UNDEFINED) return;
+    const VkBufferViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                      .buffer = handle_,
+                                      .format = desc_.texelFormat,
+                                      .range = VK_WHOLE_SIZE};
+    AG_VK(context_.vk().CreateBufferView(context_.handle(), &view, context_.hostAllocation(), &texelView_));
+    context_.setDebugName(VK_OBJECT_TYPE_BUFFER_VIEW, texelView_, desc_.name);
+}
+
+void Buffer::destroy() {
+    context_.vk().DestroyBufferView(context_.handle(), texelView_, context_.hostAllocation());
+    if (!borrowed_) context_.vk().DestroyBuffer(context_.handle(), handle_, context_.hostAllocation());
+    if (memory_) context_.memory().free(memory_);
+}
+
+Image::Image(Context& context, const ImageDesc& desc, const MemoryRange* memory)
+    : context_(context), desc_(desc), id_(nextId()) {
     AG_CHECK_MSG(desc.size.x > 0 && desc.size.y > 0, desc.name);
-    handle_ = makeImage(device, desc);
+    try {
+        create(memory);
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+Image::Image(Context& context, const ImageDesc& desc, VkImage borrowed, VkImageView view)
+    : context_(context), desc_(desc), id_(nextId()), borrowed_(true), handle_(borrowed), view_(view) {}
+
+Image::~Image() {
+    destroy();
+}
+
+void Image::create(const MemoryRange* memory) {
+    handle_ = makeImage(context_, desc_);
     MemoryRange place;
     if (memory) {
         place = *memory;
     } else {
         VkMemoryRequirements requirements;
-        device.vk().GetImageMemoryRequirements(device.handle(), handle_, &requirements);
-        place = memory_ = device.memory().allocate(requirements, false, MemoryUse::kImage);
+        context_.vk().GetImageMemoryRequirements(context_.handle(), handle_, &requirements);
+        place = memory_ = context_.memory().allocate(requirements, false, MemoryUse::kImage);
     }
-    AG_VK(device.vk().BindImageMemory(device.handle(), handle_, place.memory, place.offset));
-    device.setDebugName(VK_OBJECT_TYPE_IMAGE, handle_, desc.name);
-    view_ = makeView(device, *this, 0, desc.mips);
-    mipViews_ = std::make_unique<VkImageView[]>(desc.mips);
-    for (uint32_t mip = 0; mip < desc.mips; ++mip)
-        mipViews_[mip] = makeView(device, *this, mip, 1);
-}
-
-Image::~Image() {
+    AG_VK(context_.vk().BindImageMemory(context_.handle(), handle_, place.memory, place.offset));
+    context_.setDebugName(VK_OBJECT_TYPE_IMAGE, handle_, desc_.name);
+    view_ = makeView(context_, *this, 0, desc_.mips);
+    mipViews_ = std::make_unique<VkImageView[]>(desc_.mips);
     for (uint32_t mip = 0; mip < desc_.mips; ++mip)
-        device_.vk().DestroyImageView(device_.handle(), mipViews_[mip], nullptr);
-    device_.vk().DestroyImageView(device_.handle(), view_, nullptr);
-    device_.vk().DestroyImage(device_.handle(), handle_, nullptr);
-    if (memory_) device_.memory().free(memory_);
+        mipViews_[mip] = makeView(context_, *this, mip, 1);
 }
 
-VkImage makeImage(Device& device, const ImageDesc& desc) {
+void Image::destroy() {
+    if (borrowed_) return;
+    const VkDevice device = context_.handle();
+    for (uint32_t mip = 0; mipViews_ && mip < desc_.mips; ++mip)
+        context_.vk().DestroyImageView(device, mipViews_[mip], context_.hostAllocation());
+    context_.vk().DestroyImageView(device, view_, context_.hostAllocation());
+    context_.vk().DestroyImage(device, handle_, context_.hostAllocation());
+    if (memory_) context_.memory().free(memory_);
+}
+
+VkImage makeImage(Context& context, const ImageDesc& desc) {
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                  .imageType = VK_IMAGE_TYPE_2D,
                                  .format = desc.format,
@@ -127,28 +167,57 @@ VkImage makeImage(Device& device, const ImageDesc& desc) {
                                  .arrayLayers = desc.layers,
                                  .samples = VK_SAMPLE_COUNT_1_BIT,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
-                                 .usage = usageOf(device, desc),
+                                 .usage = usageOf(context, desc),
                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     VkImage image = VK_NULL_HANDLE;
-    AG_VK(device.vk().CreateImage(device.handle(), &info, nullptr, &image));
+    AG_VK(context.vk().CreateImage(context.handle(), &info, context.hostAllocation(), &image));
     return image;
 }
 
-VkMemoryRequirements imageRequirements(Device& device, const ImageDesc& desc) {
-    const VkImage probe = makeImage(device, desc);
+VkMemoryRequirements imageRequirements(Context& context, const ImageDesc& desc) {
+    const VkImage probe = makeImage(context, desc);
     VkMemoryRequirements requirements;
-    device.vk().GetImageMemoryRequirements(device.handle(), probe, &requirements);
-    device.vk().DestroyImage(device.handle(), probe, nullptr);
+    context.vk().GetImageMemoryRequirements(context.handle(), probe, &requirements);
+    context.vk().DestroyImage(context.handle(), probe, context.hostAllocation());
     return requirements;
 }
 
 VkImageView Image::mipView(uint32_t mip) const {
+    if (borrowed_) return view_;
     AG_CHECK_LT(mip, desc_.mips);
     return mipViews_[mip];
 }
 
 VkImageAspectFlags Image::aspect() const {
     return isDepthFormat(desc_.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+void retire(Context& context, std::unique_ptr<Buffer> buffer) {
+    if (!buffer) return;
+    context.retire([old = std::shared_ptr<Buffer>(std::move(buffer))]() mutable { old.reset(); });
+}
+
+uint32_t texelSizeBytes(VkFormat format) {
+    switch (format) {
+        case VK_FORMAT_R8_UNORM:
+            return 1;
+        case VK_FORMAT_R16_SFLOAT:
+            return 2;
+        case VK_FORMAT_R8G8B8A8_UNORM:
+        case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_B8G8R8A8_UNORM:
+        case VK_FORMAT_R32_SFLOAT:
+        case VK_FORMAT_R32_UINT:
+        case VK_FORMAT_D32_SFLOAT:
+            return 4;
+        case VK_FORMAT_R16G16B16A16_SFLOAT:
+            return 8;
+        case VK_FORMAT_R32G32B32A32_SFLOAT:
+            return 16;
+        default:
+            AG_CHECK_MSG(false, "a format without a row in texelSizeBytes");
+    }
+    return 0;
 }
 
 }  // namespace ag::gpu

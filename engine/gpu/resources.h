@@ -1,5 +1,5 @@
 // Buffers and images with their memory. Plain owners: destroying one frees it at once, so the caller makes
-// sure the device no longer uses it (FrameGraph retires its own through Device::retire).
+// sure the device no longer uses it (FrameGraph retires its own through Context::retire).
 #pragma once
 
 #include "engine/gpu/functions.h"
@@ -18,7 +18,7 @@
 
 namespace ag::gpu {
 
-class Device;
+class Context;
 
 struct BufferDesc {
     std::string name;
@@ -32,7 +32,9 @@ struct BufferDesc {
 // Every buffer can be a storage buffer and a transfer source and destination.
 class Buffer {
   public:
-    Buffer(Device& device, const BufferDesc& desc);
+    Buffer(Context& context, const BufferDesc& desc);
+    // A host's, that outlives this.
+    Buffer(Context& context, const BufferDesc& desc, VkBuffer borrowed);
     ~Buffer();
     Buffer(const Buffer&) = delete;
     Buffer& operator=(const Buffer&) = delete;
@@ -44,15 +46,21 @@ class Buffer {
     std::byte* mapped() const { return mapped_; }  // null unless hostVisible
     // Texel view over the whole buffer in desc.texelFormat; null without a format.
     VkBufferView texelView() const { return texelView_; }
+    bool isBorrowed() const { return borrowed_; }
 
   private:
-    Device& device_;
+    void create();
+    void createTexelView();
+    void destroy();
+
+    Context& context_;
     BufferDesc desc_;
     uint64_t id_;
     VkBuffer handle_ = VK_NULL_HANDLE;
     VkBufferView texelView_ = VK_NULL_HANDLE;
     MemoryRange memory_;
     std::byte* mapped_ = nullptr;
+    bool borrowed_ = false;
 };
 
 struct ImageDesc {
@@ -66,14 +74,16 @@ struct ImageDesc {
 
 bool isDepthFormat(VkFormat format);
 // A bare image without memory, and what memory it would need: for placing several in one range.
-VkImage makeImage(Device& device, const ImageDesc& desc);
-VkMemoryRequirements imageRequirements(Device& device, const ImageDesc& desc);
+VkImage makeImage(Context& context, const ImageDesc& desc);
+VkMemoryRequirements imageRequirements(Context& context, const ImageDesc& desc);
 
 // Usage flags are everything the format allows among sampled, storage, attachment and transfer.
 class Image {
   public:
     // `memory`: where to place it; null takes memory of its own. Aliased images share one range.
-    Image(Device& device, const ImageDesc& desc, const MemoryRange* memory = nullptr);
+    Image(Context& context, const ImageDesc& desc, const MemoryRange* memory = nullptr);
+    // A host's image with a view of its one mip; both outlive this.
+    Image(Context& context, const ImageDesc& desc, VkImage borrowed, VkImageView view);
     ~Image();
     Image(const Image&) = delete;
     Image& operator=(const Image&) = delete;
@@ -84,36 +94,24 @@ class Image {
     VkImageView mipView(uint32_t mip) const;    // one mip, all layers; made at construction
     const ImageDesc& desc() const { return desc_; }
     VkImageAspectFlags aspect() const;
+    bool isBorrowed() const { return borrowed_; }
 
   private:
-    Device& device_;
+    void create(const MemoryRange* memory);
+    void destroy();
+
+    Context& context_;
     ImageDesc desc_;
     uint64_t id_;
+    bool borrowed_ = false;
     VkImage handle_ = VK_NULL_HANDLE;
     VkImageView view_ = VK_NULL_HANDLE;
     std::unique_ptr<VkImageView[]> mipViews_;
     MemoryRange memory_;  // empty where the memory is the caller's
 };
 
-// Blocking uploads and downloads, for loading and for tests: stages, submits, waits.
-void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset = 0);
-void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> bytes, uint64_t offset = 0);
-// A buffer of just these items (room for one if there are none); `desc` without its size.
-template <class T>
-std::unique_ptr<Buffer> loadBuffer(Device& device, BufferDesc desc, const std::vector<T>& items) {
-    desc.sizeBytes = std::max<uint64_t>(items.size(), 1) * sizeof(T);
-    auto buffer = std::make_unique<Buffer>(device, desc);
-    if (!items.empty()) uploadBuffer(device, *buffer, std::as_bytes(std::span(items)));
-    return buffer;
-}
 // Gone when the work that may still use it has finished; may be null.
-void retire(Device& device, std::unique_ptr<Buffer> buffer);
-// Texels of mip 0 of one layer, tightly packed rows; fills the remaining mips by blits when `makeMips`.
-// Leaves the image in SHADER_READ_ONLY_OPTIMAL.
-void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels,
-                 bool makeMips);
-// `layout`: the layout the image is in, and is left in.
-void downloadImage(Device& device, const Image& image, VkImageLayout layout, std::span<std::byte> texels);
+void retire(Context& context, std::unique_ptr<Buffer> buffer);
 uint32_t texelSizeBytes(VkFormat format);
 
 }  // namespace ag::gpu

@@ -1,9 +1,10 @@
-// SPIR-V loaded from the build's shader folder, with what reflection says of its interface.
+// SPIR-V with what reflection says of its interface.
 #pragma once
 
 #include "engine/gpu/functions.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,7 @@ struct ShaderModule {
     std::vector<ShaderStruct> structs;
 };
 
-// Reads `<AFTERGLOW_SHADER_DIR>/<path>.spv` and reflects it.
-Result<ShaderModule> loadShader(const std::string& path);
-Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv);
+// Where shaders come from, by path.
+using ShaderSource = std::function<Result<ShaderModule>(const std::string& path)>;
 
 }  // namespace ag::gpu

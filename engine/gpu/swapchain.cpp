@@ -11,7 +11,7 @@ VkSemaphore makeSemaphore(Device& device, const char* name) {
     const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
     AG_VK(device.vk().CreateSemaphore(device.handle(), &info, nullptr, &semaphore));
-    device.setDebugName(VK_OBJECT_TYPE_SEMAPHORE, semaphore, name);
+    device.context().setDebugName(VK_OBJECT_TYPE_SEMAPHORE, semaphore, name);
     return semaphore;
 }
 
@@ -23,8 +23,8 @@ VkImageView makeView(Device& device, VkImage image, VkFormat format) {
                                      .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
     AG_VK(device.vk().CreateImageView(device.handle(), &info, nullptr, &view));
-    device.setDebugName(VK_OBJECT_TYPE_IMAGE, image, "swapchain.image");
-    device.setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, "swapchain.image");
+    device.context().setDebugName(VK_OBJECT_TYPE_IMAGE, image, "swapchain.image");
+    device.context().setDebugName(VK_OBJECT_TYPE_IMAGE_VIEW, view, "swapchain.image");
     return view;
 }
 
@@ -32,9 +32,9 @@ VkImageView makeView(Device& device, VkImage image, VkFormat format) {
 
 Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
     uint32_t count = 0;
-    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count, nullptr);
+    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.context().physical(), device.surface(), &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
-    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.physical(), device.surface(), &count,
+    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.context().physical(), device.surface(), &count,
                                                    formats.data());
     // UNORM: the display image is sRGB-encoded already.
     const auto found = std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& f) {
@@ -44,9 +44,9 @@ Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
         format_ = found->format;
         colorSpace_ = found->colorSpace;
     }
-    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count, nullptr);
+    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.context().physical(), device.surface(), &count, nullptr);
     std::vector<VkPresentModeKHR> modes(count);
-    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.physical(), device.surface(), &count,
+    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.context().physical(), device.surface(), &count,
                                                         modes.data());
     if (std::ranges::find(modes, VK_PRESENT_MODE_MAILBOX_KHR) != modes.end())
         presentMode_ = VK_PRESENT_MODE_MAILBOX_KHR;
@@ -74,7 +74,7 @@ void Swapchain::destroyImages() {
 
 void Swapchain::create(glm::uvec2 wanted) {
     VkSurfaceCapabilitiesKHR caps;
-    AG_VK(device_.vk().GetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), device_.surface(), &caps));
+    AG_VK(device_.vk().GetPhysicalDeviceSurfaceCapabilitiesKHR(device_.context().physical(), device_.surface(), &caps));
     VkExtent2D extent = caps.currentExtent;
     if (extent.width == UINT32_MAX)
         extent = {std::clamp(wanted.x, caps.minImageExtent.width, caps.maxImageExtent.width),
@@ -105,7 +105,7 @@ void Swapchain::create(glm::uvec2 wanted) {
     AG_VK(device_.vk().CreateSwapchainKHR(device_.handle(), &info, nullptr, &fresh));
     device_.vk().DestroySwapchainKHR(device_.handle(), handle_, nullptr);
     handle_ = fresh;
-    device_.setDebugName(VK_OBJECT_TYPE_SWAPCHAIN_KHR, handle_, "swapchain");
+    device_.context().setDebugName(VK_OBJECT_TYPE_SWAPCHAIN_KHR, handle_, "swapchain");
     uint32_t count = 0;
     device_.vk().GetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr);
     images_.resize(count);
@@ -120,8 +120,8 @@ void Swapchain::create(glm::uvec2 wanted) {
 }
 
 VkResult Swapchain::tryAcquire(VkSemaphore acquired, uint32_t& index) {
-    if (device_.strikes(Fault::kOutOfDate)) return VK_ERROR_OUT_OF_DATE_KHR;
-    if (device_.strikes(Fault::kSurfaceLost)) return VK_ERROR_SURFACE_LOST_KHR;
+    if (device_.context().strikes(Fault::kOutOfDate)) return VK_ERROR_OUT_OF_DATE_KHR;
+    if (device_.context().strikes(Fault::kSurfaceLost)) return VK_ERROR_SURFACE_LOST_KHR;
     return device_.vk().AcquireNextImageKHR(device_.handle(), handle_, UINT64_MAX, acquired, VK_NULL_HANDLE,
                                             &index);
 }

@@ -1,10 +1,9 @@
-// Blocking copies between host and device, for loading, readback and tests.
+#include "engine/gpu/transfer.h"
+
 #include <algorithm>
 #include <cstring>
 
 #include "engine/gpu/barrier.h"
-#include "engine/gpu/device.h"
-#include "engine/gpu/resources.h"
 
 namespace ag::gpu {
 namespace {
@@ -39,11 +38,6 @@ void blitMips(const Device& device, VkCommandBuffer commands, const Image& image
 }
 
 }  // namespace
-
-void retire(Device& device, std::unique_ptr<Buffer> buffer) {
-    if (!buffer) return;
-    device.retire([old = std::shared_ptr<Buffer>(std::move(buffer))]() mutable { old.reset(); });
-}
 
 void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset) {
     if (bytes.empty()) return;
@@ -106,29 +100,6 @@ void downloadImage(Device& device, const Image& image, VkImageLayout layout, std
         barrier(device, commands, image, 0, 0, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
     });
     std::memcpy(texels.data(), staging.mapped(), texels.size());
-}
-
-uint32_t texelSizeBytes(VkFormat format) {
-    switch (format) {
-        case VK_FORMAT_R8_UNORM:
-            return 1;
-        case VK_FORMAT_R16_SFLOAT:
-            return 2;
-        case VK_FORMAT_R8G8B8A8_UNORM:
-        case VK_FORMAT_R8G8B8A8_SRGB:
-        case VK_FORMAT_B8G8R8A8_UNORM:
-        case VK_FORMAT_R32_SFLOAT:
-        case VK_FORMAT_R32_UINT:
-        case VK_FORMAT_D32_SFLOAT:
-            return 4;
-        case VK_FORMAT_R16G16B16A16_SFLOAT:
-            return 8;
-        case VK_FORMAT_R32G32B32A32_SFLOAT:
-            return 16;
-        default:
-            AG_CHECK_MSG(false, "a format without a row in texelSizeBytes");
-    }
-    return 0;
 }
 
 }  // namespace ag::gpu

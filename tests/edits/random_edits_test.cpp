@@ -7,6 +7,7 @@
 #include <cstring>
 #include <deque>
 
+#include "engine/gpu/transfer.h"
 #include "engine/scene/static_scene.h"
 #include "gi/gi_renderer.h"
 #include "tests/edits/edited_world.h"

@@ -6,7 +6,8 @@
 
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/frame_timer.h"
-#include "engine/gpu/resources.h"
+#include "engine/gpu/shader_files.h"
+#include "engine/gpu/transfer.h"
 #include "tests/support/device_environment.h"
 
 namespace ag {
@@ -14,8 +15,8 @@ namespace {
 
 struct DeviceGraph {
     gpu::Device& device = test::device();
-    gpu::PipelineLibrary pipelines{device};
-    FrameGraph graph{&device, &pipelines};
+    gpu::PipelineLibrary pipelines{device, gpu::loadShader};
+    FrameGraph graph{&device.context(), &pipelines};
     FrameGraphOptions options{.timing = TimingMode::kOff};
 
     void execute() {
@@ -141,7 +142,7 @@ TEST(DeviceGraph, PassTimesArrive) {
         g.graph.image("image", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {64, 64}});
     g.graph.fullscreen("draw", "test/draw_value.frag").push(0.25f).colorClear(image, glm::vec4(0));
     g.graph.output(image);
-    g.graph.execute(VK_NULL_HANDLE);
+    g.graph.executeAlone([&](const auto& record) { return g.device.timeOnCpu(record); });
     EXPECT_GT(g.graph.report()[0].cpuMs, 0);
     EXPECT_EQ(g.read(image)[0].x, 0.25f);
 }

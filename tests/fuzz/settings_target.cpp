@@ -1,5 +1,4 @@
 // What a player or a command line may set: settings, keys.
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "engine/app/bindings.h"
@@ -16,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
         (void)settings.set(line);
         (void)ag::gi::applyPreset(line, gi);
     }
-    (void)settings.json();
+    (void)settings.table();
     (void)ag::parseBindings(text, "keys");
     return 0;
 }

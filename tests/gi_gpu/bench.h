@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "engine/gpu/transfer.h"
 #include "engine/scene/static_scene.h"
 #include "gi/gi_renderer.h"
 #include "tests/support/device_environment.h"

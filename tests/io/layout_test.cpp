@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <map>
 
-#include "engine/gpu/shader.h"
+#include "engine/gpu/shader_files.h"
 #include "shaders/direct_lighting/direct_lighting_io.h"
 #include "shaders/importance/importance_io.h"
 #include "shaders/ism_atlas/ism_atlas_io.h"

@@ -6,6 +6,7 @@
 
 #include "common/hemisphere_map.h"
 #include "common/sampling.h"
+#include "engine/gpu/transfer.h"
 #include "engine/scene/static_scene.h"
 #include "gi/gi_renderer.h"
 #include "gi/surface_sampling.h"

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "engine/core/image.h"
+#include "engine/gpu/transfer.h"
 #include "engine/scene/static_scene.h"
 #include "gi/gi_renderer.h"
 #include "tools/bench/svg.h"

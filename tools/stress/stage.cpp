@@ -1,4 +1,5 @@
 #include "tools/stress/stage.h"
+#include "engine/gpu/transfer.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "engine/gpu/shader.h"
+#include "engine/gpu/shader_files.h"
 
 #include <cstring>
 

@@ -1,0 +1,102 @@
+#include "engine/gpu/device_info.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace ag::gpu {
+namespace {
+
+#define AG_FEATURE(part, member)                                               \
+    RequiredFeature {                                                          \
+#member, [](DeviceFeatures & f) -> VkBool32& { return f.part.member; } \
+    }
+
+const std::array kRequired = {AG_FEATURE(core.features, multiDrawIndirect),
+                              AG_FEATURE(core.features, drawIndirectFirstInstance),
+                              AG_FEATURE(v12, timelineSemaphore),
+                              AG_FEATURE(v12, scalarBlockLayout),
+                              AG_FEATURE(v12, hostQueryReset),
+                              AG_FEATURE(rendering, dynamicRendering),
+                              AG_FEATURE(synchronization, synchronization2),
+                              AG_FEATURE(maintenance, maintenance4)};
+#undef AG_FEATURE
+
+constexpr std::array kExtensionsOf13 = {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME,
+                                        VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
+                                        VK_KHR_MAINTENANCE_4_EXTENSION_NAME};
+
+void readProperties(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& info) {
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType =
+                                                    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
+                                            .pNext = &subgroup};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           .pNext = &driver};
+    vk.GetPhysicalDeviceProperties2(physical, &properties);
+    info.name = properties.properties.deviceName;
+    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.apiVersion = properties.properties.apiVersion;
+    info.subgroupSize = subgroup.subgroupSize;
+    info.limits = properties.properties.limits;
+    info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info.timestampPeriodNs = info.limits.timestampComputeAndGraphics ? info.limits.timestampPeriod : 0;
+    constexpr VkSubgroupFeatureFlags kSubgroup =
+        VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    const bool has = (subgroup.supportedOperations & kSubgroup) == kSubgroup &&
+                     (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
+    (has ? info.enabled : info.missing).push_back(kSubgroupOperations);
+}
+
+bool hasPartsOf13(const Functions& vk, VkPhysicalDevice physical) {
+    return std::ranges::all_of(kExtensionsOf13,
+                               [&](const char* part) { return hasExtension(vk, physical, part); });
+}
+
+// Fills enabled and missing with the required features.
+void listFeatures(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& info) {
+    if (info.apiVersion < VK_API_VERSION_1_2 ||
+        (info.apiVersion < VK_API_VERSION_1_3 && !hasPartsOf13(vk, physical))) {
+        info.missing.push_back("Vulkan 1.3");
+        return;
+    }
+    DeviceFeatures has;
+    vk.GetPhysicalDeviceFeatures2(physical, &has.core);
+    for (const RequiredFeature& feature : kRequired)
+        (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
+    info.counts = has.core.features.pipelineStatisticsQuery;  // done without where not
+    if (info.counts) info.enabled.push_back("pipelineStatisticsQuery");
+}
+
+}  // namespace
+
+std::span<const RequiredFeature> requiredFeatures() {
+    return kRequired;
+}
+
+void requireAll(DeviceFeatures& features) {
+    for (const RequiredFeature& feature : kRequired)
+        feature.field(features) = VK_TRUE;
+}
+
+std::span<const char* const> extensionsOf13() {
+    return kExtensionsOf13;
+}
+
+DeviceInfo describeDevice(const Functions& vk, VkPhysicalDevice physical) {
+    DeviceInfo info;
+    readProperties(vk, physical, info);
+    listFeatures(vk, physical, info);
+    return info;
+}
+
+bool hasExtension(const Functions& vk, VkPhysicalDevice physical, const char* name) {
+    uint32_t count = 0;
+    vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::ranges::any_of(
+        extensions, [&](const VkExtensionProperties& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+}  // namespace ag::gpu
