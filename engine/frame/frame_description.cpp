@@ -46,6 +46,7 @@ void describeWork(const Pass& pass, std::span<const Use> uses, std::span<const R
                 if (isTarget(use.kind)) out.work = product(glm::uvec3(resources[use.resource].image.size, 1));
             break;
         case PassKind::kRaster:
+        case PassKind::kCallback:
             out.unit = WorkUnit::kIndirectDraws;
             break;
         default:

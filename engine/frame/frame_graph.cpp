@@ -36,6 +36,7 @@ void FrameGraph::beginFrame(const FrameGraphOptions& options) {
     impl_->draws.clear();
     impl_->parts.clear();
     impl_->data.clear();
+    impl_->callbacks.clear();
 }
 
 namespace {
@@ -188,6 +189,45 @@ BufferHandle GraphScope::importBuffer(std::string_view name, const gpu::Buffer& 
         {.name = name, .scope = id_, .buffer = info, .importedBuffer = &buffer, .importVersion = version})};
 }
 
+// From here on the resource stands for the host's object: what was done to it before this frame is not known.
+Memory& FrameGraph::Impl::borrow(uint32_t resource, const Borrowed& how) {
+    Resource& r = resources[resource];
+    Slot& slot = slots[r.slot];
+    if (!how.untouched) forget(slot);
+    slot.fresh = false;
+    r.isOutput = true;
+    r.outputLayout = how.after;
+    Memory& memory = slot.halves[0];
+    memory.sync = {.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                   .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   .layout = r.isImage ? how.before : VK_IMAGE_LAYOUT_UNDEFINED};
+    return memory;
+}
+
+ImageHandle GraphScope::borrowImage(std::string_view name, const gpu::Image& image,
+                                    const Borrowed& how) const {
+    const ImageHandle handle =
+        borrowImage(name, {.format = image.desc().format, .size = image.desc().size}, how);
+    FrameGraph::Impl& g = *graph_->impl_;
+    g.slots[g.resources[handle.index].slot].halves[0].borrowedImage = &image;
+    return handle;
+}
+
+ImageHandle GraphScope::borrowImage(std::string_view name, const ImageInfo& info, const Borrowed& how) const {
+    const ImageHandle handle = image(name, info);
+    graph_->impl_->borrow(handle.index, how);
+    return handle;
+}
+
+BufferHandle GraphScope::borrowBuffer(std::string_view name, const gpu::Buffer& borrowed,
+                                      const Borrowed& how) const {
+    const BufferHandle handle =
+        buffer(name, {.sizeBytes = borrowed.sizeBytes(), .texelFormat = borrowed.desc().texelFormat});
+    graph_->impl_->borrow(handle.index, how).borrowedBuffer = &borrowed;
+    return handle;
+}
+
 ImageHandle GraphScope::importImage(std::string_view name, const ImageInfo& info, uint64_t version) const {
     return {graph_->impl_->import(
         {.name = name, .scope = id_, .isImage = true, .image = info, .importVersion = version})};
@@ -285,6 +325,10 @@ PassBuilder GraphScope::raster(std::string_view name, std::string_view vertexSha
     g.passes[pass].shader = fragmentShader;
     g.passes[pass].raster.vertexLayout = layout;
     return {*graph_, pass};
+}
+
+PassBuilder GraphScope::callback(std::string_view name) const {
+    return {*graph_, graph_->impl_->addPass(id_, held_, name, PassKind::kCallback)};
 }
 
 void GraphScope::fill(std::string_view name, BufferHandle buffer, uint32_t word) const {

@@ -117,6 +117,23 @@ class FrameGraph;
 class GraphScope;
 struct FrameDescription;  // frame_description.h
 
+// A host's image or buffer that passes may write. The host is done with it, in any stage, before the graph's
+// commands; after them it may use it in any.
+struct Borrowed {
+    VkImageLayout before = VK_IMAGE_LAYOUT_GENERAL;  // of an image: that it comes in
+    VkImageLayout after = VK_IMAGE_LAYOUT_GENERAL;   // that it is left in
+    // It holds what the graph left there last. Otherwise it is written anew.
+    bool untouched = false;
+};
+
+// What a pass that records by itself is given.
+struct PassRecording {
+    VkCommandBuffer commands;
+    const gpu::Pipeline* pipeline;  // bound with the pass's descriptor set; null if the pass has no shaders
+    glm::uvec2 size;                // pixels of its attachments; viewport and scissor are all of it
+};
+using PassCallback = std::function<void(const PassRecording&)>;
+
 // Fluent declaration of one pass, whole before the next pass is added.
 class PassBuilder {
   public:
@@ -174,6 +191,9 @@ class PassBuilder {
     // Raster passes.
     PassBuilder& geometry(const Geometry& geometry);
     PassBuilder& draw(const RasterDraw& draw);
+    // Instead of draws: what the pass does, within its attachments if it has any. What that depends on
+    // besides the resources read is told by key(). It may change all state of the command buffer.
+    PassBuilder& record(PassCallback callback);
 
   private:
     friend class GraphScope;
@@ -275,7 +295,11 @@ class GraphScope {
     ImageHandle importImage(std::string_view name, const gpu::Image& image, uint64_t version,
                             VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) const;
     BufferHandle importBuffer(std::string_view name, const gpu::Buffer& buffer, uint64_t version) const;
+    // The same of what passes may write. The object lives until the frame is recorded.
+    ImageHandle borrowImage(std::string_view name, const gpu::Image& image, const Borrowed& how) const;
+    BufferHandle borrowBuffer(std::string_view name, const gpu::Buffer& buffer, const Borrowed& how) const;
     // Null-device variants for tests.
+    ImageHandle borrowImage(std::string_view name, const ImageInfo& info, const Borrowed& how) const;
     ImageHandle importImage(std::string_view name, const ImageInfo& info, uint64_t version) const;
     BufferHandle importBuffer(std::string_view name, const BufferInfo& info, uint64_t version) const;
 
@@ -288,6 +312,8 @@ class GraphScope {
     PassBuilder fullscreen(std::string_view name, std::string_view fragmentShader) const;
     PassBuilder raster(std::string_view name, std::string_view vertexShader, std::string_view fragmentShader,
                        gpu::VertexLayout layout) const;
+    // Of raster state that is the recorder's own business: see PassBuilder::record.
+    PassBuilder callback(std::string_view name) const;
     void fill(std::string_view name, BufferHandle buffer, uint32_t word) const;
     // Host data (some hundred KiB at most, copied now) into a buffer; keyed by its bytes.
     void upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes) const;

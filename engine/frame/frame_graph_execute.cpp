@@ -34,7 +34,9 @@ void FrameGraph::Impl::addBarrier(Resource& r, const Access& access, bool discar
         record->barriers.push_back({r.name, srcStages, access.stages, srcAccess, dstAccess,
                                     r.isImage ? oldLayout : VK_IMAGE_LAYOUT_UNDEFINED,
                                     r.isImage ? access.layout : VK_IMAGE_LAYOUT_UNDEFINED});
-    if (needed && memory.image)
+    const gpu::Image* const image = imageIn(memory);
+    const gpu::Buffer* const buffer = bufferIn(memory);
+    if (needed && image)
         imageBarriers.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
                                  .srcStageMask = srcStages,
                                  .srcAccessMask = srcAccess,
@@ -44,10 +46,10 @@ void FrameGraph::Impl::addBarrier(Resource& r, const Access& access, bool discar
                                  .newLayout = access.layout,
                                  .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                  .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                 .image = memory.image->handle(),
-                                 .subresourceRange = {memory.image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
+                                 .image = image->handle(),
+                                 .subresourceRange = {image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
                                                       VK_REMAINING_ARRAY_LAYERS}});
-    if (needed && memory.buffer)
+    if (needed && buffer)
         bufferBarriers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
                                   .srcStageMask = srcStages,
                                   .srcAccessMask = srcAccess,
@@ -55,7 +57,7 @@ void FrameGraph::Impl::addBarrier(Resource& r, const Access& access, bool discar
                                   .dstAccessMask = dstAccess,
                                   .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                   .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                  .buffer = memory.buffer->handle(),
+                                  .buffer = buffer->handle(),
                                   .size = VK_WHOLE_SIZE});
     if (write || relayout) {
         // A layout change counts as a write that ended before these stages.
@@ -115,7 +117,8 @@ void FrameGraph::Impl::synchronize(VkCommandBuffer commands, const Pass& pass, P
 void FrameGraph::Impl::synchronizeOutputs(VkCommandBuffer commands) {
     for (Resource& r : resources) {
         if (!r.isOutput || r.kind == ResourceKind::kImport) continue;
-        if (slots[r.slot].halves[r.half].version == 0) continue;
+        const Memory& memory = slots[r.slot].halves[r.half];
+        if (memory.version == 0 && !memory.borrowedImage) continue;
         if (r.isImage)
             addBarrier(r,
                        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, 0, r.outputLayout},

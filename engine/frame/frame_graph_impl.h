@@ -43,6 +43,8 @@ struct GroupPart {
 struct Memory {
     std::unique_ptr<gpu::Image> image;
     std::unique_ptr<gpu::Buffer> buffer;
+    const gpu::Image* borrowedImage = nullptr;  // instead: a host's, of this frame
+    const gpu::Buffer* borrowedBuffer = nullptr;
     SyncState sync;
     uint64_t version = 0;      // of the contents; 0: nothing
     uint64_t stepVersion = 0;  // the same without what histories were before
@@ -50,6 +52,13 @@ struct Memory {
     std::vector<Patch> patches;
     std::vector<GroupPart> parts;
 };
+
+inline const gpu::Image* imageIn(const Memory& memory) {
+    return memory.borrowedImage ? memory.borrowedImage : memory.image.get();
+}
+inline const gpu::Buffer* bufferIn(const Memory& memory) {
+    return memory.borrowedBuffer ? memory.borrowedBuffer : memory.buffer.get();
+}
 
 // Memory that scratch images share.
 struct AliasBucket {
@@ -114,7 +123,16 @@ struct Use {
     uint64_t stepVersionAfter = 0;                 // see Memory
 };
 
-enum class PassKind : uint8_t { kCompute, kFullscreen, kRaster, kFill, kUpload, kCopyImage, kCopyBuffer };
+enum class PassKind : uint8_t {
+    kCompute,
+    kFullscreen,
+    kRaster,
+    kCallback,
+    kFill,
+    kUpload,
+    kCopyImage,
+    kCopyBuffer
+};
 
 struct Pass {
     std::string_view name, shader, vertexShader;
@@ -133,6 +151,7 @@ struct Pass {
     bool dispatchIndirect = false;
     uint64_t indirectOffset = 0;
     Geometry geometry;
+    uint32_t callback = ~0u;  // of FrameGraph::Impl::callbacks
     uint32_t fillWord = 0;
     uint32_t dataOffset = 0, dataSize = 0;  // upload bytes
     // Planning
@@ -174,6 +193,7 @@ struct FrameGraph::Impl {
     std::vector<RasterDraw> draws;
     std::vector<GroupPart> parts;
     std::vector<std::byte> data;
+    std::vector<PassCallback> callbacks;
     std::vector<PassReport> report;
     std::vector<PassRecord> records;
     std::vector<PassSpan> spans;  // of frame `spansFrame`
@@ -194,8 +214,8 @@ struct FrameGraph::Impl {
     std::array<VkSampler, 4> samplers{};
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
-    std::unique_ptr<FrameTimer> timer;     // made when passes are timed first
-    std::unique_ptr<PassCounter> counter;  // made when they are counted first
+    std::unique_ptr<FrameTimer> timer;                   // made when passes are timed first
+    std::unique_ptr<PassCounter> counter;                // made when they are counted first
     std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
 
@@ -203,6 +223,7 @@ struct FrameGraph::Impl {
     uint32_t declare(Resource resource, bool history);
     uint32_t declareHistory(Resource resource);
     uint32_t import(Resource resource);
+    Memory& borrow(uint32_t resource, const Borrowed& how);
     uint32_t find(uint32_t scope, bool isImage, std::string_view name) const;
     uint32_t addPass(uint32_t scope, bool held, std::string_view name, PassKind kind);
     Pass& declaring(uint32_t pass);
@@ -252,6 +273,7 @@ struct FrameGraph::Impl {
     std::vector<Patch>* patchesOf(const Pass& pass);
     uint64_t patchKey(const Pass& pass, size_t first, size_t end) const;
     void recordTransfer(VkCommandBuffer commands, const Pass& pass);
+    void recordCallback(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set, glm::uvec2 size);
     gpu::PipelineRequest requestFor(const Pass& pass, const RasterDraw* draw) const;
     void finishPass(const Pass& pass);
     void readTimes(VkCommandBuffer commands);

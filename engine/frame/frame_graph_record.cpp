@@ -150,9 +150,27 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
                                .colorAttachmentCount = colorCount,
                                .pColorAttachments = colors.data(),
                                .pDepthAttachment = hasDepth ? &depth : nullptr};
-    context->vk().CmdBeginRendering(commands, &info);
-    recordDraws(commands, pass, pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE, size);
-    context->vk().CmdEndRendering(commands);
+    const VkDescriptorSet set = pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE;
+    const bool attached = colorCount > 0 || hasDepth;
+    if (attached) context->vk().CmdBeginRendering(commands, &info);
+    if (pass.callback != ~0u)
+        recordCallback(commands, pass, set, size);
+    else
+        recordDraws(commands, pass, set, size);
+    if (attached) context->vk().CmdEndRendering(commands);
+}
+
+void FrameGraph::Impl::recordCallback(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
+                                      glm::uvec2 size) {
+    const gpu::Functions& vk = context->vk();
+    if (pass.pipeline) {
+        vk.CmdBindPipeline(commands, pass.pipeline->bindPoint, pass.pipeline->handle);
+        if (set)
+            vk.CmdBindDescriptorSets(commands, pass.pipeline->bindPoint, pass.pipeline->layout, 0, 1, &set, 0,
+                                     nullptr);
+    }
+    if (size != glm::uvec2(0)) setViewport(vk, commands, {0, 0, size});
+    callbacks[pass.callback]({commands, pass.pipeline, size});
 }
 
 void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
@@ -276,6 +294,7 @@ void FrameGraph::Impl::recordPass(VkCommandBuffer commands, const Pass& pass) {
             break;
         case PassKind::kFullscreen:
         case PassKind::kRaster:
+        case PassKind::kCallback:
             recordRaster(commands, pass);
             break;
         default:

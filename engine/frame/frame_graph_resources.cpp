@@ -178,14 +178,16 @@ void FrameGraph::Impl::zeroNewHistories(VkCommandBuffer commands) {
 
 const gpu::Image& FrameGraph::Impl::imageOf(const Resource& r) const {
     if (r.kind == ResourceKind::kImport) return *r.importedImage;
-    AG_CHECK_MSG(slots[r.slot].halves[r.half].image != nullptr, std::string(r.name));
-    return *slots[r.slot].halves[r.half].image;
+    const gpu::Image* const image = imageIn(slots[r.slot].halves[r.half]);
+    AG_CHECK_MSG(image != nullptr, std::string(r.name));
+    return *image;
 }
 
 const gpu::Buffer& FrameGraph::Impl::bufferOf(const Resource& r) const {
     if (r.kind == ResourceKind::kImport) return *r.importedBuffer;
-    AG_CHECK_MSG(slots[r.slot].halves[r.half].buffer != nullptr, std::string(r.name));
-    return *slots[r.slot].halves[r.half].buffer;
+    const gpu::Buffer* const buffer = bufferIn(slots[r.slot].halves[r.half]);
+    AG_CHECK_MSG(buffer != nullptr, std::string(r.name));
+    return *buffer;
 }
 
 void FrameGraph::Impl::checkBindings(const Pass& pass, const gpu::Pipeline& pipeline) {

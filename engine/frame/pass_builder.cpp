@@ -229,6 +229,12 @@ PassBuilder& PassBuilder::draw(const RasterDraw& draw) {
     return *this;
 }
 
+PassBuilder& PassBuilder::record(PassCallback callback) {
+    AG_PASS.callback = uint32_t(graph_->impl_->callbacks.size());
+    graph_->impl_->callbacks.push_back(std::move(callback));
+    return *this;
+}
+
 #undef AG_PASS
 
 }  // namespace ag

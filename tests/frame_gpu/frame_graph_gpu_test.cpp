@@ -147,6 +147,67 @@ TEST(DeviceGraph, PassTimesArrive) {
     EXPECT_EQ(g.read(image)[0].x, 0.25f);
 }
 
+// A host's image: written by a pass, left in the layout the host wants, not written again while the host
+// leaves it alone.
+TEST(DeviceGraph, WritesAHostsImage) {
+    DeviceGraph g;
+    const gpu::ImageDesc desc{.name = "host", .format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {32, 16}};
+    const gpu::Image host(g.device, desc);
+    const gpu::Image borrowed(g.device, desc, host.handle(), host.view());
+    const auto frame = [&](const Borrowed& how, float value) {
+        g.graph.beginFrame(g.options);
+        const ImageHandle image = g.graph.borrowImage("host", borrowed, how);
+        g.graph.fullscreen("draw", "test/draw_value.frag").push(value).colorClear(image, glm::vec4(0));
+        g.execute();
+        return g.graph.report()[0].outcome;
+    };
+    const auto content = [&] {
+        std::vector<glm::vec4> texels(32 * 16);
+        gpu::downloadImage(g.device, host, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                           std::as_writable_bytes(std::span(texels)));
+        return texels[100].x;
+    };
+    constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    EXPECT_EQ(frame({VK_IMAGE_LAYOUT_UNDEFINED, kRead}, 0.25f), PassOutcome::kRan);
+    EXPECT_EQ(content(), 0.25f);
+    EXPECT_EQ(frame({kRead, kRead, true}, 0.25f), PassOutcome::kSkipped);
+    EXPECT_EQ(frame({kRead, kRead, false}, 0.25f), PassOutcome::kRan) << "the host may have changed it";
+    EXPECT_EQ(frame({kRead, kRead, true}, 0.5f), PassOutcome::kRan);
+    EXPECT_EQ(content(), 0.5f);
+}
+
+// What a callback draws stands in the frame as any pass does: between barriers, and skipped by its key.
+TEST(DeviceGraph, PassesMayRecordByThemselves) {
+    DeviceGraph g;
+    uint32_t calls = 0;
+    const auto frame = [&](uint64_t key, float value) {
+        g.graph.beginFrame(g.options);
+        const ImageHandle image =
+            g.graph.image("image", {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .size = {64, 64}});
+        g.graph.callback("host.draw")
+            .colorClear(image, glm::vec4(0.125f))
+            .key(key)
+            .record([&](const auto& r) {
+                ++calls;
+                EXPECT_EQ(r.size, glm::uvec2(64));
+                const VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT,
+                                              .clearValue = {.color = {{value, 0, 0, 0}}}};
+                const VkClearRect half{{{0, 0}, {32, 64}}, 0, 1};
+                g.device.vk().CmdClearAttachments(r.commands, 1, &clear, 1, &half);
+            });
+        g.graph.output(image);
+        g.execute();
+        return g.read(image);
+    };
+    const auto first = frame(1, 0.5f);
+    EXPECT_EQ(first[0].x, 0.5f);
+    EXPECT_EQ(first[63].x, 0.125f);
+    EXPECT_EQ(frame(1, 0.75f)[0].x, 0.5f) << "its key says that it draws the same";
+    EXPECT_EQ(calls, 1u);
+    EXPECT_EQ(frame(2, 0.75f)[0].x, 0.75f);
+    EXPECT_EQ(calls, 2u);
+}
+
 // A random web of images: some drawn, some mixed from two earlier ones, some in shared memory, some asked
 // for.
 struct Node {
