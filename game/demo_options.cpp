@@ -33,11 +33,11 @@ Status loadLevel(Demo& demo) {
     return Ok{};
 }
 
-void useQuality(Demo& demo, Quality preset, const gi::QualityStep& step) {
+void useQuality(Demo& demo, Quality preset, const render::QualityStep& step) {
     const bool automatic = preset == Quality::kAutomatic;
-    const bool small = step.valCount <= gi::qualitySteps()[0].valCount;  // with what else low leaves out
+    const bool small = step.valCount <= render::qualitySteps()[0].valCount;  // with what else low leaves out
     applyQuality(!automatic ? preset : small ? Quality::kLow : Quality::kMedium, demo.gi);
-    if (automatic) gi::applyQualityStep(step, demo.gi);
+    if (automatic) render::applyQualityStep(step, demo.gi);
     demo.gi.composite.exposure = demo.user.exposure;
     demo.sound.volume = demo.user.volume;
     for (const std::string& assignment : demo.options.assignments)

@@ -6,12 +6,12 @@
 
 #include "engine/core/settings.h"
 #include "engine/frame/frame_graph.h"
+#include "engine/renderer/frame_budget.h"
+#include "engine/renderer/renderer.h"
 #include "engine/scene/extract_system.h"
 #include "game/game.h"
 #include "game/sounds.h"
 #include "game/user_files.h"
-#include "gi/frame_budget.h"
-#include "gi/gi_renderer.h"
 
 namespace ag::game {
 
@@ -38,7 +38,7 @@ struct DemoOptions {
 struct Demo {
     DemoOptions options;
     std::unique_ptr<Game> game;
-    gi::GiSettings gi;
+    render::RenderSettings gi;
     SoundSettings sound;
     FrameGraphOptions graph;
     Settings settings;
@@ -48,7 +48,7 @@ struct Demo {
     std::vector<Input> replay;  // empty: none
     std::vector<Input> recorded;
     gpu::FaultPlan fault;
-    std::optional<gi::Layer> layer;  // shown instead of the final image
+    std::optional<render::Layer> layer;  // shown instead of the final image
 };
 
 // Exit codes: 0 good, 1 a check failed, 2 bad arguments or input, 3 the device failed.
@@ -60,7 +60,7 @@ gpu::DeviceOptions deviceOptions(const Demo& demo, std::optional<gpu::WindowSurf
 // The level anew, from its file.
 Status loadLevel(Demo& demo);
 // The preset's settings, or the automatic step's, with what the command line set over them.
-void useQuality(Demo& demo, Quality preset, const gi::QualityStep& step);
+void useQuality(Demo& demo, Quality preset, const render::QualityStep& step);
 // The tick's input: from the replay while it lasts, else what is given; kept if a recording was asked for.
 Input nextInput(Demo& demo, uint64_t tick, const Input& given);
 // Saves the recording if one was asked for.

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <utility>
 
-#include "capture/save_capture.h"
-#include "capture/schedule_spans.h"
+#include "engine/capture/save_capture.h"
+#include "engine/capture/schedule_spans.h"
 #include "engine/core/log.h"
 
 namespace ag::game {
@@ -48,7 +48,7 @@ FrameGraphOptions FrameCapture::options(const FrameGraphOptions& asked) const {
     return recorder_ ? recorder_->options(asked) : asked;
 }
 
-void FrameCapture::declare(GraphScope scope, const gi::GiFrame& frame) {
+void FrameCapture::declare(GraphScope scope, const render::RenderFrame& frame) {
     if (recorder_) recorder_->declare(scope, frame);
 }
 

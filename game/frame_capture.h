@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "capture/folder.h"
-#include "capture/record.h"
+#include "engine/capture/folder.h"
+#include "engine/capture/record.h"
 #include "game/demo_options.h"
 
 namespace ag::game {
@@ -17,7 +17,7 @@ namespace ag::game {
 class FrameCapture {
   public:
     // `renderDoc`: for frame.rdc, where it is at hand.
-    FrameCapture(gi::GiRenderer& renderer, gpu::RenderDoc renderDoc)
+    FrameCapture(render::Renderer& renderer, gpu::RenderDoc renderDoc)
         : renderer_(renderer), renderDoc_(renderDoc) {}
 
     // Begins to record demo.options.captureFrames frames into a new folder, unless one is under way.
@@ -27,7 +27,7 @@ class FrameCapture {
     // Around each frame, in this order.
     void noteSystems(const Schedule& schedule);  // after each run of one
     FrameGraphOptions options(const FrameGraphOptions& asked) const;
-    void declare(GraphScope scope, const gi::GiFrame& frame);
+    void declare(GraphScope scope, const render::RenderFrame& frame);
     void note(const Demo& demo, glm::uvec2 size);  // when it was submitted
 
     // What there is to tell the player, for a few seconds; else empty.
@@ -37,7 +37,7 @@ class FrameCapture {
     void finish(const Demo& demo, glm::uvec2 size);
     void say(std::string sentence);
 
-    gi::GiRenderer& renderer_;
+    render::Renderer& renderer_;
     gpu::RenderDoc renderDoc_;
     std::optional<capture::FrameRecorder> recorder_;
     std::optional<capture::Folder> folder_;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/physics/physics_system.h"
+#include "engine/renderer/probe_components.h"
 #include "engine/scene/mover.h"
-#include "gi/gi_components.h"
 
 namespace ag::game {
 namespace {
@@ -36,8 +36,8 @@ void addMovable(const Furnished& f, const Body& body) {
 
 void addFlower(const Furnished& f) {
     f.world.add(f.entity, Flower{f.node.extras.wants, f.node.extras.amount, f.node.extras.room});
-    f.world.add(f.entity, gi::IrradianceProbe{.offset = {0, kFlowerHead, 0}});
-    f.world.add(f.entity, gi::ProbeLight{});
+    f.world.add(f.entity, render::IrradianceProbe{.offset = {0, kFlowerHead, 0}});
+    f.world.add(f.entity, render::ProbeLight{});
 }
 
 void addPetal(const Furnished& f, const std::vector<Entity>& entities) {

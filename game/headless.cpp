@@ -27,7 +27,7 @@ class HeadlessRun {
         : demo_(demo),
           renderer_(device, demo.options.serial ? 1 : 0),
           device_(device),
-          budget_(demo.options.budgetMs, gi::firstFullSizeStep()) {
+          budget_(demo.options.budgetMs, render::firstFullSizeStep()) {
         renderer_.load(demo.game->level().geometry);
         const uint32_t replay = uint32_t(demo.replay.size()), per = demo.options.ticksPerFrame;
         frames_ = demo.options.frames ? demo.options.frames : std::max((replay + per - 1) / per, 1u);
@@ -46,7 +46,7 @@ class HeadlessRun {
             const auto end = Clock::now();
             note(i, milliseconds(end - begin), milliseconds(end - start));
             if (i == frames_ / 4) residentBefore_ = residentMib();
-            if (sheet_.wants(i)) sheet_.add(gi::readImage(renderer_, shown_));
+            if (sheet_.wants(i)) sheet_.add(render::readImage(renderer_, shown_));
             if (end - lastLine > std::chrono::seconds(1)) {
                 std::cerr << progressLine(i);
                 lastLine = end;
@@ -60,13 +60,14 @@ class HeadlessRun {
     void show() {
         const glm::uvec2 size = demo_.options.size;
         demo_.game->frame(size);
-        renderer_.render(demo_.game->scene(), size, demo_.gi, demo_.graph,
-                         [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
-                             shown_ = demo_.layer ? gi::addLayerView(scope, view, frame, *demo_.layer, size,
-                                                                     demo_.gi.composite)
-                                                  : frame.outputs.display;
-                             scope.output(shown_);
-                         });
+        renderer_.render(
+            demo_.game->scene(), size, demo_.gi, demo_.graph,
+            [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
+                shown_ = demo_.layer ? render::addLayerView(scope, view, frame, *demo_.layer, size,
+                                                            demo_.gi.composite)
+                                     : frame.outputs.display;
+                scope.output(shown_);
+            });
         demo_.game->takeReadings(renderer_.probeReadings());
     }
 
@@ -82,7 +83,7 @@ class HeadlessRun {
         costMs_.push_back(cost);
         if (demo_.options.budgetMs > 0 && budget_.frame(cost)) {
             costMs_.clear();
-            useQuality(demo_, Quality::kAutomatic, gi::qualitySteps()[budget_.step()]);
+            useQuality(demo_, Quality::kAutomatic, render::qualitySteps()[budget_.step()]);
         }
     }
 
@@ -115,7 +116,7 @@ class HeadlessRun {
         return fmt::format(
             "budget {:.1f} ms: quality step {}, passes of a whole frame {:.1f} ms (median of the {} "
             "frames since it was chosen)\n\n",
-            demo_.options.budgetMs, gi::qualitySteps()[budget_.step()].name, quantile(costMs_, 0.5),
+            demo_.options.budgetMs, render::qualitySteps()[budget_.step()].name, quantile(costMs_, 0.5),
             costMs_.size());
     }
 
@@ -127,7 +128,7 @@ class HeadlessRun {
             if (const Status saved = writeFileSafely(o.report, text); !saved)
                 return refuse(saved.error().message);
         if (!o.screenshot.empty())
-            if (const Status saved = saveImage(gi::readImage(renderer_, shown_), o.screenshot); !saved)
+            if (const Status saved = saveImage(render::readImage(renderer_, shown_), o.screenshot); !saved)
                 return refuse(saved.error().message);
         if (!o.moments.empty())
             if (const Status saved = saveImage(sheet_.image(), o.moments); !saved)
@@ -136,10 +137,10 @@ class HeadlessRun {
     }
 
     Demo& demo_;
-    gi::GiRenderer renderer_;
+    render::Renderer renderer_;
     gpu::Device& device_;
-    gi::BudgetController budget_;
-    gi::FrameCost cost_;
+    render::BudgetController budget_;
+    render::FrameCost cost_;
     PassLog passes_;
     ContactSheet sheet_;
     std::vector<double> frameMs_, costMs_;  // of all frames; of whole frames at this quality

@@ -6,9 +6,9 @@
 #include <array>
 
 #include "engine/physics/physics_system.h"
+#include "engine/renderer/probe_components.h"
 #include "engine/scene/components.h"
 #include "game/systems/carry_crates.h"
-#include "gi/gi_components.h"
 
 namespace ag::game {
 namespace {
@@ -92,8 +92,8 @@ HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints) {
     View<const Room>(world, {}).each([&](const Room& room) {
         if (room.index == progress.room) here = &room;
     });
-    View<const Flower, const gi::ProbeLight, const LocalTransform>(world, {}).each(
-        [&](const Flower& f, const gi::ProbeLight& light, const LocalTransform& at) {
+    View<const Flower, const render::ProbeLight, const LocalTransform>(world, {}).each(
+        [&](const Flower& f, const render::ProbeLight& light, const LocalTransform& at) {
             if (f.room != progress.room) return;
             // Full bars are the amount, of light that is exactly the wanted colour.
             const glm::vec3 full = f.wants * (3 * f.amount / (f.wants.x + f.wants.y + f.wants.z));

@@ -102,14 +102,14 @@ Status prepare(Demo& demo) {
                       &demo.graph.skip);
     demo.settings.add({"sound", "volume", 0, 1, "", "of the sound; 0 opens no sound device"},
                       &demo.sound.volume);
-    gi::registerSettings(demo.settings, demo.gi);
+    render::registerSettings(demo.settings, demo.gi);
     for (const std::string& assignment : o.assignments)
         if (Status set = demo.settings.set(assignment); !set) return set;
     const auto size = parseSize(o.sizeText);
     if (!size) return size.error();
     demo.options.size = *size;
     if (!o.view.empty()) {
-        demo.layer = gi::layerFromName(o.view);
+        demo.layer = render::layerFromName(o.view);
         if (!demo.layer) return Error{"there is no intermediate named '" + o.view + "'"};
     }
     const auto fault = gpu::parseFaultPlan(o.fault);
@@ -120,7 +120,7 @@ Status prepare(Demo& demo) {
     if (Status s = checkWritable({o.record, o.screenshot, o.moments, o.report}); !s) return s;
     if (Status s = readReplay(demo); !s) return s;
     if (o.budgetMs > 0) demo.user.quality = Quality::kAutomatic;
-    useQuality(demo, demo.user.quality, gi::qualitySteps()[gi::firstFullSizeStep()]);
+    useQuality(demo, demo.user.quality, render::qualitySteps()[render::firstFullSizeStep()]);
     if (Status s = loadLevel(demo); !s) return s;
     return o.resume ? continueGame(*demo.game, demo.files.save()) : Status(Ok{});
 }

@@ -8,11 +8,11 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kNames = {"low", "medium", "high", "ultra", "auto"};
 // Less of what a CPU is slow at than the renderer's own low: it has two of them.
-void trim(gi::GiSettings& gi) {
-    gi.rsm.resolution = 64;
-    gi.valClustering.count = 48;
-    gi.valClustering.settleFrames = 8;
-    gi.ismAtlas.pointsPerMap = 768;
+void trim(render::RenderSettings& gi) {
+    gi.bounce.rsm.resolution = 64;
+    gi.bounce.valClustering.count = 48;
+    gi.bounce.valClustering.settleFrames = 8;
+    gi.bounce.ismAtlas.pointsPerMap = 768;
     gi.lightClusters.most = 16;
     gi.lampShadows.faceResolution = 256;
     gi.lampShadows.atlasSize = 2048;
@@ -34,10 +34,10 @@ float renderScale(Quality quality) {
     return quality == Quality::kLow ? 0.5f : 1.0f;
 }
 
-void applyQuality(Quality preset, gi::GiSettings& gi) {
-    const gi::CompositeSettings eye = gi.composite;
+void applyQuality(Quality preset, render::RenderSettings& gi) {
+    const render::CompositeSettings eye = gi.composite;
     gi = {};
-    gi::applyPreset(qualityName(preset), gi);
+    render::applyPreset(qualityName(preset), gi);
     if (preset == Quality::kLow) trim(gi);
     gi.composite = eye;
 }

@@ -1,11 +1,11 @@
 // How much light is worth: presets of the renderer's settings with a share of the window's pixels. The
-// automatic choice is gi/frame_budget's.
+// automatic choice is engine/renderer/frame_budget's.
 #pragma once
 
 #include <optional>
 #include <string_view>
 
-#include "gi/gi_settings.h"
+#include "engine/renderer/render_settings.h"
 
 namespace ag::game {
 
@@ -14,10 +14,10 @@ enum class Quality : uint32_t { kLow, kMedium, kHigh, kUltra, kAutomatic };
 std::optional<Quality> qualityFromName(std::string_view name);
 std::string_view qualityName(Quality quality);
 
-// Of the window's sides that is rendered; automatic: see gi::QualityStep.
+// Of the window's sides that is rendered; automatic: see render::QualityStep.
 float renderScale(Quality quality);
 
 // Replaces what presets are about; the eye's exposure stays.
-void applyQuality(Quality preset, gi::GiSettings& gi);
+void applyQuality(Quality preset, render::RenderSettings& gi);
 
 }  // namespace ag::game

@@ -2,6 +2,7 @@
 // overlap.
 #include "game/schedule.h"
 
+#include "engine/renderer/probe_systems.h"
 #include "engine/scene/animation_system.h"
 #include "engine/scene/transform_system.h"
 #include "game/systems/carry_crates.h"
@@ -12,14 +13,13 @@
 #include "game/systems/move_boxes.h"
 #include "game/systems/play_animations.h"
 #include "game/systems/walk_player.h"
-#include "gi/gi_systems.h"
 
 namespace ag::game {
 
 Schedule makeTickSchedule() {
     Schedule s;
     // What the light of the frame before last says
-    s.add("readProbes", gi::readProbes);
+    s.add("readProbes", render::readProbes);
     s.add("growFlowers", growFlowers);
     s.add("judgeRooms", judgeRooms);
     s.add("wakeLanterns", wakeLanterns);
@@ -56,7 +56,7 @@ Schedule makeFrameSchedule() {
     s.add("updateChildTransforms", updateChildTransforms);
     s.add("poseFigures", poseFigures);
     s.add("extractScene", extractScene);
-    s.add("extractProbes", gi::extractProbes);
+    s.add("extractProbes", render::extractProbes);
     return s;
 }
 

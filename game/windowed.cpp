@@ -37,9 +37,10 @@ constexpr const char* kGoal = "Flowers open in light that has bounced.\nLight th
 constexpr double kSaveSeconds = 60;  // between saves without an occasion
 
 // Keys 1 to 9.
-constexpr std::array<gi::Layer, 9> kKeyLayers = {
-    gi::Layer::kFinal,  gi::Layer::kDirect, gi::Layer::kBounce1,  gi::Layer::kIrradiance, gi::Layer::kAlbedo,
-    gi::Layer::kNormal, gi::Layer::kRsm,    gi::Layer::kClusters, gi::Layer::kVals};
+constexpr std::array<render::Layer, 9> kKeyLayers = {
+    render::Layer::kFinal,      render::Layer::kDirect,   render::Layer::kBounce1,
+    render::Layer::kIrradiance, render::Layer::kAlbedo,   render::Layer::kNormal,
+    render::Layer::kRsm,        render::Layer::kClusters, render::Layer::kVals};
 
 class WindowedRun {
   public:
@@ -138,8 +139,8 @@ class WindowedRun {
         if (key == GLFW_KEY_F10) capture_.start(demo_);
         if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey) {
-            const gi::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
-            demo_.layer = layer == gi::Layer::kFinal ? std::nullopt : std::optional(layer);
+            const render::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
+            demo_.layer = layer == render::Layer::kFinal ? std::nullopt : std::optional(layer);
         }
     }
     void obey(MenuEvent event) {
@@ -256,7 +257,7 @@ class WindowedRun {
         demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
     }
     bool automatic() const { return demo_.user.quality == Quality::kAutomatic; }
-    const gi::QualityStep& quality() const { return gi::qualitySteps()[budget_.step()]; }
+    const render::QualityStep& quality() const { return render::qualitySteps()[budget_.step()]; }
     void adapt() {
         const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
         if (automatic() && !menu_.open && budget_.frame(cost)) usePlayerSettings();
@@ -275,10 +276,10 @@ class WindowedRun {
         drawUi();
         renderer_.render(
             demo_.game->scene(), size, demo_.gi, capture_.options(demo_.graph),
-            [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
-                shown_ = demo_.layer
-                             ? gi::addLayerView(scope, view, frame, *demo_.layer, size, demo_.gi.composite)
-                             : frame.outputs.display;
+            [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
+                shown_ = demo_.layer ? render::addLayerView(scope, view, frame, *demo_.layer, size,
+                                                            demo_.gi.composite)
+                                     : frame.outputs.display;
                 scope.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
                 capture_.declare(scope, frame);
             },
@@ -328,11 +329,11 @@ class WindowedRun {
                            automatic() ? fmt::format("auto ({})", quality().name)
                                        : std::string(qualityName(demo_.user.quality)),
                            at.x, at.z,
-                           demo_.layer ? fmt::format("\n{}", gi::layerInfo(*demo_.layer).name) : "");
+                           demo_.layer ? fmt::format("\n{}", render::layerInfo(*demo_.layer).name) : "");
     }
     int saveScreenshot() {
         if (demo_.options.screenshot.empty() || !shown_) return 0;
-        const Status saved = saveImage(gi::readImage(renderer_, shown_), demo_.options.screenshot);
+        const Status saved = saveImage(render::readImage(renderer_, shown_), demo_.options.screenshot);
         return saved ? 0 : refuse(saved.error().message);
     }
 
@@ -340,11 +341,11 @@ class WindowedRun {
     Window& window_;
     gpu::Device& device_;
     gpu::Swapchain swapchain_;
-    gi::GiRenderer renderer_;
+    render::Renderer renderer_;
     DebugUi ui_;
     ImGuiPass imgui_;
-    gi::BudgetController budget_;
-    gi::FrameCost cost_;
+    render::BudgetController budget_;
+    render::FrameCost cost_;
     FrameCapture capture_;
     Speaker speaker_;
     DebugUiState panels_;

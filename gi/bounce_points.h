@@ -1,5 +1,4 @@
-// Which of the points on the scene's surfaces stand for them when light bounces on: a pure function of the
-// scene.
+// Which of the points on the scene's surfaces stand for them when light bounces on: a pure function of those.
 #pragma once
 
 #include <vector>
@@ -10,8 +9,10 @@
 namespace ag::gi {
 
 // `count` of them at equal steps along the samples' curve, with the area and the mean albedo of what each
-// stands for.
-std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const SurfaceSamples& samples,
+// stands for: `albedoAt` of an instance about a place of its texture.
+using AlbedoAt = FunctionRef<glm::vec3(uint32_t instance, glm::vec2 uv)>;
+std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance> instances,
+                                                const SurfaceSamples& samples, AlbedoAt albedoAt,
                                                 uint32_t count);
 
 }  // namespace ag::gi

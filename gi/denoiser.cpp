@@ -39,16 +39,16 @@ void addFilter(GraphScope scope, std::string_view name, const Images& images, Im
 
 }  // namespace
 
-Irradiance addDenoiser(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t originVersion,
                        const NoisyLight& noisy, const DenoiserSettings& s, DenoiserHistory& history) {
     if (!s.enabled || !noisy.irradiance.image) return noisy.irradiance;
     const glm::uvec2 size = gbuffer.size, tileCount = (size + io::kDenoiserTile - 1u) / io::kDenoiserTile;
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size};
     const ImageInfo tileInfo{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = tileCount};
     const RenderCamera& camera = gbuffer.view;
-    const bool known = history.originVersion == scene.scene->originVersion;
+    const bool known = history.originVersion == originVersion;
     const RenderCamera before = known ? history.camera : camera;
-    history = {camera, scene.scene->originVersion, noisy.lightVersion,
+    history = {camera, originVersion, noisy.lightVersion,
                history.lightVersion == noisy.lightVersion ? history.sinceLightChange + 1 : 0};
     const bool changing = s.adaptive && history.sinceLightChange < kFramesOfChange;
 

@@ -5,7 +5,7 @@
 // cut off, and the filter is narrow where the mean is certain.
 #pragma once
 
-#include "gi/gbuffer.h"
+#include "gi/surfaces.h"
 #include "gi/val_shading.h"
 
 namespace ag::gi {
@@ -37,7 +37,8 @@ struct NoisyLight {
     uint32_t step = 0;  // another number for new samples; while it stays and nothing moves, nothing runs
 };
 
-Irradiance addDenoiser(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
+// `originVersion`: of coordinates.
+Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t originVersion,
                        const NoisyLight& noisy, const DenoiserSettings& settings, DenoiserHistory& history);
 
 }  // namespace ag::gi

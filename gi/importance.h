@@ -3,8 +3,8 @@
 // (the sources: one a texel), at most 64x64 a face, summed into a 2x2 pyramid for warping.
 #pragma once
 
-#include "gi/gbuffer.h"
 #include "gi/rsm.h"
+#include "gi/surfaces.h"
 #include "shaders/importance/importance_io.h"
 
 namespace ag::gi {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "gi/surface_points.h"
 #include "gi/upsampling.h"
 #include "gi/val_shading.h"
 #include "shaders/rsm/rsm_io.h"
@@ -17,16 +18,15 @@ constexpr float kNearReach = 6;
 
 }  // namespace
 
-LaterLight addLaterLight(GraphScope scope, const SceneView& scene, const LaterBouncesSettings& s,
-                         Settling& settling) {
-    if (!s.enabled || scene.bouncePointCount == 0) return {};
+LaterLight addLaterLight(GraphScope scope, const Occluders& occluders, const Versions& versions,
+                         const LaterBouncesSettings& s, Settling& settling) {
+    if (!s.enabled || occluders.bouncePointCount == 0) return {};
     const VkFormat vec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
-    const RenderScene& r = *scene.scene;
     const uint64_t inputs =
-        combineHash(combineHash(r.lightsVersion, r.instancesVersion),
-                    combineHash(r.cameraVersion, hashValue(glm::vec2(s.share, s.feedback))));
+        combineHash(combineHash(versions.lights, versions.instances),
+                    combineHash(versions.camera, hashValue(glm::vec2(s.share, s.feedback))));
     const uint32_t step = scope.isHeld() ? settling.step : settling.advance(inputs, s.settleFrames);
-    LaterLight light{.count = scene.bouncePointCount, .share = s.share};
+    LaterLight light{.count = occluders.bouncePointCount, .share = s.share};
     light.side = uint32_t(std::lround(std::sqrt(double(light.count))));
     light.irradiance = scope.historyBuffer(
         "later_bounces.irradiance", {.sizeBytes = light.count * sizeof(glm::vec4), .texelFormat = vec4});
@@ -34,18 +34,19 @@ LaterLight addLaterLight(GraphScope scope, const SceneView& scene, const LaterBo
                                 {.sizeBytes = light.count * sizeof(io::RsmTexel), .texelFormat = vec4});
     light.edges =
         scope.buffer("later_bounces.edges", {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge)});
-    PassBuilder emit = scope.compute(
-        "later_bounces.emit", scene.skin ? "later_bounces/emit_figures.comp" : "later_bounces/emit.comp");
-    emit.read("instances", scene.instances)
-        .read("points", scene.bouncePoints)
+    PassBuilder emit =
+        scope.compute("later_bounces.emit", occluders.deformedPositions ? "later_bounces/emit_figures.comp"
+                                                                        : "later_bounces/emit.comp");
+    emit.read("instances", occluders.instances)
+        .read("points", occluders.bouncePoints)
         .readPrevious("irradiance", light.irradiance)
         .write("texels", light.texels)
         .write("edges", light.edges)
         .push(io::EmitPush{.count = light.count, .known = light.irradiance.valid})
-        .key(r.instancesVersion)
+        .key(versions.instances)
         .step(step)
         .dispatchThreads(light.count);
-    readFigures(emit, scene.skin);
+    readDeformed(emit, occluders);
     return light;
 }
 
@@ -93,11 +94,11 @@ void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Vals& v
     scope.output(light.irradiance.current);
 }
 
-Irradiance addLaterShading(GraphScope scope, const GBuffer& gbuffer, const Irradiance& bounce1,
+Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
                            const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
                            const ValShadingSettings& shading, uint32_t spacing) {
     if (spacing == 1) return addValShading(scope, gbuffer, vals, isms, shading, kAllBouncesShading);
-    const GBuffer thinner = addThinned(scope, gbuffer, spacing, kLaterThinning);
+    const Surfaces thinner = addThinned(scope, gbuffer, spacing, kLaterThinning);
     const Irradiance later =
         addValShading(scope, thinner, laterVals(vals, firstLater), isms, shading, kLaterShading);
     return addUpsampling(scope, gbuffer, thinner, later, kLaterUpsampling, bounce1);

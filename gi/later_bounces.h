@@ -5,13 +5,12 @@
 // clusters; here surfaces are sampled once, by area, so that flux is exact and nothing depends on the view.
 #pragma once
 
-#include "gi/scene_gpu.h"
+#include "gi/inputs.h"
 #include "gi/settling.h"
 #include "shaders/later_bounces/later_bounces_io.h"
 
 namespace ag::gi {
 
-struct GBuffer;
 struct Irradiance;
 struct IsmAtlas;
 struct Vals;
@@ -37,8 +36,8 @@ struct LaterLight {
     float share = 0;
 };
 
-LaterLight addLaterLight(GraphScope scope, const SceneView& scene, const LaterBouncesSettings& settings,
-                         Settling& settling);
+LaterLight addLaterLight(GraphScope scope, const Occluders& occluders, const Versions& versions,
+                         const LaterBouncesSettings& settings, Settling& settling);
 
 // What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
 // for later bounces.
@@ -47,7 +46,7 @@ void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Vals& v
 
 // `bounce1`, of the pixels of `gbuffer`, and what the lights from `firstLater` on add to it. That is
 // smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
-Irradiance addLaterShading(GraphScope scope, const GBuffer& gbuffer, const Irradiance& bounce1,
+Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
                            const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
                            const ValShadingSettings& shading, uint32_t spacing);
 

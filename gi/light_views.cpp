@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/projection.h"
+#include "engine/core/projection.h"
 
 namespace ag::gi {
 
@@ -57,10 +57,10 @@ SunRectangle sunRectangle(glm::vec3 direction, const Bounds& bounds, float askew
     return best;
 }
 
-LightView spotView(const RenderLight& light, float farDistance) {
-    const float halfAngle = std::min(light.outerConeAngle, glm::radians(80.0f));
+LightView spotView(glm::vec3 position, glm::vec3 direction, float outerConeAngle, float farDistance) {
+    const float halfAngle = std::min(outerConeAngle, glm::radians(80.0f));
     const glm::mat4 clipFromView = lightPerspective(2 * halfAngle, kNearOfFar * farDistance, farDistance);
-    return {clipFromView * viewFromWorld(light.position, light.direction), std::tan(halfAngle)};
+    return {clipFromView * viewFromWorld(position, direction), std::tan(halfAngle)};
 }
 
 LightView cubeFaceView(glm::vec3 position, uint32_t face, float farDistance) {
@@ -106,10 +106,9 @@ bool mayMeet(const Frustum& a, const Frustum& b) {
     return !apart(a, b) && !apart(b, a);
 }
 
-float farDistanceOf(const RenderLight& light, const Bounds& bounds) {
-    if (light.range > 0) return light.range;
-    const glm::vec3 far =
-        glm::max(glm::abs(bounds.min - light.position), glm::abs(bounds.max - light.position));
+float farDistanceOf(glm::vec3 position, float range, const Bounds& bounds) {
+    if (range > 0) return range;
+    const glm::vec3 far = glm::max(glm::abs(bounds.min - position), glm::abs(bounds.max - position));
     return std::max(glm::length(far) * 1.01f, 1.0f);
 }
 

@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-#include "engine/scene/render_scene.h"
+#include "engine/core/bounds.h"
 
 namespace ag::gi {
 
@@ -23,7 +23,7 @@ glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward, glm::vec3 up);
 // The same with an axis of the world chosen for up.
 glm::mat4 viewFromWorld(glm::vec3 position, glm::vec3 forward);
 // A square round the spot's cone (the outer angle is limited to 80 degrees).
-LightView spotView(const RenderLight& light, float farDistance);
+LightView spotView(glm::vec3 position, glm::vec3 direction, float outerConeAngle, float farDistance);
 // Faces +x -x +y -y +z -z of a cube, each 90 degrees.
 LightView cubeFaceView(glm::vec3 position, uint32_t face, float farDistance);
 
@@ -49,6 +49,6 @@ Frustum frustumOf(const glm::mat4& clipFromWorld, float leastDepth = 0);
 bool mayMeet(const Frustum& a, const Frustum& b);
 
 // How far a light's views must reach: its range, or the scene's far side.
-float farDistanceOf(const RenderLight& light, const Bounds& bounds);
+float farDistanceOf(glm::vec3 position, float range, const Bounds& bounds);
 
 }  // namespace ag::gi

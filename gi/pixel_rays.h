@@ -1,7 +1,7 @@
 // Rays through pixels' centres: where a surface on screen is, from its depth alone.
 #pragma once
 
-#include "engine/scene/render_scene.h"
+#include "engine/core/render_camera.h"
 #include "shaders/common/pixel_rays.h"
 
 namespace ag::gi {

@@ -52,9 +52,8 @@ void ProbeReadings::setDark(std::span<const RenderProbe> probes) {
     std::ranges::sort(rows_, {}, &Row::id);
 }
 
-void addProbes(GraphScope scope, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
-               const IsmAtlas& isms, const ProbeSettings& settings, ProbeReadings& known) {
-    std::span<const RenderProbe> probes = scene.scene->probes;
+void addProbes(GraphScope scope, std::span<const RenderProbe> probes, const RsmSet& rsm, const Vals& vals,
+               const IsmAtlas& isms, const ProbeSettings& settings, float lightUnit, ProbeReadings& known) {
     if (probes.empty()) return known.clear();
     if (rsm.empty() || vals.count == 0) return known.setDark(probes);
     probes = probes.first(std::min<size_t>(probes.size(), kMostProbes));
@@ -76,7 +75,7 @@ void addProbes(GraphScope scope, const SceneView& scene, const RsmSet& rsm, cons
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
-    known.set(scope.readBack(kProbeCopies, rows), scene.units.light);
+    known.set(scope.readBack(kProbeCopies, rows), lightUnit);
 }
 
 }  // namespace ag::gi

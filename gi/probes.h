@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/render_probe.h"
 #include "gi/ism_atlas.h"
 #include "gi/val_shading.h"
 #include "shaders/probes/probes_io.h"
@@ -51,8 +52,9 @@ class ProbeReadings {
 // Names of the copies that are read back.
 constexpr std::array<std::string_view, kFramesInFlight> kProbeCopies = {"probes.read0", "probes.read1"};
 
-// Measures the scene's probes and updates `known`. Without probes nothing is declared.
-void addProbes(GraphScope scope, const SceneView& scene, const RsmSet& rsm, const Vals& vals,
-               const IsmAtlas& isms, const ProbeSettings& settings, ProbeReadings& known);
+// Measures the probes and updates `known`. Without probes nothing is declared. `lightUnit`: see
+// ProbeReadings::set.
+void addProbes(GraphScope scope, std::span<const RenderProbe> probes, const RsmSet& rsm, const Vals& vals,
+               const IsmAtlas& isms, const ProbeSettings& settings, float lightUnit, ProbeReadings& known);
 
 }  // namespace ag::gi

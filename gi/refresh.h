@@ -6,21 +6,21 @@
 
 #include <vector>
 
-#include "gi/gi_settings.h"
-#include "gi/refresh_settings.h"
+#include "gi/inputs.h"
+#include "gi/settings.h"
 
 namespace ag::gi {
 
 // What the decision goes by, from frame to frame.
 struct RefreshHistory {
     struct Place {
-        uint32_t row;      // of what moves
+        uint32_t id;       // of what moves
         glm::vec3 centre;  // when lights were clustered
     };
-    GiSettings settings;
-    std::vector<RenderLight> bounceLights;
+    BounceLightSettings settings;
+    std::vector<RsmLight> lights;
     glm::uvec2 size{0};
-    uint64_t loadedVersion = 0, cameraVersion = 0, originVersion = 0, instancesVersion = 0;
+    Versions versions{0, 0, 0, 0, 0};
     uint32_t sinceLarge = 0;   // frames since anything but small things changed
     uint32_t sinceMoved = 0;   // frames since anything moved
     uint32_t sinceLights = 0;  // frames since lights were clustered
@@ -33,11 +33,12 @@ struct Refresh {
     PixelShare pixels;
 };
 
-// Once a frame.
-Refresh chooseRefresh(const SceneView& scene, const GiSettings& settings, RefreshHistory& history);
+// Once a frame; `size`: pixels of the camera's image.
+Refresh chooseRefresh(const World& world, const RenderCamera& camera, glm::uvec2 size,
+                      const BounceLightSettings& settings, RefreshHistory& history);
 
-// The most that what moved since the frame before takes up of what the camera or a bounce light sees, by
-// balls round it: 1 is all, and may be passed.
-float shareSeen(const SceneView& scene);
+// The most that what moved since the frame before takes up of what the camera or a light sees, by balls round
+// it: 1 is all, and may be passed.
+float shareSeen(const World& world, const RenderCamera& camera, glm::uvec2 size);
 
 }  // namespace ag::gi

@@ -5,7 +5,6 @@
 #include "engine/core/hash.h"
 #include "gi/pixel_list.h"
 #include "gi/rsm_views.h"
-#include "gi/scene_draws.h"
 
 namespace ag::gi {
 namespace {
@@ -20,27 +19,9 @@ BufferHandle uploadItems(GraphScope scope, const char* name, std::span<const T> 
     return buffer;
 }
 
-void addRaster(GraphScope scope, const SceneView& scene, RsmSet& rsm) {
-    PassBuilder pass = scope.raster("rsm.render", "gbuffer/fill.vert", "rsm/render.frag",
-                                    gpu::VertexLayout::kPositionsAndAttributes);
-    pass.colorClear(rsm.normal, glm::vec4(0)).colorClear(rsm.albedo, glm::vec4(0)).depthClear(rsm.depth);
-    pass.geometry(scene.geometry).read("instances", scene.instances);
-    bindMaterials(pass, scene);
-    const uint32_t slot = scene.slots.firstLightMap;
-    std::array<ViewRequest, io::kMaxRsmFaces> views;
-    for (uint32_t f = 0; f < rsm.lightFaceCount; ++f)
-        views[f] = {slot + f, rsm.faceInfo[f].clipFromWorld};
-    scene.draws->cullAll(*scene.scene, {views.data(), rsm.lightFaceCount});
-    for (uint32_t f = 0; f < rsm.lightFaceCount; ++f) {
-        const io::RsmFace& face = rsm.faceInfo[f];
-        const ViewDraws& draws = scene.draws->cull(*scene.scene, slot + f, face.clipFromWorld);
-        rsm.inputsVersion = combineHash(rsm.inputsVersion, draws.version);
-        drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size},
-                 DrawFilter::kAll, Viewer::kLight);
-    }
-}
+}  // namespace
 
-void addTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) {
+void addRsmTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) {
     const PixelList creased = addPixelList(scope, kCreasedTexels, rsm.atlas.size);
     scope.compute("rsm.build_texels", "rsm/build_texels.comp")
         .sample("normalMap", rsm.normal)
@@ -67,14 +48,11 @@ void addTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) {
         .dispatchIndirect(creased.groups);
 }
 
-}  // namespace
-
-RsmSet addRsm(GraphScope scope, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
-              const LaterLight& later, ClusterShares& shares) {
+RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings, uint32_t clusterBudget,
+               const LaterLight& later, ClusterShares& shares) {
     RsmSet rsm;
-    const RsmLayout layout =
-        layoutRsm(*scene.scene, settings, clusterBudget, shares, later.side, later.share);
-    if (layout.mapCount == 0 || scene.scene->instances.empty()) return rsm;
+    const RsmLayout layout = layoutRsm(world, settings, clusterBudget, shares, later.side, later.share);
+    if (layout.mapCount == 0 || world.bounds.empty()) return rsm;
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
     rsm.lightMapCount = layout.mapCount - (later.side > 0);
     rsm.lightFaceCount = layout.faceCount - (later.side > 0);
@@ -91,7 +69,6 @@ RsmSet addRsm(GraphScope scope, const SceneView& scene, const RsmSettings& setti
     rsm.albedo =
         scope.image("rsm.albedo", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = layout.atlasSize});
     rsm.depth = scope.image("rsm.depth", {.format = VK_FORMAT_D32_SFLOAT, .size = layout.atlasSize});
-    addRaster(scope, scene, rsm);
 
     rsm.faces = uploadItems<io::RsmFace>(scope, "rsm.faces", rsm.faceInfo);
     rsm.maps = uploadItems<io::RsmMap>(scope, "rsm.maps", rsm.mapInfo);
@@ -100,7 +77,6 @@ RsmSet addRsm(GraphScope scope, const SceneView& scene, const RsmSettings& setti
                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};
     rsm.texels = scope.buffer("rsm.texels", texels);
     rsm.tileMaps = scope.buffer("rsm.tile_maps", {.sizeBytes = rsm.tileCount * sizeof(uint32_t)});
-    addTexels(scope, rsm, later);
     return rsm;
 }
 

@@ -7,8 +7,8 @@
 
 #include <array>
 
+#include "gi/inputs.h"
 #include "gi/later_bounces.h"
-#include "gi/scene_gpu.h"
 #include "shaders/rsm/rsm_io.h"
 
 namespace ag::gi {
@@ -22,11 +22,11 @@ struct RsmSettings {
 
 struct RsmSet {
     ImageHandle normal, albedo, depth;  // of the atlas, as rasterised
-    BufferHandle texels;                // io::RsmTexel, tile by tile; also a texel buffer of vec4
-    BufferHandle faces;                 // io::RsmFace
-    BufferHandle maps;                  // io::RsmMap
-    BufferHandle tileMaps;              // per tile: its map, or ~0
-    io::RsmAtlas atlas{};               // zero maps: no light bounces, nothing else is valid
+    BufferHandle texels;    // io::RsmTexel, tile by tile; also a texel buffer of vec4. See addRsmTexels
+    BufferHandle faces;     // io::RsmFace
+    BufferHandle maps;      // io::RsmMap
+    BufferHandle tileMaps;  // per tile: its map, or ~0
+    io::RsmAtlas atlas{};   // zero maps: no light bounces, nothing else is valid
     uint32_t tileCount = 0;
     uint32_t largestFace = 0;    // texels
     uint64_t inputsVersion = 0;  // changes when the texels do
@@ -53,9 +53,14 @@ struct ClusterShares {
     uint32_t count = 0;
 };
 
-// `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each. `later`: one more
-// map.
-RsmSet addRsm(GraphScope scope, const SceneView& scene, const RsmSettings& settings, uint32_t clusterBudget,
-              const LaterLight& later, ClusterShares& shares);
+// The maps, not drawn yet: whoever has the surfaces draws the faces of lights (faceInfo: clip matrices,
+// rectangles of the atlas) into normal, albedo and depth, all cleared to zero, and adds to inputsVersion what
+// that depends on. `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each.
+// `later`: one more map.
+RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings, uint32_t clusterBudget,
+               const LaterLight& later, ClusterShares& shares);
+
+// Texels of the maps that were drawn, and of `later`.
+void addRsmTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later);
 
 }  // namespace ag::gi

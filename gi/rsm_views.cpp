@@ -19,23 +19,23 @@ constexpr uint32_t kDarkFrames = 120;  // after which a light that went out give
 constexpr uint32_t kNoMap = ~0u;
 constexpr uint64_t kMostTexels = 6 * 512 * 512;  // of all lights together: a point light's largest map
 
-uint32_t facesOf(const RenderLight& light) {
+uint32_t facesOf(const RsmLight& light) {
     return light.kind == LightKind::kPoint ? 6 : 1;
 }
 
-uint32_t faceSize(const RenderLight& light, const RsmSettings& settings, uint32_t halvings) {
-    const uint32_t wanted = settings.resolution ? settings.resolution : light.rsmResolution;
+uint32_t faceSize(const RsmLight& light, const RsmSettings& settings, uint32_t halvings) {
+    const uint32_t wanted = settings.resolution ? settings.resolution : light.resolution;
     const uint32_t size = std::bit_floor(std::clamp(wanted, 32u, 1024u));
     return std::max((light.kind == LightKind::kPoint ? size / 2 : size) >> halvings, 32u);
 }
 
 // Many lights share the clusters, so that each needs fewer texels. Dark ones count: one that goes out does
 // not change the others' maps.
-uint32_t halvingsOf(std::span<const RenderLight> lights, const RsmSettings& settings) {
+uint32_t halvingsOf(std::span<const RsmLight> lights, const RsmSettings& settings) {
     uint64_t texels = 0;
     uint32_t count = 0, halvings = 0;
-    for (const RenderLight& light : lights) {
-        if (!light.bounces || count++ >= io::kMaxBounceLights) continue;
+    for (const RsmLight& light : lights) {
+        if (count++ >= io::kMaxBounceLights) continue;
         const uint64_t size = faceSize(light, settings, 0);
         texels += facesOf(light) * size * size;
     }
@@ -44,16 +44,15 @@ uint32_t halvingsOf(std::span<const RenderLight> lights, const RsmSettings& sett
     return halvings;
 }
 
-LightView faceView(const RenderLight& light, uint32_t face, const RenderScene& scene,
-                   const RsmSettings& settings) {
-    const float far = farDistanceOf(light, scene.bounds);
-    if (light.kind == LightKind::kDirectional)
-        return sunView(light.direction, scene.bounds, settings.sunMargin);
-    if (light.kind == LightKind::kSpot) return spotView(light, far);
+LightView faceView(const RsmLight& light, uint32_t face, const Bounds& bounds, const RsmSettings& settings) {
+    const float far = farDistanceOf(light.position, light.range, bounds);
+    if (light.kind == LightKind::kDirectional) return sunView(light.direction, bounds, settings.sunMargin);
+    if (light.kind == LightKind::kSpot)
+        return spotView(light.position, light.direction, light.outerConeAngle, far);
     return cubeFaceView(light.position, face, far);
 }
 
-io::RsmMap mapOf(const RenderLight& light) {
+io::RsmMap mapOf(const RsmLight& light) {
     return {.position = light.position,
             .kind = uint32_t(light.kind),
             .direction = light.direction,
@@ -95,7 +94,7 @@ struct Sharer {
 using Sharers = std::span<Sharer>;
 
 // The light's flux as its share is made of it: what it was, unless its own is far from that.
-ClusterShares::Light steadyLight(const RenderLight& light, float flux, const ClusterShares& before) {
+ClusterShares::Light steadyLight(const RsmLight& light, float flux, const ClusterShares& before) {
     const auto known = std::ranges::find(before.lights.begin(), before.lights.begin() + before.count,
                                          light.id, &ClusterShares::Light::id);
     if (known == before.lights.begin() + before.count) return {light.id, flux, 0};
@@ -174,7 +173,7 @@ float addSurfaceMap(RsmLayout& layout, std::span<const Sharer> lights, uint32_t 
 
 }  // namespace
 
-float emittedFlux(const RenderLight& light, const Bounds& sceneBounds) {
+float emittedFlux(const RsmLight& light, const Bounds& sceneBounds) {
     const float mean = (light.intensity.x + light.intensity.y + light.intensity.z) / 3;
     if (light.kind == LightKind::kPoint) return mean * 4 * std::numbers::pi_v<float>;
     if (light.kind == LightKind::kSpot) {
@@ -187,13 +186,13 @@ float emittedFlux(const RenderLight& light, const Bounds& sceneBounds) {
 
 namespace {
 
-void addLightMap(RsmLayout& layout, const RenderLight& light, const RenderScene& scene,
-                 const RsmSettings& settings, uint32_t halvings) {
+void addLightMap(RsmLayout& layout, const RsmLight& light, const Bounds& bounds, const RsmSettings& settings,
+                 uint32_t halvings) {
     io::RsmMap& map = layout.maps[layout.mapCount] = mapOf(light);
     map.firstFace = layout.faceCount;
     map.faceCount = facesOf(light);
     for (uint32_t f = 0; f < map.faceCount; ++f) {
-        const LightView view = faceView(light, f, scene, settings);
+        const LightView view = faceView(light, f, bounds, settings);
         map.tanHalf = view.tanHalf;
         io::RsmFace& face = layout.faces[layout.faceCount++];
         face.clipFromWorld = view.clipFromWorld;
@@ -207,21 +206,21 @@ void addLightMap(RsmLayout& layout, const RenderLight& light, const RenderScene&
 
 }  // namespace
 
-RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget,
+RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t clusterBudget,
                     ClusterShares& shares, uint32_t surfaceSide, float surfaceShare) {
     RsmLayout layout;
     const ClusterShares before = std::exchange(shares, {});
     std::array<Sharer, io::kMaxRsmMaps> sharers{};
-    const uint32_t halvings = halvingsOf(scene.lights, settings);
-    for (const RenderLight& light : scene.lights) {
-        if (!light.bounces || shares.count == io::kMaxBounceLights) continue;
+    const uint32_t halvings = halvingsOf(world.lights, settings);
+    for (const RsmLight& light : world.lights) {
+        if (shares.count == io::kMaxBounceLights) break;
         const bool dark = light.intensity == glm::vec3(0);
         const auto steady =
-            steadyLight(light, dark ? 0 : emittedFlux(light, scene.bounds) * light.budgetShare, before);
+            steadyLight(light, dark ? 0 : emittedFlux(light, world.bounds) * light.budgetShare, before);
         if (dark && steady.flux == 0) continue;
         sharers[shares.count] = {steady.flux, dark ? kNoMap : layout.mapCount};
         shares.lights[shares.count++] = steady;
-        if (!dark) addLightMap(layout, light, scene, settings, halvings);
+        if (!dark) addLightMap(layout, light, world.bounds, settings, halvings);
     }
     if (layout.mapCount == 0) return layout;
     uint32_t sharing = shares.count;

@@ -13,12 +13,12 @@ struct RsmLayout {
     uint32_t largestFace = 0;
 };
 
-// At most kMaxBounceLights lights with a BounceLight; faces are powers of two and aligned to their size.
+// At most kMaxBounceLights lights; faces are powers of two and aligned to their size.
 // `surfaceSide`: texels along the map of surfaces, 0: none; it gets `surfaceShare` of the clusters.
-RsmLayout layoutRsm(const RenderScene& scene, const RsmSettings& settings, uint32_t clusterBudget,
+RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t clusterBudget,
                     ClusterShares& shares, uint32_t surfaceSide = 0, float surfaceShare = 0);
 
 // Emitted flux of a light in W, for sharing budgets (mean of the channels; sun: onto the scene's bounds).
-float emittedFlux(const RenderLight& light, const Bounds& sceneBounds);
+float emittedFlux(const RsmLight& light, const Bounds& sceneBounds);
 
 }  // namespace ag::gi

@@ -49,7 +49,7 @@ glm::vec2 shiftOf(uint32_t step) {
 }
 
 struct Inputs {
-    const GBuffer& gbuffer;
+    const Surfaces& gbuffer;
     const RsmSet& rsm;
     const SampleVisibility& visibility;
     BufferHandle pattern, noise;
@@ -115,15 +115,14 @@ void addInterpolation(GraphScope scope, const Inputs& in, ImageHandle coarse, Im
 
 }  // namespace
 
-Irradiance addStochasticRsm(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addStochasticRsm(GraphScope scope, const Versions& versions, const Surfaces& gbuffer,
                             const RsmSet& rsm, const SampleVisibility& visibility,
                             const StochasticRsmSettings& settings, Settling& settling) {
     if (rsm.empty()) return {};
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
     const Irradiance result{
         scope.image("stochastic_rsm.irradiance", {.format = format, .size = gbuffer.size})};
-    const uint64_t seen = combineHash(rsm.inputsVersion,
-                                      combineHash(scene.scene->cameraVersion, scene.scene->instancesVersion));
+    const uint64_t seen = combineHash(rsm.inputsVersion, combineHash(versions.camera, versions.instances));
     const uint32_t step = settings.random ? settling.advance(seen, settings.settleFrames) : 0;
     const Inputs in{.gbuffer = gbuffer,
                     .rsm = rsm,

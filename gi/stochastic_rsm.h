@@ -4,10 +4,10 @@
 // frame (improved reflective shadow maps), for the denoiser.
 #pragma once
 
-#include "gi/gbuffer.h"
 #include "gi/ism_atlas.h"
 #include "gi/rsm.h"
 #include "gi/settling.h"
+#include "gi/surfaces.h"
 #include "gi/val_clustering.h"
 #include "gi/val_fit.h"
 #include "gi/val_shading.h"
@@ -27,13 +27,13 @@ struct StochasticRsmSettings {
     bool operator==(const StochasticRsmSettings&) const = default;
 };
 
-struct SampleVisibility {  // clusters of texels, and the map of what each sees
-    const Clusters& clusters;
-    const Vals& vals;
-    const IsmAtlas& isms;
+struct SampleVisibility {  // clusters of texels, and the map of what each sees; none: samples are seen
+    Clusters clusters;
+    Vals vals;
+    IsmAtlas isms;
 };
 
-Irradiance addStochasticRsm(GraphScope scope, const SceneView& scene, const GBuffer& gbuffer,
+Irradiance addStochasticRsm(GraphScope scope, const Versions& versions, const Surfaces& gbuffer,
                             const RsmSet& rsm, const SampleVisibility& visibility,
                             const StochasticRsmSettings& settings, Settling& settling);
 

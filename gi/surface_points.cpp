@@ -27,31 +27,36 @@ void addLayers(PassBuilder& pass, const SurfacePoints& p, uint64_t movingVersion
 
 }  // namespace
 
-SurfacePoints addSurfacePoints(GraphScope scope, const SceneView& scene) {
-    if (scene.surfaceSampleCount == 0) return {};
-    SurfacePoints p{.count = scene.surfaceSampleCount, .stillVersion = scene.stillVersion};
-    p.still = layerOf(0, scene.stillSampleCount);
+SurfacePoints addSurfacePoints(GraphScope scope, const Occluders& o, uint64_t instancesVersion) {
+    if (o.sampleCount == 0) return {};
+    SurfacePoints p{.count = o.sampleCount, .stillVersion = o.stillVersion};
+    p.still = layerOf(0, o.stillSampleCount);
     p.moving = layerOf(p.still.count, p.count - p.still.count);
-    p.extent = scene.extent;
+    p.extent = o.extent;
     p.points = scope.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
                                                       .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     PassBuilder place =
-        scope.compute("surface_points.place", scene.skin ? "surface_points/place_figure_points.comp"
-                                                         : "surface_points/place_points.comp");
-    place.read("instances", scene.instances)
-        .read("samples", scene.surfaceSamples)
-        .read("areas", scene.pointAreas)
+        scope.compute("surface_points.place", o.deformedPositions ? "surface_points/place_figure_points.comp"
+                                                                  : "surface_points/place_points.comp");
+    place.read("instances", o.instances)
+        .read("samples", o.samples)
+        .read("areas", o.pointAreas)
         .parts("points", p.points)
         .push(io::PointPush{.pointCount = p.count});
-    readFigures(place, scene.skin);
-    addLayers(place, p, scene.scene->instancesVersion, kPlaceGroup);
+    readDeformed(place, o);
+    addLayers(place, p, instancesVersion, kPlaceGroup);
     const uint32_t segments = p.still.segmentCount + p.moving.segmentCount;
     p.segments = scope.buffer("surface_points.segments", {.sizeBytes = segments * sizeof(io::SurfaceSegment),
                                                           .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     PassBuilder bound = scope.compute("surface_points.bound", "surface_points/bound_segments.comp");
     bound.read("points", p.points).parts("segments", p.segments).push(io::PointPush{.pointCount = p.count});
-    addLayers(bound, p, scene.scene->instancesVersion, io::kSegmentPoints * kBoundGroup);
+    addLayers(bound, p, instancesVersion, io::kSegmentPoints * kBoundGroup);
     return p;
+}
+
+void readDeformed(PassBuilder& pass, const Occluders& o) {
+    if (!o.deformedPositions) return;
+    pass.read("deformedPositions", o.deformedPositions).read("deformedAttributes", o.deformedAttributes);
 }
 
 }  // namespace ag::gi

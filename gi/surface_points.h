@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "gi/scene_gpu.h"
+#include "gi/inputs.h"
 #include "shaders/surface_points/surface_points_io.h"
 
 namespace ag::gi {
@@ -24,6 +24,10 @@ struct SurfacePoints {
     float extent = 0;           // m: no two points are farther apart
 };
 
-SurfacePoints addSurfacePoints(GraphScope scope, const SceneView& scene);
+// `instancesVersion`: changes when any instance may have moved.
+SurfacePoints addSurfacePoints(GraphScope scope, const Occluders& occluders, uint64_t instancesVersion);
+
+// The bindings of a shader with AG_FIGURES; none if nothing is bent by joints.
+void readDeformed(PassBuilder& pass, const Occluders& occluders);
 
 }  // namespace ag::gi

@@ -10,7 +10,6 @@
 
 #include "common/sampling.h"
 #include "engine/core/hash.h"
-#include "engine/scene/deform.h"
 
 namespace ag::gi {
 namespace {
@@ -23,17 +22,16 @@ struct Corners {
 
 constexpr float kFlatCosine = 0.94f;  // 20 degrees: a bend that disks may span
 
-std::array<glm::vec3, 3> cornersAmong(const glm::vec3* positions, const GeometryArrays& g, const Primitive& p,
+std::array<glm::vec3, 3> cornersAmong(const Strided<glm::vec3>& vertices, const SampledMesh& mesh,
                                       uint32_t triangle) {
     std::array<glm::vec3, 3> corners;
     for (uint32_t i = 0; i < 3; ++i)
-        corners[i] = positions[g.indices[p.firstIndex + 3 * triangle + i]];
+        corners[i] = vertices[mesh.indices[3 * triangle + i]];
     return corners;
 }
 
-// As they were modelled.
-std::array<glm::vec3, 3> localCorners(const GeometryArrays& g, const Primitive& p, uint32_t triangle) {
-    return cornersAmong(g.positions.data() + p.vertexOffset, g, p, triangle);
+uint32_t triangleCount(const SampledMesh& mesh) {
+    return uint32_t(mesh.indices.size() / 3);
 }
 
 glm::vec3 faceNormal(const std::array<glm::vec3, 3>& c) {
@@ -53,14 +51,14 @@ uint64_t sideOf(glm::vec3 a, glm::vec3 b) {
     return combineHash(std::min(ha, hb), std::max(ha, hb));
 }
 
-// Per triangle of a primitive, at which of its sides the surface ends or bends.
-std::vector<uint8_t> sharpEdges(const GeometryArrays& g, const Primitive& p) {
-    const uint32_t triangles = p.indexCount / 3;
+// Per triangle of a mesh, at which of its sides the surface ends or bends.
+std::vector<uint8_t> sharpEdges(const SampledMesh& mesh) {
+    const uint32_t triangles = triangleCount(mesh);
     std::vector<Side> sides;
     sides.reserve(size_t(triangles) * 3);
     std::vector<glm::vec3> normals(triangles);
     for (uint32_t t = 0; t < triangles; ++t) {
-        const auto c = localCorners(g, p, t);
+        const auto c = cornersAmong(mesh.positions, mesh, t);
         normals[t] = faceNormal(c);
         for (uint32_t i = 0; i < 3; ++i)
             sides.push_back({sideOf(c[i], c[(i + 1) % 3]), t, i});
@@ -79,7 +77,8 @@ std::vector<uint8_t> sharpEdges(const GeometryArrays& g, const Primitive& p) {
     return sharp;
 }
 
-std::array<glm::vec3, 3> worldCorners(const RenderInstance& instance, const std::array<glm::vec3, 3>& local) {
+std::array<glm::vec3, 3> worldCorners(const SampledInstance& instance,
+                                      const std::array<glm::vec3, 3>& local) {
     std::array<glm::vec3, 3> world;
     for (uint32_t i = 0; i < 3; ++i)
         world[i] = instance.worldFromLocal * glm::vec4(local[i], 1);
@@ -112,16 +111,15 @@ uint32_t mortonCode(glm::vec3 p, const Bounds& bounds) {
 }
 
 // All that block light, movable or not, neighbours in space near each other.
-std::vector<CurveTriangle> curveOf(const RenderScene& scene, const DeformedVertices& deformed, bool movable) {
-    const GeometryArrays& g = *scene.geometry;
+std::vector<CurveTriangle> curveOf(const SampledScene& scene, bool movable) {
     std::vector<CurveTriangle> curve;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const Primitive& p = g.primitives[scene.instances[i].primitive];
-        if (g.materials[p.material].alphaMode == AlphaMode::kBlend) continue;
-        if (scene.instances[i].movable != movable) continue;
-        const glm::vec3* positions = verticesOf(scene, deformed, scene.instances[i]).positions;
-        for (uint32_t t = 0; t < p.indexCount / 3; ++t) {
-            const auto w = worldCorners(scene.instances[i], cornersAmong(positions, g, p, t));
+        const SampledInstance& instance = scene.instances[i];
+        const SampledMesh& mesh = scene.meshes[instance.mesh];
+        if (!mesh.blocksLight || instance.movable != movable) continue;
+        const Strided<glm::vec3>& vertices = instance.deformed ? instance.deformed : mesh.positions;
+        for (uint32_t t = 0; t < triangleCount(mesh); ++t) {
+            const auto w = worldCorners(instance, cornersAmong(vertices, mesh, t));
             const double area = 0.5 * double(glm::length(glm::cross(w[1] - w[0], w[2] - w[0])));
             curve.push_back({mortonCode((w[0] + w[1] + w[2]) / 3.0f, scene.bounds), i, t, area, area});
         }
@@ -131,12 +129,9 @@ std::vector<CurveTriangle> curveOf(const RenderScene& scene, const DeformedVerti
 }
 
 // The most that smooth normals turn along a side of the triangle, over its length.
-float bendOf(const GeometryArrays& g, const Primitive& p, uint32_t triangle,
-             const std::array<glm::vec3, 3>& corners) {
-    std::array<glm::vec3, 3> normals;
-    for (uint32_t i = 0; i < 3; ++i)
-        normals[i] =
-            g.attributes[size_t(int64_t(p.vertexOffset) + g.indices[p.firstIndex + 3 * triangle + i])].normal;
+float bendOf(const SampledMesh& mesh, uint32_t triangle, const std::array<glm::vec3, 3>& corners) {
+    if (!mesh.normals) return 0;
+    const auto normals = cornersAmong(mesh.normals, mesh, triangle);
     float bend = 0;
     for (uint32_t i = 0; i < 3; ++i) {
         const float length = glm::length(corners[(i + 1) % 3] - corners[i]);
@@ -172,27 +167,11 @@ glm::vec3 barycentrics(const std::array<glm::vec3, 3>& c, glm::vec3 p) {
     return {u, v, 1 - u - v};
 }
 
-glm::vec2 uvOn(const GeometryArrays& g, const Primitive& p, uint32_t triangle, glm::vec3 weights) {
+glm::vec2 uvOn(const SampledMesh& mesh, uint32_t triangle, glm::vec3 weights) {
     glm::vec2 uv(0);
-    for (uint32_t i = 0; i < 3; ++i)
-        uv += weights[int(i)] *
-              g.attributes[size_t(int64_t(p.vertexOffset) + g.indices[p.firstIndex + 3 * triangle + i])].uv;
+    for (uint32_t i = 0; mesh.uvs && i < 3; ++i)
+        uv += weights[int(i)] * mesh.uvs[mesh.indices[3 * triangle + i]];
     return uv;
-}
-
-// Whether an alpha-masked surface is cut out at a place of its texture.
-bool cutOut(const GeometryArrays& g, const Primitive& p, glm::vec2 vertexUv) {
-    const Material& m = g.materials[p.material];
-    if (m.alphaMode != AlphaMode::kMask) return false;
-    float alpha = m.baseColor.w;
-    if (m.baseColorLayer >= 0) {
-        const glm::vec2 uv = m.uvTransform * glm::vec3(vertexUv, 1);
-        const uint32_t side = textureClassSize(m.textureClass);
-        const glm::uvec2 texel(glm::fract(uv) * (float(side) - 0.5f));
-        const auto& layer = g.textures[size_t(m.textureClass)].srgb[size_t(m.baseColorLayer)];
-        alpha *= float(layer[(size_t(texel.y) * side + texel.x) * 4 + 3]) / 255;
-    }
-    return alpha < m.alphaCutoff;
 }
 
 // The place at a share of a triangle's area along a curve through all of it: each digit to base 4 picks one
@@ -220,7 +199,7 @@ double weightOf(const std::vector<CurveTriangle>& curve) {
     return weight;
 }
 
-std::vector<double> areasOfInstances(const RenderScene& scene, const std::vector<CurveTriangle>& still,
+std::vector<double> areasOfInstances(const SampledScene& scene, const std::vector<CurveTriangle>& still,
                                      const std::vector<CurveTriangle>& movable) {
     std::vector<double> areas(scene.instances.size());
     for (const auto* curve : {&still, &movable})
@@ -240,60 +219,64 @@ std::vector<double> densitiesOf(const std::vector<double>& areas, uint32_t count
     return densities;
 }
 
-// Where it is on the figure's triangle, however that is bent.
-void followFigure(const RenderScene& scene, const CurveTriangle& t, glm::vec3 weights, uint32_t sharp,
+// Where it is on a triangle that joints bend, however they do.
+void followJoints(const SampledScene& scene, const CurveTriangle& t, glm::vec3 weights, uint32_t sharp,
                   io::SurfaceSample& sample) {
-    const RenderInstance& instance = scene.instances[t.instance];
-    const Primitive& p = scene.geometry->primitives[instance.primitive];
-    const uint32_t* index = &scene.geometry->indices[p.firstIndex + 3 * t.triangle];
-    const auto first = uint32_t(firstVertexOf(scene, instance));
+    const SampledInstance& instance = scene.instances[t.instance];
+    const uint32_t* index = &scene.meshes[instance.mesh].indices[3 * t.triangle];
+    const uint32_t first = instance.firstDeformed;
     const io::FigureSample on{
         weights, t.instance, {first + index[0], first + index[1], first + index[2], sharp}};
     std::memcpy(&sample, &on, sizeof on);
 }
 
+// Its place on the curve is kept where the surface is cut out, so that the others stay evenly spread.
+void addSample(const SampledScene& scene, const CurveTriangle& t, const Corners& c, double share,
+               SurfaceSamples& out) {
+    const SampledInstance& instance = scene.instances[t.instance];
+    const SampledMesh& mesh = scene.meshes[instance.mesh];
+    io::SurfaceSample sample{.positionLocal = pointOn(c, share),
+                             .instance = t.instance,
+                             .normalLocal = faceNormal(c.local),
+                             .bendLocal = c.bend};
+    noteEdges(c, sample);
+    const glm::vec3 weights = barycentrics(c.local, sample.positionLocal);
+    const glm::vec2 uv = uvOn(mesh, t.triangle, weights);
+    const bool hole = scene.isCutOut(instance.mesh, uv);
+    if (hole) sample.edgesLocal[0] = {glm::vec3(0), -1};
+    if (instance.deformed)
+        followJoints(scene, t, weights, c.sharpEdges | (hole ? io::kSharpCutOut : 0), sample);
+    out.samples.push_back(sample);
+    out.uvs.push_back(uv);
+}
+
 // `count` points at equal steps of all triangles' weights laid end to end.
-void sampleCurve(const RenderScene& scene, const std::vector<CurveTriangle>& curve, double weight,
+void sampleCurve(const SampledScene& scene, const std::vector<CurveTriangle>& curve, double weight,
                  uint32_t count, SurfaceSamples& out) {
-    std::unordered_map<uint32_t, std::vector<uint8_t>> sharp;  // by primitive
+    std::unordered_map<uint32_t, std::vector<uint8_t>> sharp;  // by mesh
     const double step = weight / count;
     double before = 0;
     uint32_t taken = 0;
     for (const CurveTriangle& t : curve) {
         before += t.weight;
         if ((taken + 0.5) * step >= before && &t != &curve.back()) continue;
-        const uint32_t primitive = scene.instances[t.instance].primitive;
-        const Primitive& p = scene.geometry->primitives[primitive];
-        auto& edges = sharp[primitive];
-        if (edges.empty()) edges = sharpEdges(*scene.geometry, p);
-        Corners c{localCorners(*scene.geometry, p, t.triangle), edges[t.triangle]};
-        c.bend = bendOf(*scene.geometry, p, t.triangle, c.local);
+        const uint32_t meshIndex = scene.instances[t.instance].mesh;
+        const SampledMesh& mesh = scene.meshes[meshIndex];
+        auto& edges = sharp[meshIndex];
+        if (edges.empty()) edges = sharpEdges(mesh);
+        Corners c{cornersAmong(mesh.positions, mesh, t.triangle), edges[t.triangle]};
+        c.bend = bendOf(mesh, t.triangle, c.local);
         for (; taken < count && ((taken + 0.5) * step < before || &t == &curve.back()); ++taken) {
             const double share = std::clamp(1 - (before - (taken + 0.5) * step) / t.weight, 0.0, 1.0);
-            io::SurfaceSample sample{.positionLocal = pointOn(c, share),
-                                     .instance = t.instance,
-                                     .normalLocal = faceNormal(c.local),
-                                     .bendLocal = c.bend};
-            noteEdges(c, sample);
-            // Its place on the curve is kept, so that the others stay evenly spread.
-            const glm::vec3 weights = barycentrics(c.local, sample.positionLocal);
-            const glm::vec2 uv = uvOn(*scene.geometry, p, t.triangle, weights);
-            const bool hole = cutOut(*scene.geometry, p, uv);
-            if (hole) sample.edgesLocal[0] = {glm::vec3(0), -1};
-            if (scene.instances[t.instance].figure != kNoFigure)
-                followFigure(scene, t, weights, c.sharpEdges | (hole ? io::kSharpCutOut : 0), sample);
-            out.samples.push_back(sample);
-            out.uvs.push_back(uv);
+            addSample(scene, t, c, share, out);
         }
     }
 }
 
 }  // namespace
 
-SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
-    const DeformedVertices deformed = deformFigures(scene);
-    std::vector<CurveTriangle> still = curveOf(scene, deformed, false),
-                               movable = curveOf(scene, deformed, true);
+SurfaceSamples sampleSurfaces(const SampledScene& scene, uint32_t count) {
+    std::vector<CurveTriangle> still = curveOf(scene, false), movable = curveOf(scene, true);
     const std::vector<double> areas = areasOfInstances(scene, still, movable),
                               densities = densitiesOf(areas, count);
     for (auto* curve : {&still, &movable})

@@ -5,7 +5,7 @@
 
 namespace ag::gi {
 
-Irradiance addUpsampling(GraphScope scope, const GBuffer& all, const GBuffer& thin,
+Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& thin,
                          const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
     const uint32_t spacing = thin.spacing / all.spacing;
     if (!gathered.image || spacing == 1) return gathered;

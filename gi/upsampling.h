@@ -2,8 +2,8 @@
 // bilateral upsampling, Kopf et al. 2007); the few pixels without any look farther for what is most alike.
 #pragma once
 
-#include "gi/gbuffer.h"
 #include "gi/pixel_list.h"
+#include "gi/surfaces.h"
 #include "gi/val_shading.h"
 
 namespace ag::gi {
@@ -32,7 +32,7 @@ constexpr UpsamplingNames kLaterUpsampling = {"upsampling.near_later",
 
 // What was gathered at the pixels of `thin` = addThinned(`all`); comes back as it is if those are all. Added
 // to `base`, if there is one, whose direction stands for both.
-Irradiance addUpsampling(GraphScope scope, const GBuffer& all, const GBuffer& thin,
+Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& thin,
                          const Irradiance& gathered, const UpsamplingNames& names = kUpsampling,
                          const Irradiance& base = {});
 

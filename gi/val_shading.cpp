@@ -34,7 +34,7 @@ uint32_t tileSizeFor(uint32_t interleave, uint32_t spacing) {
 
 struct Gather {
     GraphScope scope;
-    const GBuffer& gbuffer;
+    const Surfaces& gbuffer;
     const Vals& vals;
     const IsmAtlas& isms;
     io::ValShadingPush push;
@@ -77,7 +77,7 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
 }
 
 // With every tile's lights sorted into near and far ones.
-Gather addTiles(GraphScope scope, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+Gather addTiles(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
                 float nearReach, uint32_t interleave, const ValTileNames& names) {
     const uint32_t tileSize = tileSizeFor(interleave, gbuffer.spacing);
     const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
@@ -162,7 +162,7 @@ void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape sh
 
 }  // namespace
 
-Irradiance addValShading(GraphScope scope, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
                          const ValShadingSettings& settings, const ValShadingNames& names,
                          const PixelShare& share) {
     if (vals.count == 0) return {};
@@ -206,7 +206,7 @@ Irradiance addValShading(GraphScope scope, const GBuffer& gbuffer, const Vals& v
     return result;
 }
 
-ImageHandle addValGloss(GraphScope scope, const GBuffer& gbuffer, const Vals& vals, const IsmAtlas& isms,
+ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
                         const ValShadingSettings& settings, const PixelShare& share) {
     const bool lightsHaveArea = settings.farShape != ValShape::kPoint;
     if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};

@@ -187,6 +187,8 @@ const char* whyRefused(const EXRHeader& header) {
         return "its size is larger than the limit or none";
     if (header.num_channels < 1 || header.num_channels > kMostChannels)
         return "it has too many channels or none";
+    if (header.chunk_count < 0 || header.chunk_count > w.max_y - w.min_y + 1)
+        return "it says to have more chunks than lines";
     return nullptr;
 }
 

@@ -32,7 +32,8 @@ VkImageView makeView(Device& device, VkImage image, VkFormat format) {
 
 Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
     uint32_t count = 0;
-    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.context().physical(), device.surface(), &count, nullptr);
+    device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.context().physical(), device.surface(), &count,
+                                                   nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
     device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.context().physical(), device.surface(), &count,
                                                    formats.data());
@@ -44,7 +45,8 @@ Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
         format_ = found->format;
         colorSpace_ = found->colorSpace;
     }
-    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.context().physical(), device.surface(), &count, nullptr);
+    device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.context().physical(), device.surface(), &count,
+                                                        nullptr);
     std::vector<VkPresentModeKHR> modes(count);
     device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.context().physical(), device.surface(), &count,
                                                         modes.data());
@@ -74,7 +76,8 @@ void Swapchain::destroyImages() {
 
 void Swapchain::create(glm::uvec2 wanted) {
     VkSurfaceCapabilitiesKHR caps;
-    AG_VK(device_.vk().GetPhysicalDeviceSurfaceCapabilitiesKHR(device_.context().physical(), device_.surface(), &caps));
+    AG_VK(device_.vk().GetPhysicalDeviceSurfaceCapabilitiesKHR(device_.context().physical(),
+                                                               device_.surface(), &caps));
     VkExtent2D extent = caps.currentExtent;
     if (extent.width == UINT32_MAX)
         extent = {std::clamp(wanted.x, caps.minImageExtent.width, caps.maxImageExtent.width),

@@ -12,14 +12,12 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/type_precision.hpp>
 
-namespace ag {
+#include "engine/core/bounds.h"
+#include "engine/core/light_kind.h"
+#include "engine/core/render_camera.h"
+#include "engine/core/render_probe.h"
 
-struct Bounds {
-    glm::vec3 min{1e30f}, max{-1e30f};
-    bool empty() const { return min.x > max.x; }
-    void add(glm::vec3 p) { min = glm::min(min, p), max = glm::max(max, p); }
-    void add(const Bounds& b) { min = glm::min(min, b.min), max = glm::max(max, b.max); }
-};
+namespace ag {
 
 struct VertexAttributes {  // 36 bytes: gpu::VertexLayout::kPositionsAndAttributes, binding 1
     glm::vec3 normal{0, 1, 0};
@@ -109,8 +107,6 @@ struct RenderFigure {
     uint64_t poseVersion = 1;                   // equal numbers mean equal joints
 };
 
-enum class LightKind : uint32_t { kDirectional, kPoint, kSpot };
-
 struct RenderLight {
     LightKind kind = LightKind::kPoint;
     glm::vec3 position{0};          // m, relative to the origin
@@ -126,25 +122,6 @@ struct RenderLight {
     uint64_t id = 0;  // stable identity (entity handle), for carrying clusters over
 
     bool operator==(const RenderLight&) const = default;
-};
-
-// A point whose irradiance is measured for the host.
-struct RenderProbe {
-    glm::vec3 position{0};  // m, relative to the origin
-    glm::vec3 normal{0};    // unit; zero: the mean over all directions
-    uint64_t id = 0;        // stable identity (entity handle)
-
-    bool operator==(const RenderProbe&) const = default;
-};
-
-struct RenderCamera {
-    glm::mat4 clipFromWorld{1};  // reversed depth, infinite far plane; relative to the origin
-    glm::mat4 worldFromClip{1};
-    glm::vec3 position{0};  // relative to the origin
-    glm::vec3 forward{0, 0, -1};
-    glm::vec3 up{0, 1, 0};     // of the picture, at right angles to `forward`
-    float verticalFov = 0.8f;  // radians
-    float near = 0.05f;        // m
 };
 
 struct RenderScene {

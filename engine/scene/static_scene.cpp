@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/core/projection.h"
 #include "engine/scene/figure.h"
-#include "engine/scene/projection.h"
 
 namespace ag {
 namespace {

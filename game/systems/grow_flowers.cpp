@@ -27,7 +27,7 @@ float rate(FlowerMood mood) {
 
 }  // namespace
 
-FlowerMood moodIn(const Flower& flower, const gi::ProbeLight& light) {
+FlowerMood moodIn(const Flower& flower, const render::ProbeLight& light) {
     if (mean(light.direct) > kMostDirect) return FlowerMood::kBlinded;
     const float received = mean(light.bounced);
     if (received < kLeastSeen * flower.amount) return FlowerMood::kDark;
@@ -35,8 +35,8 @@ FlowerMood moodIn(const Flower& flower, const gi::ProbeLight& light) {
     return received < flower.amount ? FlowerMood::kThirsty : FlowerMood::kGrowing;
 }
 
-void growFlowers(View<Flower, const gi::ProbeLight> flowers, Res<const GameTime> time) {
-    flowers.each([&](Flower& flower, const gi::ProbeLight& light) {
+void growFlowers(View<Flower, const render::ProbeLight> flowers, Res<const GameTime> time) {
+    flowers.each([&](Flower& flower, const render::ProbeLight& light) {
         const Flower before = flower;
         flower.received = mean(light.bounced);
         flower.match = matchOf(light.bounced, flower.wants);

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "engine/ecs/view.h"
+#include "engine/renderer/probe_components.h"
 #include "engine/scene/components.h"
 #include "game/components.h"
-#include "gi/gi_components.h"
 
 namespace ag::game {
 
@@ -13,9 +13,9 @@ constexpr float kMostDirect = 0.10f;  // W/m² of direct light that it bears
 constexpr float kOpenEnough = 0.98f;  // of its petals: it has bloomed
 constexpr float kStillOpen = 0.5f;    // until it wilts below this, its room counts it as open
 
-FlowerMood moodIn(const Flower& flower, const gi::ProbeLight& light);
+FlowerMood moodIn(const Flower& flower, const render::ProbeLight& light);
 
-void growFlowers(View<Flower, const gi::ProbeLight> flowers, Res<const GameTime> time);
+void growFlowers(View<Flower, const render::ProbeLight> flowers, Res<const GameTime> time);
 void openPetals(View<const Petal, LocalTransform> petals, Lookup<const Flower> flowers);
 
 }  // namespace ag::game

@@ -9,8 +9,8 @@
 
 #include "engine/core/safe_file.h"
 #include "engine/core/settings.h"
+#include "engine/renderer/render_settings.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_settings.h"
 #include "tools/bench/moving_light.h"
 #include "tools/bench/path_tracing.h"
 #include "tools/bench/report.h"
@@ -84,11 +84,11 @@ TEST(Bench, EveryTechniqueIsAPresetWithValidSettings) {
     for (const Technique& technique : techniques()) {
         ASSERT_FALSE(technique.variants.empty());
         if (technique.runner != Runner::kGpu) continue;
-        gi::GiSettings settings;
+        render::RenderSettings settings;
         Settings registry;
-        gi::registerSettings(registry, settings);
+        render::registerSettings(registry, settings);
         const std::string_view preset = technique.preset.empty() ? technique.name : technique.preset;
-        EXPECT_TRUE(gi::applyPreset(preset, settings)) << technique.name;
+        EXPECT_TRUE(render::applyPreset(preset, settings)) << technique.name;
         for (const Variant& variant : technique.variants)
             for (const std::string& assignment : variant.settings)
                 EXPECT_TRUE(registry.set(assignment)) << assignment;

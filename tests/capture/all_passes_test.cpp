@@ -7,8 +7,8 @@
 #include <regex>
 #include <set>
 
-#include "capture/pass_table.h"
-#include "capture/record.h"
+#include "engine/capture/pass_table.h"
+#include "engine/capture/record.h"
 #include "engine/core/safe_file.h"
 #include "engine/scene/static_scene.h"
 #include "tests/support/device_environment.h"
@@ -17,17 +17,19 @@
 namespace ag::capture {
 namespace {
 
-// From gi/*.cpp: the names given where a pass is added. Views for debugging are no part of the frame.
+// From the sources of light and renderer: the names given where a pass is added. Views for debugging are no part of
+// the frame.
 std::set<std::string> passesOfTheSource() {
     static const std::regex kAdded(
         R"re((?:compute|fullscreen|raster|fill|upload|copyImage)\(\s*"(\w+\.\w+)")re");
     std::set<std::string> names;
-    for (const auto& file : std::filesystem::directory_iterator(AFTERGLOW_SOURCE_DIR "/gi")) {
-        if (file.path().extension() != ".cpp" || file.path().stem() == "debug_view") continue;
-        const std::string text = *readFile(file.path());
-        for (std::sregex_iterator i(text.begin(), text.end(), kAdded), end; i != end; ++i)
-            names.insert((*i)[1]);
-    }
+    for (const char* folder : {"/gi", "/gi/published", "/engine/renderer"})
+        for (const auto& file : std::filesystem::directory_iterator(std::string(AFTERGLOW_SOURCE_DIR) + folder)) {
+            if (file.path().extension() != ".cpp" || file.path().stem() == "debug_view") continue;
+            const std::string text = *readFile(file.path());
+            for (std::sregex_iterator i(text.begin(), text.end(), kAdded), end; i != end; ++i)
+                names.insert((*i)[1]);
+        }
     return names;
 }
 
@@ -55,14 +57,14 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     asset.geometry.materials[0].alphaMode = AlphaMode::kMask;
     asset.geometry.materials[0].specular = 1;
     RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
-    ASSERT_TRUE(gi::applyPreset(c.preset, settings.gi));
-    settings.gi.laterBounces.enabled = c.laterBounces;
-    settings.gi.denoiser.enabled = settings.gi.denoiser.motion = true;
-    settings.gi.stochasticRsm.interpolate = c.preset == "rsm-400";
-    settings.gi.valClustering.count = 64;
+    ASSERT_TRUE(render::applyPreset(c.preset, settings.gi));
+    settings.gi.bounce.laterBounces.enabled = c.laterBounces;
+    settings.gi.bounce.denoiser.enabled = settings.gi.bounce.denoiser.motion = true;
+    settings.gi.bounce.stochasticRsm.interpolate = c.preset == "rsm-400";
+    settings.gi.bounce.valClustering.count = 64;
     if (c.waits) {
-        settings.gi.valClustering.settleFrames = 0;
-        settings.gi.refresh.small = 1;
+        settings.gi.bounce.valClustering.settleFrames = 0;
+        settings.gi.bounce.refresh.small = 1;
         settings.frames = 3;
     }
     RenderScene scene = staticScene(asset);
@@ -70,7 +72,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     scene.instances.back().movable = true;
     scene.lights.push_back({.kind = LightKind::kDirectional, .direction = {0, -1, 0}, .id = 1000});
     scene.probes = {{.position = scene.camera.position, .id = 1}};
-    gi::GiRenderer renderer(test::device());
+    render::Renderer renderer(test::device());
     renderer.load(asset.geometry);
     Capture capture;
     const auto next = [&](std::vector<Span>&) -> const RenderScene& {
@@ -90,7 +92,7 @@ TEST(PassTable, HasEveryPassThatTheFrameCanHave) {
     addPasses({.preset = "afterglow", .scene = "cornell", .waits = true}, captured);
     addPasses({"afterglow", "lamps", 20}, captured);
     addPasses({"afterglow", "figures", 1}, captured);
-    for (const std::string_view preset : gi::presetNames())
+    for (const std::string_view preset : render::presetNames())
         if (std::ranges::count(kSamePasses, preset) == 0) addPasses({preset, "cornell"}, captured);
     for (const std::string& name : wanted)
         EXPECT_TRUE(captured.contains(name)) << name;

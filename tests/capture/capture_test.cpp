@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "capture/display.h"
-#include "capture/graph_picture.h"
-#include "capture/pass_table.h"
-#include "capture/report.h"
-#include "capture/trace.h"
+#include "engine/capture/display.h"
+#include "engine/capture/graph_picture.h"
+#include "engine/capture/pass_table.h"
+#include "engine/capture/report.h"
+#include "engine/capture/trace.h"
 #include "tests/capture/seen.h"
 
 namespace ag::capture {

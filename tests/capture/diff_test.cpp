@@ -1,5 +1,5 @@
 // Two captures compared: what was made worse on purpose is found, and nothing else.
-#include "capture/diff.h"
+#include "engine/capture/diff.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <csignal>
 #include <filesystem>
 
-#include "capture/display.h"
-#include "capture/folder.h"
+#include "engine/capture/display.h"
+#include "engine/capture/folder.h"
 #include "engine/core/safe_file.h"
 #include "tests/capture/seen.h"
 

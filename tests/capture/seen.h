@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "capture/record.h"
-#include "capture/schedule_spans.h"
-#include "capture/world_source.h"
+#include "engine/capture/record.h"
+#include "engine/capture/schedule_spans.h"
+#include "engine/capture/world_source.h"
 #include "engine/scene/static_scene.h"
 #include "tests/support/device_environment.h"
 #include "tools/scenegen/scenes.h"
@@ -19,7 +19,7 @@ inline Capture record(const std::function<void(RecordSettings&)>& change = {}) {
     if (change) change(settings);
     RenderScene scene = staticScene(asset);
     setCamera(scene, cameraOf(asset, 0), settings.size);
-    gi::GiRenderer renderer(test::device());
+    render::Renderer renderer(test::device());
     renderer.load(asset.geometry);
     WorldSource source(asset, scene, settings.size, glm::vec3(0.01f, 0, 0));
     const RenderScene* last = nullptr;

@@ -78,6 +78,24 @@ TEST(ImageFiles, DamagedExrsAreRefusedInOneLine) {
     EXPECT_GT(refused, 100);
 }
 
+// The decoder makes room for as many chunks as an attribute says there are.
+TEST(ImageFiles, AnExrOfMoreChunksThanLinesIsRefused) {
+    ASSERT_TRUE(saveImage(ramp(9, 7), file("whole.exr")));
+    std::string bytes = *readFile(file("whole.exr"));
+    const auto withChunks = [&](int32_t count) {
+        std::string attribute = std::string("chunkCount\0int\0\4\0\0\0", 19);
+        attribute.append(reinterpret_cast<const char*>(&count), sizeof count);
+        return bytes.substr(0, 8) + attribute + bytes.substr(8);
+    };
+    for (const int32_t count : {-1, 8, 0x7fffffff}) {
+        ASSERT_TRUE(writeFileSafely(file("chunks.exr"), withChunks(count)));
+        const auto image = loadImage(file("chunks.exr"));
+        ASSERT_FALSE(image);
+        EXPECT_NE(image.error().message.find("more chunks than lines"), std::string::npos)
+            << image.error().message;
+    }
+}
+
 TEST(ImageMetrics, KnownDifferences) {
     Image truth(10, 10), test(10, 10);
     for (auto& p : truth.pixels)

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/renderer/probe_systems.h"
 #include "engine/scene/animation_system.h"
 #include "engine/scene/spawn_scene.h"
 #include "engine/scene/transform_system.h"
-#include "gi/gi_systems.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/figures.h"
 #include "tools/scenegen/scenes.h"
@@ -37,29 +37,29 @@ SceneAsset variedHall() {
 }
 
 // Small, so that a frame is quick, and soon at rest.
-gi::GiSettings smallSettings() {
-    gi::GiSettings gi;
-    gi.rsm.resolution = 64;
-    gi.valClustering.count = 24;
-    gi.valClustering.settleFrames = 2;
-    gi.ismAtlas.tileSize = 32;
-    gi.ismAtlas.pointsPerMap = 128;
-    gi.laterBounces.settleFrames = 2;
-    gi.stochasticRsm.samples = 4;
-    gi.stochasticRsm.settleFrames = 2;
+render::RenderSettings smallSettings() {
+    render::RenderSettings gi;
+    gi.bounce.rsm.resolution = 64;
+    gi.bounce.valClustering.count = 24;
+    gi.bounce.valClustering.settleFrames = 2;
+    gi.bounce.ismAtlas.tileSize = 32;
+    gi.bounce.ismAtlas.pointsPerMap = 128;
+    gi.bounce.laterBounces.settleFrames = 2;
+    gi.bounce.stochasticRsm.samples = 4;
+    gi.bounce.stochasticRsm.settleFrames = 2;
     gi.shadowMaps.resolution = 64;
     gi.shadowMaps.cascades = 2;
     gi.lightClusters.most = 4;
     gi.lampShadows.faceResolution = 32;
     gi.lampShadows.atlasSize = 512;
-    gi.refresh = {.lightFrames = 5, .pixelFrames = 3, .small = 0.5f};
+    gi.bounce.refresh = {.lightFrames = 5, .pixelFrames = 3, .small = 0.5f};
     return gi;
 }
 
 }  // namespace
 
 EditedWorld::EditedWorld(uint32_t seed) : random_(seed), asset_(variedHall()), settings_(smallSettings()) {
-    gi::registerSettings(registry_, settings_);
+    render::registerSettings(registry_, settings_);
     for (const Entity entity : spawnScene(world_, asset_)) {
         if (world_.has<MeshInstance>(entity)) things_.push_back(entity);
         if (world_.has<PunctualLight>(entity)) lights_.push_back(entity);
@@ -70,7 +70,7 @@ EditedWorld::EditedWorld(uint32_t seed) : random_(seed), asset_(variedHall()), s
     }
     spawnLight(LightKind::kDirectional);
     for (const glm::dvec3 place : {glm::dvec3(-2, 1, 0), glm::dvec3(3, 1, 2)})
-        world_.create(LocalTransform{.translation = place}, WorldTransform{}, gi::IrradianceProbe{});
+        world_.create(LocalTransform{.translation = place}, WorldTransform{}, render::IrradianceProbe{});
     world_.setResource<ExtractState>();
     world_.setResource<ActiveCamera>(cameraOf(asset_, 0), size_);
     world_.setResource<RenderScene>().geometry = &asset_.geometry;
@@ -82,7 +82,7 @@ EditedWorld::EditedWorld(uint32_t seed) : random_(seed), asset_(variedHall()), s
     schedule_.add("updateChildTransforms", updateChildTransforms);
     schedule_.add("poseFigures", poseFigures);
     schedule_.add("extractScene", extractScene);
-    schedule_.add("extractProbes", gi::extractProbes);
+    schedule_.add("extractProbes", render::extractProbes);
 }
 
 std::string EditedWorld::step() {
@@ -275,13 +275,13 @@ std::string EditedWorld::changeSetting() {
 
 std::string EditedWorld::resetSettings() {
     settings_ = smallSettings();
-    if (below(2)) settings_.firstBounce = gi::FirstBounce(below(5));
-    settings_.spacing = 1 + below(3);
-    settings_.laterBounces.enabled = below(3) == 0;
-    settings_.denoiser.enabled = below(3) == 0;
+    if (below(2)) settings_.technique = render::Technique(below(5));
+    settings_.bounce.spacing = 1 + below(3);
+    settings_.bounce.laterBounces.enabled = below(3) == 0;
+    settings_.bounce.denoiser.enabled = below(3) == 0;
     return fmt::format("settings anew: first bounce {}, spacing {}, later bounces {}, denoiser {}",
-                       uint32_t(settings_.firstBounce), settings_.spacing, settings_.laterBounces.enabled,
-                       settings_.denoiser.enabled);
+                       uint32_t(settings_.technique), settings_.bounce.spacing,
+                       settings_.bounce.laterBounces.enabled, settings_.bounce.denoiser.enabled);
 }
 
 }  // namespace ag::test

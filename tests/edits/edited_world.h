@@ -7,9 +7,9 @@
 #include "engine/ecs/schedule.h"
 #include "engine/ecs/world.h"
 #include "engine/jobs/job_graph.h"
+#include "engine/renderer/render_settings.h"
 #include "engine/scene/components.h"
 #include "engine/scene/scene_asset.h"
-#include "gi/gi_settings.h"
 
 namespace ag::test {
 
@@ -25,7 +25,7 @@ class EditedWorld {
     const SceneAsset& asset() const { return asset_; }
     const RenderScene& scene() { return world_.resource<RenderScene>(); }
     glm::uvec2 size() const { return size_; }
-    const gi::GiSettings& settings() const { return settings_; }
+    const render::RenderSettings& settings() const { return settings_; }
 
   private:
     std::string edit();
@@ -59,7 +59,7 @@ class EditedWorld {
     MeshInstance figureMesh_;
     uint32_t walker_ = 0, walkFrames_ = 0;  // of the things, how long it walks on
     glm::uvec2 size_{48, 32};
-    gi::GiSettings settings_;
+    render::RenderSettings settings_;
     Settings registry_;  // defaults: small and quick
 };
 

@@ -8,8 +8,8 @@
 #include <deque>
 
 #include "engine/gpu/transfer.h"
+#include "engine/renderer/renderer.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_renderer.h"
 #include "tests/edits/edited_world.h"
 #include "tests/support/device_environment.h"
 #include "tools/scenegen/scenes.h"
@@ -30,9 +30,9 @@ struct Pictures {
 };
 
 struct Renderer {
-    gi::GiRenderer gi{device()};
+    render::Renderer gi{device()};
     FrameGraphOptions options{.timing = TimingMode::kOff};
-    gi::GiFrame last;
+    render::RenderFrame last;
     uint64_t ran = 0;
 
     explicit Renderer(EditedWorld& world, bool skip) {
@@ -41,7 +41,7 @@ struct Renderer {
     }
     void frame(EditedWorld& world) {
         gi.render(world.scene(), world.size(), world.settings(), options,
-                  [&](GraphScope scope, const gi::SceneView&, const gi::GiFrame& declared) {
+                  [&](GraphScope scope, const render::SceneView&, const render::RenderFrame& declared) {
                       last = declared;
                       scope.output(declared.outputs.display);
                       scope.output(declared.outputs.radiance);
@@ -112,14 +112,14 @@ TEST(Serial, RendersTheSameImages) {
     RenderScene scene = staticScene(asset);
     const glm::uvec2 size(64, 36);
     setCamera(scene, cameraOf(asset, 0), size);
-    gi::GiRenderer serial(device(), 1), parallel(device(), 0);
+    render::Renderer serial(device(), 1), parallel(device(), 0);
     for (int i = 0; i < 3; ++i) {
         scene.instances[size_t(i) * 100].worldFromLocal[3].y += 0.5f;
         ++scene.instancesVersion;
         std::vector<std::vector<glm::vec3>> images;
-        for (gi::GiRenderer* renderer : {&serial, &parallel}) {
+        for (render::Renderer* renderer : {&serial, &parallel}) {
             if (i == 0) renderer->load(asset.geometry);
-            images.push_back(renderLayer(*renderer, scene, size, {}, gi::Layer::kRadiance, 1).pixels);
+            images.push_back(renderLayer(*renderer, scene, size, {}, render::Layer::kRadiance, 1).pixels);
         }
         EXPECT_EQ(images[0], images[1]) << "frame " << i;
     }

@@ -3,17 +3,17 @@
 
 #include "engine/app/bindings.h"
 #include "engine/core/settings.h"
-#include "gi/gi_settings.h"
+#include "engine/renderer/render_settings.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
     const std::string text(reinterpret_cast<const char*>(bytes), size);
-    ag::gi::GiSettings gi;
+    ag::render::RenderSettings gi;
     ag::Settings settings;
-    ag::gi::registerSettings(settings, gi);
+    ag::render::registerSettings(settings, gi);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         (void)settings.set(line);
-        (void)ag::gi::applyPreset(line, gi);
+        (void)ag::render::applyPreset(line, gi);
     }
     (void)settings.table();
     (void)ag::parseBindings(text, "keys");

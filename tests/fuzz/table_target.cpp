@@ -1,5 +1,5 @@
 // A capture's table of passes, and any table of its folder; what can be read can be written and read again.
-#include "capture/pass_table.h"
+#include "engine/capture/pass_table.h"
 #include "tests/fuzz/as_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -22,7 +22,7 @@ SceneAsset level() {
     return *importGltf(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
 }
 
-gi::ProbeLight lightOf(glm::vec3 direct, glm::vec3 bounced) {
+render::ProbeLight lightOf(glm::vec3 direct, glm::vec3 bounced) {
     return {direct, bounced, 1};
 }
 
@@ -196,7 +196,7 @@ TEST(Menu, TurnsTheSoundOffExactly) {
 }
 
 TEST(Quality, PresetsLeaveTheEyeAlone) {
-    gi::GiSettings gi;
+    render::RenderSettings gi;
     gi.composite.exposure = 2;
     for (const Quality q : {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra}) {
         applyQuality(q, gi);
@@ -249,7 +249,7 @@ TEST(Hud, TellsWhyAFlowerCloses) {
     Game game(level(), 1);
     game.tick({});
     const auto read = [&](FlowerMood mood, float openness, float direct) {
-        View<Flower, gi::ProbeLight>(game.world(), {}).each([&](Flower& f, gi::ProbeLight& light) {
+        View<Flower, render::ProbeLight>(game.world(), {}).each([&](Flower& f, render::ProbeLight& light) {
             f.mood = mood;
             f.openness = openness;
             light.direct = glm::vec3(direct);

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/renderer/probe_components.h"
 #include "engine/scene/gltf_import.h"
 #include "game/game.h"
 #include "game/systems/grow_flowers.h"
 #include "game/systems/make_sounds.h"
-#include "gi/gi_components.h"
 
 namespace ag::game {
 namespace {
@@ -45,9 +45,10 @@ struct Listener {
 
 // The light that a room's flowers want, for a tick.
 void light(Listener& l, int32_t room) {
-    View<const Flower, gi::ProbeLight>(l.game.world(), l.now()).each([&](const Flower& f, gi::ProbeLight& p) {
-        if (f.room == room) p = {{}, f.wants * (4 * f.amount), 1};
-    });
+    View<const Flower, render::ProbeLight>(l.game.world(), l.now())
+        .each([&](const Flower& f, render::ProbeLight& p) {
+            if (f.room == room) p = {{}, f.wants * (4 * f.amount), 1};
+        });
 }
 
 int flowersOf(Listener& l, int32_t room) {
@@ -98,7 +99,7 @@ TEST(Sounds, AFlowerOpensWithOneChimeAtItsPlace) {
         });
     for (int i = 0; i < 400; ++i) {
         const Flower f = *l.game.world().get<Flower>(flower);
-        *l.game.world().write<gi::ProbeLight>(flower) = {{}, f.wants * (4 * f.amount), 1};
+        *l.game.world().write<render::ProbeLight>(flower) = {{}, f.wants * (4 * f.amount), 1};
         l.tick();
     }
     EXPECT_EQ(l.heard.size(), 1u);
@@ -109,7 +110,7 @@ TEST(Sounds, AFlowerOpensWithOneChimeAtItsPlace) {
     // The beam closes it, and is heard doing so once.
     l.heard.clear();
     for (int i = 0; i < 200; ++i) {
-        *l.game.world().write<gi::ProbeLight>(flower) = {glm::vec3(1), {}, 1};
+        *l.game.world().write<render::ProbeLight>(flower) = {glm::vec3(1), {}, 1};
         l.tick();
     }
     EXPECT_EQ(l.heard.size(), 1u);

@@ -1,12 +1,13 @@
 // Cascades keep their texels while things move at the scene's edge, and are the same in a scene of any size.
-#include "gi/cascades.h"
+#include "engine/renderer/cascades.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/projection.h"
-#include "gi/render_units.h"
+#include "engine/core/projection.h"
+#include "engine/renderer/render_units.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 constexpr glm::vec3 kSun(0.267261242f, -0.801783726f, 0.534522484f);

@@ -6,12 +6,15 @@
 namespace ag::gi {
 namespace {
 
-RenderScene threeLamps() {
-    RenderScene scene;
-    scene.bounds = {glm::vec3(-2), glm::vec3(2)};
+struct Lit {
+    std::vector<RsmLight> lights;
+    operator World() const { return {.lights = lights, .bounds = {glm::vec3(-2), glm::vec3(2)}}; }
+};
+
+Lit threeLamps() {
+    Lit scene;
     for (uint64_t id = 1; id <= 3; ++id)
-        scene.lights.push_back(
-            {.kind = LightKind::kSpot, .intensity = glm::vec3(10 * float(id)), .bounces = true, .id = id});
+        scene.lights.push_back({.kind = LightKind::kSpot, .intensity = glm::vec3(10 * float(id)), .id = id});
     return scene;
 }
 
@@ -29,7 +32,7 @@ Range rangeOf(const RsmLayout& layout, uint64_t id) {
 
 TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
     for (const uint32_t budget : {3u, 16u, 23u, 40u, 64u, 100u, 128u, 1024u}) {
-        RenderScene scene = threeLamps();
+        Lit scene = threeLamps();
         ClusterShares shares;
         const RsmLayout layout = layoutRsm(scene, {}, budget, shares);
         uint32_t next = 0;
@@ -47,7 +50,7 @@ TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
 }
 
 TEST(ClusterShares, ALampThatFlickersTakesNothingFromTheOthers) {
-    RenderScene scene = threeLamps();
+    Lit scene = threeLamps();
     ClusterShares shares;
     const RsmLayout before = layoutRsm(scene, {}, 128, shares);
     for (int frame = 0; frame < 100; ++frame) {
@@ -64,7 +67,7 @@ TEST(ClusterShares, ALampThatFlickersTakesNothingFromTheOthers) {
 }
 
 TEST(ClusterShares, FollowLightThatStaysChanged) {
-    RenderScene scene = threeLamps();
+    Lit scene = threeLamps();
     ClusterShares shares;
     const uint32_t before = rangeOf(layoutRsm(scene, {}, 128, shares), 1).count;
     scene.lights[0].intensity *= 9.0f;
@@ -75,7 +78,7 @@ TEST(ClusterShares, FollowLightThatStaysChanged) {
 }
 
 TEST(ClusterShares, OfALightThatStaysDarkGoToTheOthers) {
-    RenderScene scene = threeLamps();
+    Lit scene = threeLamps();
     ClusterShares shares;
     layoutRsm(scene, {}, 128, shares);
     scene.lights[2].intensity = glm::vec3(0);
@@ -99,20 +102,19 @@ uint64_t texelsOf(const RsmLayout& layout) {
 }
 
 TEST(LightMapSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
-    RenderScene scene = threeLamps();
+    Lit scene = threeLamps();
     ClusterShares shares;
     EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), 3u * 512 * 512);
     EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 64}, 128, shares)), 3u * 64 * 64);
     scene.lights[0].kind = LightKind::kPoint;
-    scene.lights[1].rsmResolution = 300;
+    scene.lights[1].resolution = 300;
     EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), (6u + 1 + 4) * 256 * 256);
 }
 
 TEST(LightMapSizes, OfManyLightsAreHalvedAndDarkOnesCount) {
-    RenderScene scene = threeLamps();
+    Lit scene = threeLamps();
     for (uint64_t id = 4; id <= 8; ++id)
-        scene.lights.push_back(
-            {.kind = LightKind::kPoint, .intensity = glm::vec3(1), .bounces = true, .id = id});
+        scene.lights.push_back({.kind = LightKind::kPoint, .intensity = glm::vec3(1), .id = id});
     ClusterShares shares;
     EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 1024}, 128, shares)), (3u * 4 + 5 * 6) * 128 * 128);
     const RsmLayout all = layoutRsm(scene, {}, 128, shares);

@@ -4,12 +4,13 @@
 #include <cstring>
 #include <random>
 
+#include "engine/renderer/draw_lists.h"
 #include "engine/scene/static_scene.h"
-#include "gi/draw_lists.h"
 #include "gi/light_views.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 bool inSight(const RenderScene& scene, const RenderInstance& instance, const glm::mat4& m) {

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <random>
 
-#include "gi/frame_budget.h"
+#include "engine/renderer/frame_budget.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 // A scene whose steps take other times than guessed, with noise.
@@ -111,16 +112,16 @@ TEST(FrameBudget, StepsOfThePresetsAreThePresets) {
     for (const std::string_view name : {"low", "medium", "high", "ultra"}) {
         const size_t step = qualityStepNamed(name);
         ASSERT_LT(step, qualitySteps().size());
-        GiSettings chosen, preset;
+        RenderSettings chosen, preset;
         applyQualityStep(qualitySteps()[step], chosen);
         applyPreset(name, preset);
-        EXPECT_EQ(chosen.rsm.resolution, preset.rsm.resolution) << name;
-        EXPECT_EQ(chosen.valClustering.count, preset.valClustering.count) << name;
-        EXPECT_EQ(chosen.ismAtlas.tileSize, preset.ismAtlas.tileSize) << name;
-        EXPECT_EQ(chosen.ismAtlas.pointsPerMap, preset.ismAtlas.pointsPerMap) << name;
-        EXPECT_EQ(chosen.spacing, preset.spacing) << name;
-        EXPECT_EQ(chosen.valShading.nearReach, preset.valShading.nearReach) << name;
-        EXPECT_EQ(chosen.valShading.taps, preset.valShading.taps) << name;
+        EXPECT_EQ(chosen.bounce.rsm.resolution, preset.bounce.rsm.resolution) << name;
+        EXPECT_EQ(chosen.bounce.valClustering.count, preset.bounce.valClustering.count) << name;
+        EXPECT_EQ(chosen.bounce.ismAtlas.tileSize, preset.bounce.ismAtlas.tileSize) << name;
+        EXPECT_EQ(chosen.bounce.ismAtlas.pointsPerMap, preset.bounce.ismAtlas.pointsPerMap) << name;
+        EXPECT_EQ(chosen.bounce.spacing, preset.bounce.spacing) << name;
+        EXPECT_EQ(chosen.bounce.valShading.nearReach, preset.bounce.valShading.nearReach) << name;
+        EXPECT_EQ(chosen.bounce.valShading.taps, preset.bounce.valShading.taps) << name;
     }
 }
 

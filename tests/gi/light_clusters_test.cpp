@@ -6,10 +6,11 @@
 #include <set>
 
 #include "common/sampling.h"
+#include "engine/renderer/light_clusters.h"
 #include "engine/scene/static_scene.h"
-#include "gi/light_clusters.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 RenderScene sceneWithLamps(uint32_t count) {

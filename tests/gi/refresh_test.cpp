@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/renderer/indirect_light.h"
 #include "engine/scene/static_scene.h"
 #include "tools/scenegen/builder.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 // A lamp over a room, a ball's worth of a box in it.
@@ -25,15 +27,17 @@ struct Refreshed {
     RenderScene scene;
     JobRunner runner{1};
     DrawLists draws;
-    GiSettings settings;
+    RenderSettings settings;
     RefreshHistory history;
+    std::vector<RsmLight> lights;
+    std::vector<MovedThing> moved;
     float step = 0.002f;  // m, of the box in a frame in which it moves
 
     explicit Refreshed(float size = 0.1f) : asset(roomWithBox(size)), scene(staticScene(asset)) {
         setCamera(scene, cameraOf(asset, 0), {160, 90});
         scene.instances.back().movable = true;
-        settings.valClustering.settleFrames = 4;
-        settings.refresh = {.lightFrames = 6, .pixelFrames = 3};
+        settings.bounce.valClustering.settleFrames = 4;
+        settings.bounce.refresh = {.lightFrames = 6, .pixelFrames = 3};
     }
     Refresh frame(bool moves) {
         const uint32_t row = uint32_t(scene.instances.size()) - 1;
@@ -46,7 +50,8 @@ struct Refreshed {
         draws.beginFrame(scene, runner);
         SceneView view{.scene = &scene, .draws = &draws, .size = {160, 90}};
         view.moved = scene.changedInstances;
-        const Refresh refresh = chooseRefresh(view, settings, history);
+        const Refresh refresh =
+            chooseRefresh(worldOf(view, lights, moved), scene.camera, view.size, settings.bounce, history);
         scene.allInstancesChanged = false;
         return refresh;
     }
@@ -108,7 +113,7 @@ TEST(Refresh, WhatIsNotSmallIsNeverLate) {
         camera.scene.camera.position.x += 0.01f;
         ++camera.scene.cameraVersion;
         light.scene.lights[0].intensity *= 1.01f;
-        setting.settings.importance.viewWeight = 0.1f + 0.05f * float(i);
+        setting.settings.bounce.importance.viewWeight = 0.1f + 0.05f * float(i);
         ++origin.scene.originVersion;
         for (Refreshed* r : {&camera, &light, &setting, &origin})
             EXPECT_TRUE(r->isAll(r->frame(true)));
@@ -133,7 +138,7 @@ TEST(Refresh, AfterALargeChangeAllSettlesFirst) {
 
 TEST(Refresh, CanBeTurnedOff) {
     Refreshed r;
-    r.settings.refresh.lightFrames = 1;
+    r.settings.bounce.refresh.lightFrames = 1;
     r.settle();
     for (int i = 0; i < 8; ++i)
         EXPECT_TRUE(r.isAll(r.frame(true)));
@@ -155,12 +160,14 @@ TEST(Refresh, SharesAreOfDirections) {
     const double cone = 1 - std::cos(std::atan(std::hypot(width, height)));
     const double part = 4 * width * height / (glm::pi<double>() * (width * width + height * height));
     const double ofPicture = ofBall(std::hypot(1.9, 0.5)) / (cone * part);
-    EXPECT_NEAR(shareSeen(view), ofPicture, 0.02 * ofPicture);
+    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), ofPicture,
+                0.02 * ofPicture);
     r.scene.camera.forward = -r.scene.camera.forward;  // looks away
     const double ofLamp = ofBall(3) / (1 - std::cos(glm::radians(60.0)));
-    EXPECT_NEAR(shareSeen(view), ofLamp, 0.02 * ofLamp);
+    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), ofLamp,
+                0.02 * ofLamp);
     r.scene.lights[0].direction = {0, 1, 0};  // and so does the lamp
-    EXPECT_EQ(shareSeen(view), 0);
+    EXPECT_EQ(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), 0);
 }
 
 TEST(Refresh, LightsFollowAThingThatLeavesItsLightBehind) {

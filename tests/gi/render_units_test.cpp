@@ -1,9 +1,10 @@
 // Units of a scene: ordinary ones stay, others come near one, and nothing is rounded.
-#include "gi/render_units.h"
+#include "engine/renderer/render_units.h"
 
 #include <gtest/gtest.h>
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 RenderScene sceneOf(float diagonal, float irradiance) {

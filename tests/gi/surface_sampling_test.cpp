@@ -1,6 +1,6 @@
 // Points on surfaces: spread by area along a curve whose every n-th point is spread too, aware of where
 // surfaces end and how they bend.
-#include "gi/surface_sampling.h"
+#include "engine/renderer/scene_surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 std::map<uint32_t, int> countByInstance(std::span<const io::SurfaceSample> samples) {
@@ -79,7 +80,7 @@ float areaOf(const SurfaceSamples& all) {
 TEST(SurfaceSampling, EqualAreasGetEqualCounts) {
     const SceneAsset asset = floorAndBox();
     const RenderScene scene = staticScene(asset);
-    const SurfaceSamples all = sampleSurfaces(scene, 8192);
+    const SurfaceSamples all = render::sampleSurfaces(scene, 8192);
     EXPECT_NEAR(areaOf(all), 22, 1e-3);
     ASSERT_NEAR(double(all.samples.size()), 8192, 1);
     for (size_t first = 0; first < 8; ++first) {
@@ -96,7 +97,7 @@ TEST(SurfaceSampling, EveryNthLeavesNoLargeHoles) {
     b.camera("camera", {0, 3, 4}, {0, 0, 0}, 50);
     const SceneAsset asset = b.finish();
     const RenderScene scene = staticScene(asset);
-    const SurfaceSamples all = sampleSurfaces(scene, 16384);
+    const SurfaceSamples all = render::sampleSurfaces(scene, 16384);
     // 1,024 points over 16 x 16 cells: 4 each; independent ones would leave 2 % of the cells empty.
     for (size_t first = 0; first < 16; ++first) {
         std::map<int, int> cells;
@@ -112,7 +113,7 @@ TEST(SurfaceSampling, MovableInstancesHaveTheirOwnSegments) {
     for (const uint32_t moving : {0u, 1u}) {
         RenderScene scene = staticScene(asset);
         scene.instances[moving].movable = true;
-        const SurfaceSamples all = sampleSurfaces(scene, 8192);
+        const SurfaceSamples all = render::sampleSurfaces(scene, 8192);
         ASSERT_EQ(all.samples.size(), 8192u);
         EXPECT_EQ(all.stillCount % io::kSegmentPoints, 0u);
         EXPECT_NEAR(areaOf(all), 22, 1e-3);
@@ -123,7 +124,7 @@ TEST(SurfaceSampling, MovableInstancesHaveTheirOwnSegments) {
     RenderScene scene = staticScene(asset);
     for (RenderInstance& instance : scene.instances)
         instance.movable = true;
-    EXPECT_EQ(sampleSurfaces(scene, 8192).stillCount, 0u);
+    EXPECT_EQ(render::sampleSurfaces(scene, 8192).stillCount, 0u);
 }
 
 // A box of 6 m² beside a floor of 160,000 m² would get a point by its area alone.
@@ -132,7 +133,7 @@ TEST(SurfaceSampling, SmallThingsHavePointsThatStandForLess) {
     RenderScene scene = staticScene(asset);
     const uint32_t box = boxOf(scene);
     scene.instances[1 - box].worldFromLocal = glm::mat4x3(glm::scale(glm::mat4(1), glm::vec3(100)));
-    const SurfaceSamples all = sampleSurfaces(scene, 8192);
+    const SurfaceSamples all = render::sampleSurfaces(scene, 8192);
     auto counts = countByInstance(all.samples);
     EXPECT_NEAR(counts[box], 24, 2);
     EXPECT_NEAR(counts[box] * all.pointAreas[box], 6, 0.6);
@@ -147,7 +148,7 @@ TEST(SurfaceSampling, LargeThingsKeepThreeQuartersOfThePoints) {
     scene.instances[floor].worldFromLocal = glm::mat4x3(glm::scale(glm::mat4(1), glm::vec3(1000)));
     const RenderInstance small = scene.instances[box];
     scene.instances.resize(1000, small);
-    const SurfaceSamples all = sampleSurfaces(scene, 8192);
+    const SurfaceSamples all = render::sampleSurfaces(scene, 8192);
     const auto large = std::ranges::count(all.samples, floor, &io::SurfaceSample::instance);
     EXPECT_NEAR(double(large) / double(all.samples.size()), 0.8, 0.03);
 }
@@ -167,7 +168,7 @@ TEST(SurfaceSampling, CutOutPointsStandForNothing) {
         g.attributes[i].uv = {g.positions[i].x / 4, 0.5f};
     const RenderScene scene = staticScene(asset);
     int out = 0, in = 0;
-    for (const io::SurfaceSample& s : sampleSurfaces(scene, 4096).samples) {
+    for (const io::SurfaceSample& s : render::sampleSurfaces(scene, 4096).samples) {
         if (std::abs(s.positionLocal.y) > 1e-6f || std::abs(s.normalLocal.y) < 0.9f) continue;  // the floor's
         const bool cut = s.edgesLocal[0].distance < 0;
         EXPECT_EQ(cut, s.positionLocal.x < 2) << s.positionLocal.x;
@@ -180,7 +181,7 @@ TEST(SurfaceSampling, CutOutPointsStandForNothing) {
 TEST(SurfaceSampling, SegmentsOfTheCurveAreCompact) {
     const SceneAsset asset = *scenegen::buildScene("cornell", 0);
     const RenderScene scene = staticScene(asset);
-    const SurfaceSamples all = sampleSurfaces(scene, 1 << 14);
+    const SurfaceSamples all = render::sampleSurfaces(scene, 1 << 14);
     const float side = std::sqrt(areaOf(all) / float(all.samples.size()));
     double sum = 0;
     const size_t segments = all.samples.size() / io::kSegmentPoints;
@@ -200,7 +201,7 @@ TEST(SurfaceSampling, SegmentsOfTheCurveAreCompact) {
 TEST(SurfaceSampling, BendIsTheCurvatureOfASphereAndNoneOfABox) {
     const auto bends = [](const RenderScene& scene) {
         std::vector<float> all;
-        for (const io::SurfaceSample& s : sampleSurfaces(scene, 1000).samples)
+        for (const io::SurfaceSample& s : render::sampleSurfaces(scene, 1000).samples)
             all.push_back(s.bendLocal);
         std::ranges::sort(all);
         return all;
@@ -219,7 +220,7 @@ TEST(SurfaceSampling, EdgesBoundTheSurfaceAndFlatSeamsDoNot) {
     const SceneAsset asset = floorAndBox();
     const RenderScene scene = staticScene(asset);
     int nearDiagonal = 0;
-    for (const io::SurfaceSample& s : sampleSurfaces(scene, 4096).samples) {
+    for (const io::SurfaceSample& s : render::sampleSurfaces(scene, 4096).samples) {
         const bool onFloor = std::abs(s.positionLocal.y) < 1e-6f && std::abs(s.normalLocal.y) > 0.9f;
         if (!onFloor) continue;
         for (const io::SurfaceEdge& edge : s.edgesLocal) {
@@ -240,11 +241,11 @@ TEST(SurfaceSampling, EdgesBoundTheSurfaceAndFlatSeamsDoNot) {
 TEST(SurfaceSampling, SameSceneSamePoints) {
     const SceneAsset asset = *scenegen::buildScene("cornell", 0);
     const RenderScene scene = staticScene(asset);
-    const SurfaceSamples a = sampleSurfaces(scene, 1000), b = sampleSurfaces(scene, 1000);
+    const SurfaceSamples a = render::sampleSurfaces(scene, 1000), b = render::sampleSurfaces(scene, 1000);
     ASSERT_EQ(a.samples.size(), b.samples.size());
     for (size_t i = 0; i < a.samples.size(); ++i)
         EXPECT_EQ(a.samples[i].positionLocal, b.samples[i].positionLocal);
-    EXPECT_TRUE(sampleSurfaces(RenderScene{.geometry = scene.geometry}, 1000).samples.empty());
+    EXPECT_TRUE(render::sampleSurfaces(RenderScene{.geometry = scene.geometry}, 1000).samples.empty());
 }
 
 }  // namespace

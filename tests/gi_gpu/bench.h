@@ -8,11 +8,12 @@
 #include <functional>
 
 #include "engine/gpu/transfer.h"
+#include "engine/renderer/renderer.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_renderer.h"
 #include "tests/support/device_environment.h"
 
 namespace ag::gi {
+using namespace render;
 
 // A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
 // passes and synchronization validation proves them.
@@ -25,19 +26,17 @@ struct Bench {
     }
     void frame() {
         renderer.render(
-            scene, size, settings, options, [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
+            scene, size, settings, options,
+            [&](GraphScope scope, const SceneView&, const RenderFrame& declared) {
                 last = declared;
                 scope.output(declared.outputs.display);
                 scope.output(declared.outputs.radiance);
-                if (declared.rsm.empty() || settings.firstBounce == FirstBounce::kNone) {
-                    if (output) output(scope, declared);
-                    return;
-                }
-                for (BufferHandle b : {declared.rsm.texels, declared.clusters.clusters,
-                                       declared.clusters.seeds, declared.clusters.candidates,
-                                       declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
-                    scope.output(b);
-                if (declared.bounce1.image) scope.output(declared.bounce1.image);
+                const BounceLight& light = declared.bounce;
+                for (BufferHandle b : {light.rsm.texels, light.clusters.clusters, light.clusters.seeds,
+                                       light.clusters.candidates, light.clusters.candidateCounts,
+                                       light.clusters.slotOfTexel})
+                    if (b) scope.output(b);
+                if (light.bounce1.image) scope.output(light.bounce1.image);
                 if (output) output(scope, declared);
             });
     }
@@ -64,11 +63,11 @@ struct Bench {
     SceneAsset asset;
     RenderScene scene;
     glm::uvec2 size;
-    GiSettings settings;
+    RenderSettings settings;
     FrameGraphOptions options;
-    GiRenderer renderer;
-    GiFrame last;
-    std::function<void(GraphScope, const GiFrame&)> output;  // what a test reads besides
+    Renderer renderer;
+    RenderFrame last;
+    std::function<void(GraphScope, const RenderFrame&)> output;  // what a test reads besides
 };
 
 inline double meanOf(const Image& image) {

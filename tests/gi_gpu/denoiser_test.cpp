@@ -11,23 +11,24 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 std::unique_ptr<Bench> stochasticBench(SceneAsset asset, glm::uvec2 size, const char* preset = "stochastic") {
     auto b = std::make_unique<Bench>(std::move(asset), size);
     EXPECT_TRUE(applyPreset(preset, b->settings));
-    b->settings.rsm.resolution = 64;
-    b->settings.stochasticRsm.settleFrames = 1'000'000;
-    b->output = [](GraphScope scope, const GiFrame& f) {
-        if (f.bounce1.image) scope.output(f.bounce1.image);
+    b->settings.bounce.rsm.resolution = 64;
+    b->settings.bounce.stochasticRsm.settleFrames = 1'000'000;
+    b->output = [](GraphScope scope, const RenderFrame& f) {
+        if (f.bounce.bounce1.image) scope.output(f.bounce.bounce1.image);
     };
     return b;
 }
 
 Image bounceImage(Bench& b) {
     b.frame();
-    return b.last.bounce1.image ? readImage(b.renderer, b.last.bounce1.image)
-                                : Image(int(b.size.x), int(b.size.y));
+    return b.last.bounce.bounce1.image ? readImage(b.renderer, b.last.bounce.bounce1.image)
+                                       : Image(int(b.size.x), int(b.size.y));
 }
 
 double meanOverFrames(Bench& b, int frames) {
@@ -41,8 +42,8 @@ double meanOverFrames(Bench& b, int frames) {
 // get what is theirs. The normals stand for it. Sides that no spacing divides.
 TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
     Bench b(*scenegen::buildScene("cornell", 0), {163, 97});
-    b.settings.firstBounce = FirstBounce::kNone;
-    b.settings.spacing = 1;  // it is thinned below
+    b.settings.technique = Technique::kNone;
+    b.settings.bounce.spacing = 1;  // it is thinned below
     DenoiserSettings s{.enabled = true};
     CameraPose pose = cameraOf(b.asset, 0);
     for (const uint32_t spacing : {1u, 2u, 3u})
@@ -55,12 +56,13 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
                 setCamera(b.scene, pose, b.size);
                 ImageHandle normal, out;
                 b.renderer.render(b.scene, b.size, b.settings, b.options,
-                                  [&](GraphScope scope, const SceneView& view, const GiFrame& f) {
-                                      normal = f.gbuffer.normal;
-                                      const GBuffer thin = addThinned(scope, f.gbuffer, spacing);
-                                      const Irradiance steady = addDenoiser(
-                                          scope, view, thin, {{thin.normal}, 1, frame}, s, history);
-                                      out = addUpsampling(scope, f.gbuffer, thin, steady).image;
+                                  [&](GraphScope scope, const SceneView& view, const RenderFrame& f) {
+                                      normal = f.gbuffer.surfaces.normal;
+                                      const Surfaces thin = addThinned(scope, f.gbuffer.surfaces, spacing);
+                                      const Irradiance steady =
+                                          addDenoiser(scope, thin, view.scene->originVersion,
+                                                      {{thin.normal}, 1, frame}, s, history);
+                                      out = addUpsampling(scope, f.gbuffer.surfaces, thin, steady).image;
                                       scope.output(normal);
                                       scope.output(out);
                                   });
@@ -82,16 +84,16 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
 // varies within few pixels.
 TEST(Upsampling, IsWhatAllPixelsWouldHave) {
     Bench b(*scenegen::buildScene("occluder", 0), {320, 180});
-    b.settings.spacing = 1;
+    b.settings.bounce.spacing = 1;
     for (const uint32_t spacing : {2u, 3u}) {
         ImageHandle all, spread;
         for (int frame = 0; frame < 8; ++frame)  // clusters settle
             b.renderer.render(b.scene, b.size, b.settings, b.options,
-                              [&](GraphScope scope, const SceneView&, const GiFrame& f) {
-                                  all = f.bounce1.image;
-                                  const GBuffer thin = addThinned(scope, f.gbuffer, spacing);
+                              [&](GraphScope scope, const SceneView&, const RenderFrame& f) {
+                                  all = f.bounce.bounce1.image;
+                                  const Surfaces thin = addThinned(scope, f.gbuffer.surfaces, spacing);
                                   const Irradiance taken{addThinImage(scope, "test.thin", all, spacing)};
-                                  spread = addUpsampling(scope, f.gbuffer, thin, taken).image;
+                                  spread = addUpsampling(scope, f.gbuffer.surfaces, thin, taken).image;
                                   scope.output(all);
                                   scope.output(spread);
                               });
@@ -127,12 +129,12 @@ SceneAsset withWaves(SceneAsset asset) {
 TEST(Upsampling, TakesLightAsEachPixelIsTurned) {
     Bench b(withWaves(*scenegen::buildScene("cornell", 0)), {320, 180});
     const auto bounce = [&](uint32_t spacing) {
-        b.settings.spacing = spacing;
-        b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.bounce1.image); };
+        b.settings.bounce.spacing = spacing;
+        b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.bounce1.image); };
         for (int frame = 0; frame < 8; ++frame)
             b.frame();
-        EXPECT_TRUE(b.last.gbuffer.bent);
-        return readImage(b.renderer, b.last.bounce1.image);
+        EXPECT_TRUE(b.last.gbuffer.surfaces.bent);
+        return readImage(b.renderer, b.last.bounce.bounce1.image);
     };
     const Image truth = bounce(1), image = bounce(2);
     double off = 0;
@@ -148,13 +150,13 @@ TEST(Upsampling, TakesLightAsEachPixelIsTurned) {
 // the disk over all of the map it is that of every texel.
 TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
     const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {48, 32});
-    b->settings.denoiser.enabled = false;
-    b->settings.stochasticRsm.visible = false;
+    b->settings.bounce.denoiser.enabled = false;
+    b->settings.bounce.stochasticRsm.visible = false;
     for (const float radius : {0.05f, 0.2f}) {
-        b->settings.stochasticRsm = {.samples = 4096, .radius = radius};  // fixed, dense: the integral
+        b->settings.bounce.stochasticRsm = {.samples = 4096, .radius = radius};  // fixed, dense: the integral
         const double integral = meanOf(bounceImage(*b));
         for (const uint32_t samples : {1u, 8u}) {
-            b->settings.stochasticRsm = {
+            b->settings.bounce.stochasticRsm = {
                 .samples = samples, .radius = radius, .random = true, .settleFrames = 1'000'000};
             const double mean = meanOverFrames(*b, 1024);
             std::printf("radius %.2f, %u samples: mean over 1,024 frames / integral over the disk %.4f\n",
@@ -162,9 +164,10 @@ TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
             EXPECT_NEAR(mean / integral, 1, 0.005);
         }
     }
-    b->settings.stochasticRsm = {.samples = 8, .random = true, .whole = true, .settleFrames = 1'000'000};
+    b->settings.bounce.stochasticRsm = {
+        .samples = 8, .random = true, .whole = true, .settleFrames = 1'000'000};
     const double whole = meanOverFrames(*b, 1024);
-    b->settings.firstBounce = FirstBounce::kTexels;
+    b->settings.technique = Technique::kRsmBrute;
     const double brute = meanOf(bounceImage(*b));
     std::printf("half of 8 samples from all of the map: mean over 1,024 frames / every texel %.4f\n",
                 whole / brute);
@@ -175,8 +178,8 @@ TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
 TEST(StochasticRsm, SamplesBehindAnObstacleDoNotArrive) {
     const auto settled = [](const char* preset, bool visible) {
         const auto b = stochasticBench(*scenegen::buildScene("occluder", 0), {96, 64}, preset);
-        b->settings.rsm.resolution = 128;
-        b->settings.stochasticRsm.visible = visible;
+        b->settings.bounce.rsm.resolution = 128;
+        b->settings.bounce.stochasticRsm.visible = visible;
         for (int i = 0; i < 40; ++i)
             b->frame();
         return meanOf(bounceImage(*b));
@@ -197,7 +200,7 @@ TEST(Denoiser, LightThatChangesArrivesAndGoes) {
     s.spot("switched", {1, 1.5f, 1}, {-1, -0.1f, -0.2f}, glm::vec3(30), 30, 40);
     s.camera("camera", {1.8f, 1.5f, 1.8f}, {-1, 1, -1}, 70);
     const auto b = stochasticBench(s.finish(), {96, 64});
-    b->settings.stochasticRsm.radius = 1;
+    b->settings.bounce.stochasticRsm.radius = 1;
     const auto strengthen = [&](float factor) {
         b->scene.lights[1].intensity = glm::vec3(30 * factor);
         ++b->scene.lightsVersion;
@@ -225,11 +228,11 @@ TEST(Denoiser, LightThatChangesArrivesAndGoes) {
 // histories.
 TEST(Denoiser, SmoothsAndForgetsWhatIsGone) {
     const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {160, 96});
-    b->settings.denoiser.enabled = false;
-    b->settings.stochasticRsm.visible = false;  // its maps would settle meanwhile
-    b->settings.stochasticRsm.samples = 4096;
+    b->settings.bounce.denoiser.enabled = false;
+    b->settings.bounce.stochasticRsm.visible = false;  // its maps would settle meanwhile
+    b->settings.bounce.stochasticRsm.samples = 4096;
     const Image truth = bounceImage(*b);
-    b->settings.stochasticRsm.samples = 8;
+    b->settings.bounce.stochasticRsm.samples = 8;
     const auto errorOf = [&](const Image& image) {
         double off = 0;
         for (size_t i = 0; i < image.pixels.size(); ++i) {
@@ -239,7 +242,7 @@ TEST(Denoiser, SmoothsAndForgetsWhatIsGone) {
         return off / double(image.pixels.size()) / std::sqrt(3.0) / meanOf(truth);
     };
     const double raw = errorOf(bounceImage(*b));
-    b->settings.denoiser.enabled = true;
+    b->settings.bounce.denoiser.enabled = true;
     for (int i = 0; i < 32; ++i)
         b->frame();
     const double smooth = errorOf(bounceImage(*b));
@@ -254,7 +257,7 @@ TEST(Denoiser, SmoothsAndForgetsWhatIsGone) {
     setCamera(b->scene, pose, b->size);
     const double cut = errorOf(bounceImage(*b));
     EXPECT_LT(cut, 0.8 * raw) << "the first frame after a cut is filtered over the screen alone";
-    b->settings.denoiser.mostLength = 1;
+    b->settings.bounce.denoiser.mostLength = 1;
     const double early = (b->frame(), errorOf(bounceImage(*b)));
     for (int i = 0; i < 16; ++i)
         b->frame();
@@ -282,13 +285,13 @@ struct MovingBox {
         s.camera("camera", {1.8f, 1.6f, 1.8f}, {-0.6f, 0.8f, -0.6f}, 70);
         s.box("box", {0, 0.4f, 0}, glm::vec3(0.8f), green);
         b = stochasticBench(s.finish(), {320, 192});
-        b->settings.stochasticRsm.radius = 1;
-        b->settings.denoiser = denoiser;
-        b->output = [this](GraphScope scope, const GiFrame& f) {
-            albedo = f.gbuffer.albedo;
-            scope.output(f.gbuffer.albedo);
-            scope.output(f.bounce1.image);
-            if (f.gbuffer.motion) scope.output(f.gbuffer.motion);
+        b->settings.bounce.stochasticRsm.radius = 1;
+        b->settings.bounce.denoiser = denoiser;
+        b->output = [this](GraphScope scope, const RenderFrame& f) {
+            albedo = f.gbuffer.surfaces.albedo;
+            scope.output(f.gbuffer.surfaces.albedo);
+            scope.output(f.bounce.bounce1.image);
+            if (f.gbuffer.surfaces.motion) scope.output(f.gbuffer.surfaces.motion);
         };
         row = uint32_t(b->scene.instances.size()) - 1;
         b->scene.instances[row].movable = true;
@@ -366,8 +369,8 @@ TEST(GBuffer, MotionIsTheWayBackOfWhatMoved) {
     const glm::vec3 step(0.05f, 0.01f, -0.03f);
     m.place(glm::vec3(0, 0.4f, 0) + step, 0);
     m.b->frame();
-    ASSERT_TRUE(m.b->last.gbuffer.motion);
-    const Image motion = readImage(m.b->renderer, m.b->last.gbuffer.motion),
+    ASSERT_TRUE(m.b->last.gbuffer.surfaces.motion);
+    const Image motion = readImage(m.b->renderer, m.b->last.gbuffer.surfaces.motion),
                 albedo = readImage(m.b->renderer, m.albedo);
     size_t box = 0;
     for (size_t i = 0; i < motion.pixels.size(); ++i) {
@@ -378,12 +381,12 @@ TEST(GBuffer, MotionIsTheWayBackOfWhatMoved) {
     EXPECT_GT(box, 500u);
     m.b->scene.changedInstances.clear();
     m.b->frame();
-    EXPECT_FALSE(m.b->last.gbuffer.motion) << "nothing moved";
+    EXPECT_FALSE(m.b->last.gbuffer.surfaces.motion) << "nothing moved";
 }
 
 TEST(Denoiser, RestsWhenNothingChanges) {
     const auto b = stochasticBench(*scenegen::buildScene("cornell", 0), {64, 48});
-    b->settings.stochasticRsm.settleFrames = 4;
+    b->settings.bounce.stochasticRsm.settleFrames = 4;
     for (int i = 0; i < 40; ++i)  // clusters rest after 32
         b->frame();
     EXPECT_EQ(b->passesRun(), 0);

@@ -15,6 +15,7 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -49,7 +50,7 @@ TEST(Rsm, SpotFluxOnAPlaneIsTheConesPower) {
     // counts.
     const double rim = std::cos(inner) - std::cos(outer);
     const double truth = 0.6 * intensity * 2 * kPi * ((1 - std::cos(inner)) + rim / 3);
-    EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels)) / truth, 1, 0.01);
+    EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.bounce.rsm.texels)) / truth, 1, 0.01);
 }
 
 TEST(Rsm, SunFluxOnAPlaneIsItsCrossSection) {
@@ -62,7 +63,7 @@ TEST(Rsm, SunFluxOnAPlaneIsItsCrossSection) {
                        .id = 1}};
     b.frame();
     const double truth = 0.6 * 5 * 40 * 40 * double(-direction.y);
-    const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
+    const auto texels = b.read<io::RsmTexel>(b.last.bounce.rsm.texels);
     EXPECT_NEAR(totalFlux(texels) / truth, 1, 0.01);
     double area = 0;
     for (const io::RsmTexel& t : texels)
@@ -92,7 +93,7 @@ TEST(Rsm, BacksOfSingleSidedSurfacesReflectNothing) {
                                .bounces = true,
                                .id = 1}};
             b.frame();
-            return totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels));
+            return totalFlux(b.read<io::RsmTexel>(b.last.bounce.rsm.texels));
         };
         const double whole = fluxFrom(2);
         EXPECT_GT(whole, 1);
@@ -107,7 +108,7 @@ TEST(Rsm, BacksOfSingleSidedSurfacesReflectNothing) {
 TEST(Rsm, PointLightsSixFacesCatchAllItsPower) {
     Bench b(*scenegen::buildScene("furnace", 50));
     b.frame();
-    EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.rsm.texels)) / (0.5 * 4 * kPi), 1, 0.01);
+    EXPECT_NEAR(totalFlux(b.read<io::RsmTexel>(b.last.bounce.rsm.texels)) / (0.5 * 4 * kPi), 1, 0.01);
 }
 
 // Direct irradiance at pixels of the plane y = 0 against E = I cos / d², E = E_perpendicular cos.
@@ -116,13 +117,13 @@ void checkDirect(const RenderLight& light, double most) {
     b.scene.lights = {light};
     for (int i = 0; i < 2; ++i)
         b.renderer.render(b.scene, b.size, b.settings, b.options,
-                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const RenderFrame& declared) {
                               b.last = declared;
                               scope.output(declared.direct.image);
-                              scope.output(declared.gbuffer.depth);
+                              scope.output(declared.gbuffer.surfaces.depth);
                           });
     const Image direct = readImage(b.renderer, b.last.direct.image);
-    const Image depth = readImage(b.renderer, b.last.gbuffer.depth);
+    const Image depth = readImage(b.renderer, b.last.gbuffer.surfaces.depth);
     int checked = 0;
     for (int y = 20; y < 96; y += 5)
         for (int x = 2; x < 160; x += 7) {
@@ -169,13 +170,13 @@ TEST(GBuffer, MirroredThingsShowTheirFronts) {
     Bench b(plane(0.5f));
     for (int turn = 0; turn < 2; ++turn) {
         b.renderer.render(b.scene, b.size, b.settings, b.options,
-                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const RenderFrame& declared) {
                               b.last = declared;
-                              scope.output(declared.gbuffer.depth);
-                              scope.output(declared.gbuffer.normal);
+                              scope.output(declared.gbuffer.surfaces.depth);
+                              scope.output(declared.gbuffer.surfaces.normal);
                           });
-        EXPECT_GT(readImage(b.renderer, b.last.gbuffer.depth).at(80, 60).x, 0) << turn;
-        EXPECT_NEAR(readImage(b.renderer, b.last.gbuffer.normal).at(80, 60).y, 1, 1e-3) << turn;
+        EXPECT_GT(readImage(b.renderer, b.last.gbuffer.surfaces.depth).at(80, 60).x, 0) << turn;
+        EXPECT_NEAR(readImage(b.renderer, b.last.gbuffer.surfaces.normal).at(80, 60).y, 1, 1e-3) << turn;
         mirror(b.scene);
     }
 }
@@ -197,7 +198,7 @@ TEST(DirectLight, BoxesCastShadows) {
                            .outerConeAngle = 0.9f,
                            .id = 1}};
         b.renderer.render(b.scene, b.size, b.settings, b.options,
-                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const RenderFrame& declared) {
                               b.last = declared;
                               scope.output(declared.direct.image);
                           });
@@ -215,11 +216,11 @@ TEST(DirectLight, BoxesCastShadows) {
 
 // Every lit texel in one live cluster, fluxes add up, and the assignment is the CPU's.
 void checkClusters(Bench& b) {
-    const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
-    const auto clusters = b.read<io::Cluster>(b.last.clusters.clusters);
-    const auto slots = b.read<uint32_t>(b.last.clusters.slotOfTexel);
-    const auto candidates = b.read<uint32_t>(b.last.clusters.candidates);
-    const auto counts = b.read<uint32_t>(b.last.clusters.candidateCounts);
+    const auto texels = b.read<io::RsmTexel>(b.last.bounce.rsm.texels);
+    const auto clusters = b.read<io::Cluster>(b.last.bounce.clusters.clusters);
+    const auto slots = b.read<uint32_t>(b.last.bounce.clusters.slotOfTexel);
+    const auto candidates = b.read<uint32_t>(b.last.bounce.clusters.candidates);
+    const auto counts = b.read<uint32_t>(b.last.bounce.clusters.candidateCounts);
     glm::dvec3 texelFlux(0), clusterFlux(0);
     std::vector<uint32_t> members(clusters.size(), 0);
     for (size_t i = 0; i < texels.size(); ++i) {
@@ -241,12 +242,12 @@ void checkClusters(Bench& b) {
 }
 
 void checkAssignmentTwin(Bench& b) {
-    const auto texels = b.read<io::RsmTexel>(b.last.rsm.texels);
-    const auto seeds = b.read<io::ClusterSeed>(b.last.clusters.seeds);
-    const auto slots = b.read<uint32_t>(b.last.clusters.slotOfTexel);
-    const auto candidates = b.read<uint32_t>(b.last.clusters.candidates);
-    const auto counts = b.read<uint32_t>(b.last.clusters.candidateCounts);
-    const ValClusteringSettings& s = b.settings.valClustering;
+    const auto texels = b.read<io::RsmTexel>(b.last.bounce.rsm.texels);
+    const auto seeds = b.read<io::ClusterSeed>(b.last.bounce.clusters.seeds);
+    const auto slots = b.read<uint32_t>(b.last.bounce.clusters.slotOfTexel);
+    const auto candidates = b.read<uint32_t>(b.last.bounce.clusters.candidates);
+    const auto counts = b.read<uint32_t>(b.last.bounce.clusters.candidateCounts);
+    const ValClusteringSettings& s = b.settings.bounce.valClustering;
     const glm::vec4 weights = metricWeights(s);
     size_t checked = 0;
     for (size_t i = 0; i < texels.size(); i += 7) {
@@ -287,13 +288,13 @@ TEST(ValClustering, KeepsFluxAndMembershipWhileTheLightMoves) {
 // Splits come while there is time left to find a place; later only places that stayed empty are tried anew.
 TEST(ValClustering, NoneIsSplitInTheSecondHalfOfSettling) {
     Bench b(*scenegen::buildScene("cornell", 0));
-    const uint32_t frames = b.settings.valClustering.settleFrames;
+    const uint32_t frames = b.settings.bounce.valClustering.settleFrames;
     uint32_t youngest[2];
     for (uint32_t half = 0; half < 2; ++half) {
         for (uint32_t i = 0; i < frames / 2; ++i)
             b.frame();
         float least = 1e30f;
-        for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters))
+        for (const io::Cluster& c : b.read<io::Cluster>(b.last.bounce.clusters.clusters))
             if (c.texelCount > 0) least = std::min(least, c.age);
         youngest[half] = uint32_t(least);
     }
@@ -309,12 +310,13 @@ TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
     checkAssignmentTwin(furnace);
 
     Bench few(*scenegen::buildScene("cornell", 0));
-    few.settings.valClustering.count = 1024;  // more clusters than lit texels
-    few.settings.rsm.resolution = 32;
+    few.settings.bounce.valClustering.count = 1024;  // more clusters than lit texels
+    few.settings.bounce.rsm.resolution = 32;
     for (int i = 0; i < 5; ++i)
         few.frame();
     checkClusters(few);
-    few.settings.laterBounces = {.enabled = true, .share = 0.8f};  // a map whose clusters all tiles consider
+    few.settings.bounce.laterBounces = {.enabled = true,
+                                        .share = 0.8f};  // a map whose clusters all tiles consider
     for (int i = 0; i < 5; ++i)
         few.frame();
     checkClusters(few);
@@ -324,12 +326,12 @@ TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
 // m: the root of the flux-weighted mean square distance of texels from their clusters' planes.
 double thicknessOfClusters(const SceneAsset& asset, float planeWeight) {
     Bench b(asset);
-    if (planeWeight >= 0) b.settings.valClustering.planeWeight = planeWeight;
-    b.settings.valClustering.count = 32;
+    if (planeWeight >= 0) b.settings.bounce.valClustering.planeWeight = planeWeight;
+    b.settings.bounce.valClustering.count = 32;
     for (int i = 0; i < 40; ++i)
         b.frame();
     double sum = 0, flux = 0;
-    for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters)) {
+    for (const io::Cluster& c : b.read<io::Cluster>(b.last.bounce.clusters.clusters)) {
         if (c.texelCount == 0) continue;
         const glm::dvec3 n(c.normal), own(c.covarianceDiagonal), mixed(c.covarianceMixed);
         sum += double(c.flux.x) *
@@ -356,14 +358,14 @@ TEST(VplSampling, LightsCarryTheMapsFlux) {
     for (const char* name : {"cornell", "hall"}) {
         Bench b(*scenegen::buildScene(name, 0));
         applyPreset("ism", b.settings);
-        b.settings.ismAtlas.enabled = false;
-        b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.vals.vals); };
+        b.settings.bounce.ismAtlas.enabled = false;
+        b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.vals.vals); };
         b.frame();
         double lights = 0;
-        for (const io::Val& val : b.read<io::Val>(b.last.vals.vals))
+        for (const io::Val& val : b.read<io::Val>(b.last.bounce.vals.vals))
             lights += double(val.flux.x + val.flux.y + val.flux.z);
         double map = 0;
-        for (const io::RsmTexel& t : b.read<io::RsmTexel>(b.last.rsm.texels))
+        for (const io::RsmTexel& t : b.read<io::RsmTexel>(b.last.bounce.rsm.texels))
             map += double(t.flux.x + t.flux.y + t.flux.z);
         EXPECT_NEAR(lights / map, 1, 0.01) << name;
     }
@@ -375,8 +377,8 @@ struct KeptMaps {
 
 KeptMaps keptMaps(Bench& b) {
     KeptMaps sum;
-    const auto vals = b.read<io::Val>(b.last.vals.vals);
-    const auto states = b.read<io::IsmMapState>(b.last.isms.states);
+    const auto vals = b.read<io::Val>(b.last.bounce.vals.vals);
+    const auto states = b.read<io::IsmMapState>(b.last.bounce.isms.states);
     for (size_t map = 0; map < states.size(); ++map) {
         sum.live += vals[map].flux != glm::vec3(0);
         sum.kept += states[map].kept != 0;
@@ -388,9 +390,9 @@ KeptMaps keptMaps(Bench& b) {
 // of all maps.
 TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
     Bench b(*scenegen::buildScene("hall", 0));
-    b.output = [](GraphScope scope, const GiFrame& f) {
-        scope.output(f.vals.vals);
-        scope.output(f.isms.states);
+    b.output = [](GraphScope scope, const RenderFrame& f) {
+        scope.output(f.bounce.vals.vals);
+        scope.output(f.bounce.isms.states);
     };
     CameraPose pose = cameraOf(b.asset, 0);
     KeptMaps camera;
@@ -422,13 +424,13 @@ TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
         room.spot("lamp", {0, 1, 0}, {0, -1, 0}, glm::vec3(10), 40, 60);
         room.camera("camera", {-0.9f, 1.5f, 0.9f}, {0, 0.8f, 0}, 70);
         auto b = std::make_unique<Bench>(room.finish());
-        b->settings.ismAtlas.keepMaps = keep;
-        b->settings.importance.viewWeight = 0;
+        b->settings.bounce.ismAtlas.keepMaps = keep;
+        b->settings.bounce.importance.viewWeight = 0;
         b->scene.instances.back().movable = true;
-        b->output = [](GraphScope scope, const GiFrame& f) {
-            scope.output(f.vals.vals);
-            scope.output(f.isms.states);
-            scope.output(f.isms.planes);
+        b->output = [](GraphScope scope, const RenderFrame& f) {
+            scope.output(f.bounce.vals.vals);
+            scope.output(f.bounce.isms.states);
+            scope.output(f.bounce.isms.planes);
         };
         return b;
     };
@@ -448,10 +450,10 @@ TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
     EXPECT_EQ(kept->outcome("ism_atlas.choose"), PassOutcome::kSkipped) << "all still layers are kept";
     EXPECT_EQ(kept->outcome("ism_atlas.splat_moving"), PassOutcome::kRan);
     for (const float scale : {1.0f, 1.1f}) {  // as if there had been nothing to go on from
-        anew->settings.ismAtlas.splatScale = scale;
+        anew->settings.bounce.ismAtlas.splatScale = scale;
         anew->frame();
     }
-    const uint32_t regions = 9 * kept->last.isms.mapCount;
+    const uint32_t regions = 9 * kept->last.bounce.isms.mapCount;
     const auto finished = [](Bench& b) {
         return b.read<glm::uvec3>(b.renderer.graph().findBuffer("ism_atlas.finished_groups")).front().x;
     };
@@ -460,8 +462,8 @@ TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
     EXPECT_GT(finished(*kept), 0u);
     EXPECT_LT(finished(*kept), regions / 2);
     EXPECT_EQ(keptMaps(*anew).kept, 0);
-    const auto a = kept->read<glm::vec4>(kept->last.isms.planes),
-               b = anew->read<glm::vec4>(anew->last.isms.planes);
+    const auto a = kept->read<glm::vec4>(kept->last.bounce.isms.planes),
+               b = anew->read<glm::vec4>(anew->last.bounce.isms.planes);
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0);
 }
 
@@ -473,27 +475,27 @@ struct PointDensity {  // of a map's points over those of its surroundings, near
 // twice.
 PointDensity densityOfMaps(bool nearMore) {
     Bench b(*scenegen::buildScene("cornell", 0));
-    b.settings.ismAtlas.nearMore = nearMore;
-    b.settings.ismAtlas.keepMaps = false;
-    b.output = [](GraphScope scope, const GiFrame& f) {
-        scope.output(f.vals.vals);
-        scope.output(f.surfacePoints.points);
-        scope.output(f.isms.chosen);
-        scope.output(f.isms.states);
+    b.settings.bounce.ismAtlas.nearMore = nearMore;
+    b.settings.bounce.ismAtlas.keepMaps = false;
+    b.output = [](GraphScope scope, const RenderFrame& f) {
+        scope.output(f.bounce.vals.vals);
+        scope.output(f.bounce.surfacePoints.points);
+        scope.output(f.bounce.isms.chosen);
+        scope.output(f.bounce.isms.states);
     };
     for (int i = 0; i < 8; ++i)
         b.frame();
-    const auto vals = b.read<io::Val>(b.last.vals.vals);
-    const auto points = b.read<io::SurfacePoint>(b.last.surfacePoints.points);
-    const auto chosen = b.read<uint32_t>(b.last.isms.chosen);
-    const auto states = b.read<io::IsmMapState>(b.last.isms.states);
+    const auto vals = b.read<io::Val>(b.last.bounce.vals.vals);
+    const auto points = b.read<io::SurfacePoint>(b.last.bounce.surfacePoints.points);
+    const auto chosen = b.read<uint32_t>(b.last.bounce.isms.chosen);
+    const auto states = b.read<io::IsmMapState>(b.last.bounce.isms.states);
     double taken[2] = {}, all[2] = {};
-    for (size_t map = 0; map < b.last.isms.mapCount; map += 8) {
+    for (size_t map = 0; map < b.last.bounce.isms.mapCount; map += 8) {
         if (vals[map].flux == glm::vec3(0)) continue;
         const auto isFar = [&](uint32_t point) {
             return size_t(glm::distance(points[point].position, vals[map].position) > 1.5f);
         };
-        const uint32_t budget = b.last.isms.pointsPerMap;
+        const uint32_t budget = b.last.bounce.isms.pointsPerMap;
         const uint32_t count = states[map].pointCount;
         EXPECT_LE(count, budget);
         EXPECT_GT(count, budget * 95 / 100);
@@ -520,7 +522,7 @@ double powerOnWall(Bench& b, glm::vec3 forward) {
     setCamera(b.scene, {.position = {0, 0, 0}, .forward = forward, .verticalFov = float(kPi / 2)}, b.size);
     for (int i = 0; i < 40; ++i)
         b.frame();
-    const Image bounce = readImage(b.renderer, b.last.bounce1.image);
+    const Image bounce = readImage(b.renderer, b.last.bounce.bounce1.image);
     double sum = 0;
     for (const glm::vec3& e : bounce.pixels)
         sum += double(e.x);
@@ -528,11 +530,11 @@ double powerOnWall(Bench& b, glm::vec3 forward) {
 }
 
 // What the lamp's light leaves of itself on all walls arrives on them again.
-TEST(FirstBounce, ClosedRoomPowerAudit) {
+TEST(Technique, ClosedRoomPowerAudit) {
     Bench b(*scenegen::buildScene("furnace", 50), {128, 128});
     const double wall = (powerOnWall(b, {1, 0, 0}) + powerOnWall(b, {0, 0, 1})) / 2;
     double flux = 0;
-    for (const io::RsmTexel& t : b.read<io::RsmTexel>(b.last.rsm.texels))
+    for (const io::RsmTexel& t : b.read<io::RsmTexel>(b.last.bounce.rsm.texels))
         flux += double(t.flux.x);
     std::printf("arrives over sent: %.4f\n", 6 * wall / flux);
     EXPECT_NEAR(6 * wall / flux, 1, 0.01);
@@ -552,12 +554,12 @@ double cornerIrradiance(double y, double z) {
     return 2.0 * sum * 4 / (kSteps * kSteps);
 }
 
-TEST(FirstBounce, CornerAgainstQuadrature) {
+TEST(Technique, CornerAgainstQuadrature) {
     Bench b(*scenegen::buildScene("corner", 0), {320, 180});
     Image bounce;
     for (int i = 0; i < 40; ++i)
         b.frame();
-    bounce = readImage(b.renderer, b.last.bounce1.image);
+    bounce = readImage(b.renderer, b.last.bounce.bounce1.image);
     double squares = 0, mean = 0, ratio = 0;
     int count = 0;
     for (double y = 0.1; y < 1.95; y += 0.2)
@@ -582,7 +584,7 @@ TEST(Frame, ColourBleedsAndNothingIsBlack) {
     Bench b(*scenegen::buildScene("cornell", 0));
     for (int i = 0; i < 20; ++i)
         b.frame();
-    const Image bounce = readImage(b.renderer, b.last.bounce1.image);
+    const Image bounce = readImage(b.renderer, b.last.bounce.bounce1.image);
     const Image display = readImage(b.renderer, b.last.outputs.display);
     double left = 0, right = 0, lit = 0;
     for (int y = 0; y < 96; ++y)
@@ -608,7 +610,7 @@ TEST(Frame, SameFramesGiveTheSameBits) {
 
 TEST(Frame, NothingMovesNothingRuns) {
     Bench b(*scenegen::buildScene("hall", 0));
-    b.settings.valClustering.settleFrames = 4;
+    b.settings.bounce.valClustering.settleFrames = 4;
     for (int i = 0; i < 6; ++i)
         b.frame();
     const auto before = readImage(b.renderer, b.last.outputs.display).pixels;
@@ -622,8 +624,8 @@ TEST(Frame, NothingMovesNothingRuns) {
 // Passes that ran though only the camera moved.
 std::vector<std::string> runByTheCamera(float viewWeight) {
     Bench b(*scenegen::buildScene("hall", 0));
-    b.settings.importance.viewWeight = viewWeight;
-    b.settings.valClustering.settleFrames = 2;
+    b.settings.bounce.importance.viewWeight = viewWeight;
+    b.settings.bounce.valClustering.settleFrames = 2;
     for (int i = 0; i < 4; ++i)
         b.frame();
     CameraPose pose = cameraOf(b.asset, 0);
@@ -685,7 +687,7 @@ Ran techniquesRun(Bench& b) {
 // The hall with everything at rest.
 std::unique_ptr<Bench> restingHall() {
     auto b = std::make_unique<Bench>(*scenegen::buildScene("hall", 0));
-    b->settings.valClustering.settleFrames = 2;
+    b->settings.bounce.valClustering.settleFrames = 2;
     for (RenderInstance& instance : b->scene.instances)
         instance.movable = false;
     b->scene.instances.back().movable = true;
@@ -746,7 +748,7 @@ TEST(Frame, LightsThatGoOutStopAllThatIsAboutThem) {
 TEST(Frame, AFlickeringLampLeavesTheOthersClustersAlone) {
     const auto oldClusters = [](bool flickers) {  // of the other lamp, after two dozen frames
         Bench b(*scenegen::buildScene("hall", 0), {64, 40});
-        b.settings.valClustering.adaptive = false;
+        b.settings.bounce.valClustering.adaptive = false;
         const glm::vec3 bright = b.scene.lights[0].intensity;
         for (int i = 0; i < 24; ++i) {
             const float flame = i % 5 == 3 ? 0.0f : i % 2 ? 0.8f : 1.2f;
@@ -758,7 +760,7 @@ TEST(Frame, AFlickeringLampLeavesTheOthersClustersAlone) {
             b.renderer.waitIdle();
         }
         int count = 0;
-        for (const io::Cluster& c : b.read<io::Cluster>(b.last.clusters.clusters))
+        for (const io::Cluster& c : b.read<io::Cluster>(b.last.bounce.clusters.clusters))
             count += c.texelCount > 0 && c.lightIdLow == uint32_t(b.scene.lights[1].id) && c.age >= 12;
         return count;
     };
@@ -783,11 +785,11 @@ TEST(Glossy, RunsOnlyWhereAMaterialIs) {
         Bench b(*scenegen::buildScene(name, 0), {64, 36});
         b.frame();
         const bool glossy = std::string_view(name) == "glossy";
-        EXPECT_EQ(bool(b.last.gbuffer.reflectance), glossy);
-        EXPECT_EQ(bool(b.last.coat), glossy);
-        b.settings.valShading.glossy = false;
+        EXPECT_EQ(bool(b.last.gbuffer.surfaces.reflectance), glossy);
+        EXPECT_EQ(bool(b.last.bounce.gloss), glossy);
+        b.settings.bounce.valShading.glossy = false;
         b.frame();
-        EXPECT_FALSE(b.last.coat);
+        EXPECT_FALSE(b.last.bounce.gloss);
     }
 }
 

@@ -12,14 +12,15 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
 std::unique_ptr<Bench> directBench(SceneAsset asset, glm::uvec2 size = {160, 96}) {
     auto b = std::make_unique<Bench>(std::move(asset), size);
-    b->settings.firstBounce = FirstBounce::kNone;
-    b->output = [](GraphScope scope, const GiFrame& f) { scope.output(f.direct.image); };
+    b->settings.technique = Technique::kNone;
+    b->output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.direct.image); };
     return b;
 }
 
@@ -105,14 +106,14 @@ TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
 // What is measured is the light of each lamp, shadows aside, at the points that stand for the view.
 TEST(LampRelevance, IsTheLightAtTheViewsPoints) {
     const auto b = directBench(*scenegen::buildScene("lamps", 80));
-    b->output = [](GraphScope scope, const GiFrame& f) {
+    b->output = [](GraphScope scope, const RenderFrame& f) {
         scope.output(f.direct.image);
-        scope.output(f.viewPoints);
+        scope.output(f.bounce.viewPoints);
     };
     b->frame();
     LampRelevance relevance;
     relevance.set(b->read<std::byte>(b->renderer.graph().findBuffer("lamp_relevance.relevance")));
-    const auto points = b->read<io::ViewPoint>(b->last.viewPoints);
+    const auto points = b->read<io::ViewPoint>(b->last.bounce.viewPoints);
     uint32_t measured = 0;
     for (const RenderLight& light : b->scene.lights) {
         double sum = 0;

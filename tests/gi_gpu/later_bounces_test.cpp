@@ -6,21 +6,22 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 std::unique_ptr<Bench> laterBench(const char* scene, uint32_t param) {
     auto b = std::make_unique<Bench>(*scenegen::buildScene(scene, param), glm::uvec2(96, 54));
-    b->settings.laterBounces.enabled = true;
-    b->output = [](GraphScope scope, const GiFrame& f) {
-        if (f.indirect.image) scope.output(f.indirect.image);
+    b->settings.bounce.laterBounces.enabled = true;
+    b->output = [](GraphScope scope, const RenderFrame& f) {
+        if (f.bounce.irradiance.image) scope.output(f.bounce.irradiance.image);
     };
     return b;
 }
 
 // Mean over all surfaces by area, W/m².
 double meanOnSurfaces(Bench& b) {
-    const std::vector<io::RsmTexel> points = b.read<io::RsmTexel>(b.last.laterLight.texels);
-    const std::vector<glm::vec4> light = b.read<glm::vec4>(b.last.laterLight.irradiance.current);
+    const std::vector<io::RsmTexel> points = b.read<io::RsmTexel>(b.last.bounce.laterLight.texels);
+    const std::vector<glm::vec4> light = b.read<glm::vec4>(b.last.bounce.laterLight.irradiance.current);
     double sum = 0, area = 0;
     for (size_t i = 0; i < points.size(); ++i) {
         sum += double(light[i].x) * double(points[i].area);
@@ -31,8 +32,8 @@ double meanOnSurfaces(Bench& b) {
 
 double settledMean(uint32_t albedo, bool feedback) {
     const auto b = laterBench("furnace", albedo);
-    b->settings.laterBounces.feedback = feedback;
-    b->settings.ismAtlas.enabled = false;  // everything sees everything
+    b->settings.bounce.laterBounces.feedback = feedback;
+    b->settings.bounce.ismAtlas.enabled = false;  // everything sees everything
     for (int i = 0; i < 70; ++i)
         b->frame();
     const double mean = meanOnSurfaces(*b);
@@ -51,7 +52,7 @@ double settledMean(uint32_t albedo, bool feedback) {
 TEST(LaterBounces, ASceneLoadedAnewHasNoneOfTheLightBefore) {
     const auto firstFrame = [](Bench& b) {
         b.frame();
-        return readImage(b.renderer, b.last.indirect.image);
+        return readImage(b.renderer, b.last.bounce.irradiance.image);
     };
     const auto fresh = laterBench("furnace", 50), used = laterBench("furnace", 50);
     used->scene.lights[0].intensity *= 100.0f;
@@ -80,7 +81,7 @@ TEST(LaterBounces, FurnaceConvergesToTheGeometricSeries) {
 TEST(LaterBounces, AreOfTheSurfacesOwnColourAndArea) {
     const auto b = laterBench("furnace", 50);
     b->frame();
-    const std::vector<io::RsmTexel> points = b->read<io::RsmTexel>(b->last.laterLight.texels);
+    const std::vector<io::RsmTexel> points = b->read<io::RsmTexel>(b->last.bounce.laterLight.texels);
     double area = 0;
     for (const io::RsmTexel& p : points) {
         area += double(p.area);
@@ -93,31 +94,31 @@ TEST(LaterBounces, AreOfTheSurfacesOwnColourAndArea) {
 
 TEST(LaterBounces, CostNothingWhenOffAndRestWhenNothingChanges) {
     const auto b = laterBench("cornell", 0);
-    b->settings.laterBounces.settleFrames = 8;
+    b->settings.bounce.laterBounces.settleFrames = 8;
     for (int i = 0; i < 60; ++i)
         b->frame();
     EXPECT_EQ(b->passesRun(), 0) << "at rest";
-    b->settings.laterBounces.enabled = false;
+    b->settings.bounce.laterBounces.enabled = false;
     b->frame();
     for (const PassReport& pass : b->renderer.graph().report())
         EXPECT_FALSE(pass.name.starts_with("later_bounces")) << pass.name;
-    EXPECT_EQ(b->last.indirect.image.index, b->last.bounce1.image.index);
+    EXPECT_EQ(b->last.bounce.irradiance.image.index, b->last.bounce.bounce1.image.index);
 }
 
 // The dark undersides of the boxes face as the ceiling does and end up in its clusters; they must not pull
 // the lights down to where the boxes cast no shadow.
 TEST(LaterBounces, LightsOfTheCeilingLookFromTheCeiling) {
     const auto b = laterBench("cornell", 0);
-    b->settings.valClustering.count = 256;
-    b->output = [](GraphScope scope, const GiFrame& f) { scope.output(f.vals.vals); };
+    b->settings.bounce.valClustering.count = 256;
+    b->output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.vals.vals); };
     for (int i = 0; i < 64; ++i)
         b->frame();
-    const std::vector<io::Val> vals = b->read<io::Val>(b->last.vals.vals);
+    const std::vector<io::Val> vals = b->read<io::Val>(b->last.bounce.vals.vals);
     float ceiling = -1e9f;
-    for (const io::RsmTexel& t : b->read<io::RsmTexel>(b->last.rsm.texels))
+    for (const io::RsmTexel& t : b->read<io::RsmTexel>(b->last.bounce.rsm.texels))
         if (t.weight > 0) ceiling = std::max(ceiling, t.position.y);
     int above = 0;
-    for (size_t i = b->last.firstCount; i < vals.size(); ++i) {
+    for (size_t i = b->last.bounce.firstCount; i < vals.size(); ++i) {
         if (vals[i].flux == glm::vec3(0) || vals[i].normal.y > -0.99f) continue;
         if (vals[i].position.y < ceiling - 0.02f) continue;
         ++above;
@@ -132,7 +133,7 @@ TEST(LaterBounces, SameFrameTwiceSameBits) {
         const auto b = laterBench("cornell", 0);
         for (int i = 0; i < 12; ++i)
             b->frame();
-        const std::vector<glm::vec4> light = b->read<glm::vec4>(b->last.laterLight.irradiance.current);
+        const std::vector<glm::vec4> light = b->read<glm::vec4>(b->last.bounce.laterLight.irradiance.current);
         if (run == 0) first = light;
         EXPECT_TRUE(first == light);
     }
@@ -141,13 +142,13 @@ TEST(LaterBounces, SameFrameTwiceSameBits) {
 // Their light is gathered at fewer pixels, as nothing in it is fine.
 TEST(LaterBounces, AtFewerPixelsAreWhatAllWouldHave) {
     Bench b(*scenegen::buildScene("cornell", 0), {320, 180});
-    b.settings.laterBounces = {.enabled = true, .feedback = false};
-    b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.indirect.image); };
+    b.settings.bounce.laterBounces = {.enabled = true, .feedback = false};
+    b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.irradiance.image); };
     const auto settled = [&](uint32_t spacing) {
-        b.settings.laterBounces.spacing = spacing;
+        b.settings.bounce.laterBounces.spacing = spacing;
         for (int frame = 0; frame < 80; ++frame)
             b.frame();
-        return readImage(b.renderer, b.last.indirect.image);
+        return readImage(b.renderer, b.last.bounce.irradiance.image);
     };
     const Image truth = settled(1);
     for (const uint32_t spacing : {2u, 3u})

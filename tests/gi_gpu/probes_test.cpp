@@ -9,6 +9,7 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 // Irradiance of exactly one bounce, and straight from lights, on a small plane at each point.
@@ -155,7 +156,7 @@ TEST(Probes, WithoutAnyNothingIsDone) {
 
 TEST(Probes, AreKnownTwoFramesLaterAndRestWhenNothingMoves) {
     Bench b(*scenegen::buildScene("cornell", 0));
-    b.settings.valClustering.settleFrames = 4;
+    b.settings.bounce.valClustering.settleFrames = 4;
     const std::vector<RenderProbe> probes = {{.position = {0, 1, 0.5f}}};
     measure(b, probes, 1);
     EXPECT_FALSE(b.renderer.probeReadings().of(100));

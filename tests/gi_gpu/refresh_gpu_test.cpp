@@ -5,6 +5,7 @@
 #include "tools/scenegen/builder.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 // A box that shines a little moves before the camera, above the lamp's beam.
@@ -20,9 +21,9 @@ std::unique_ptr<Bench> roomWithBox(uint32_t pixelFrames) {
     asset.geometry.materials[glossy].specular = 1;
     asset.geometry.materials[glossy].roughness = 0.4f;
     auto b = std::make_unique<Bench>(std::move(asset));
-    b->settings.refresh = {.lightFrames = 40, .pixelFrames = pixelFrames, .small = 1};
-    b->settings.valClustering.settleFrames = 8;
-    b->settings.valClustering.count = 32;
+    b->settings.bounce.refresh = {.lightFrames = 40, .pixelFrames = pixelFrames, .small = 1};
+    b->settings.bounce.valClustering.settleFrames = 8;
+    b->settings.bounce.valClustering.count = 32;
     b->scene.instances.back().movable = true;
     return b;
 }
@@ -49,7 +50,7 @@ Difference difference(Bench& a, Bench& b) {
             differ += one.pixels[i] != other.pixels[i];
         return differ;
     };
-    return {count(a.last.bounce1.image, b.last.bounce1.image),
+    return {count(a.last.bounce.bounce1.image, b.last.bounce.bounce1.image),
             count(a.last.outputs.radiance, b.last.outputs.radiance)};
 }
 
@@ -65,10 +66,10 @@ TEST(Refresh, PixelsAreWhatTheyWouldBeWhenAllHadTheirTurn) {
     for (int i = 0; i < 9; ++i) {
         both(0.02f);
         late = std::max(late, difference(*some, *all).indirect);
-        const GiFrame& f = some->last;
+        const RenderFrame& f = some->last;
         EXPECT_EQ(some->outcome("val_shading.list"), PassOutcome::kRan);
         EXPECT_EQ(some->outcome("val_clustering.assign"), i == 0 ? PassOutcome::kRan : PassOutcome::kSkipped);
-        EXPECT_TRUE(f.coat);
+        EXPECT_TRUE(f.bounce.gloss);
     }
     std::printf("pixels that are late: %zu of %u\n", late, some->size.x * some->size.y);
     EXPECT_GT(late, 100u) << "else nothing is tested";
@@ -83,7 +84,7 @@ TEST(Refresh, PixelsAreWhatTheyWouldBeWhenAllHadTheirTurn) {
 TEST(Refresh, WhatMovesIsNeverLateItself) {
     const auto some = roomWithBox(16), all = roomWithBox(1);
     for (Bench* b : {some.get(), all.get()}) {
-        b->settings.spacing = 1;
+        b->settings.bounce.spacing = 1;
         for (int i = 0; i < 12; ++i)
             frame(*b, 0);
     }
@@ -91,9 +92,9 @@ TEST(Refresh, WhatMovesIsNeverLateItself) {
     for (int i = 0; i < 6; ++i) {
         for (Bench* b : {some.get(), all.get()})
             frame(*b, 0.02f);
-        const Image a = readImage(some->renderer, some->last.bounce1.image),
-                    b = readImage(all->renderer, all->last.bounce1.image),
-                    albedo = readImage(all->renderer, all->last.gbuffer.albedo);
+        const Image a = readImage(some->renderer, some->last.bounce.bounce1.image),
+                    b = readImage(all->renderer, all->last.bounce.bounce1.image),
+                    albedo = readImage(all->renderer, all->last.gbuffer.surfaces.albedo);
         for (size_t p = 0; p < a.pixels.size(); ++p) {
             if (albedo.pixels[p].x < 0.4f || albedo.pixels[p].x > 0.6f) continue;  // a wall
             ++box;

@@ -4,15 +4,16 @@
 
 #include <cmath>
 
+#include "engine/renderer/scene_surfaces.h"
 #include "engine/scene/deform.h"
 #include "engine/scene/figure.h"
-#include "gi/surface_sampling.h"
 #include "shaders/later_bounces/later_bounces_io.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/figures.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 struct FigureBench : Bench {
@@ -20,8 +21,8 @@ struct FigureBench : Bench {
 
     explicit FigureBench(uint32_t count, glm::uvec2 pixels = {96, 64})
         : Bench(scenegen::figures(count), pixels) {
-        settings.rsm.resolution = 64;
-        settings.valClustering.count = 32;
+        settings.bounce.rsm.resolution = 64;
+        settings.bounce.valClustering.count = 32;
         scene.allInstancesChanged = true;
     }
     // To another time of its animation; the frame after says so.
@@ -119,8 +120,8 @@ float distanceFrom(glm::vec3 p, const std::array<glm::vec3, 3>& c) {
 // Every point on a figure lies on the triangle it was chosen on, as that is bent now, with its normal.
 TEST(Skinning, PointsOnSurfacesFollow) {
     FigureBench b(3);
-    b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.surfacePoints.points); };
-    const SurfaceSamples samples = sampleSurfaces(b.scene, 1u << 17);
+    b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.surfacePoints.points); };
+    const SurfaceSamples samples = render::sampleSurfaces(b.scene, 1u << 17);
     b.next();
     for (uint32_t f = 0; f < 3; ++f)
         b.pose(f, 0.3f + 0.9f * float(f));
@@ -146,7 +147,7 @@ TEST(Skinning, PointsOnSurfacesFollow) {
 // Points that stand for light that bounces on are some of them.
 TEST(Skinning, LaterBouncesFollow) {
     FigureBench b(3);
-    b.settings.laterBounces.enabled = true;
+    b.settings.bounce.laterBounces.enabled = true;
     b.next();
     for (uint32_t f = 0; f < 3; ++f)
         b.pose(f, 0.5f + 0.8f * float(f));
@@ -178,10 +179,10 @@ TEST(Skinning, LaterBouncesFollow) {
 // A way back that leads to where the surface was: both frames' places of each vertex the camera sees.
 TEST(Skinning, MotionLeadsBackToTheFrameBefore) {
     FigureBench b(1, {160, 120});
-    b.settings.denoiser.enabled = true;
+    b.settings.bounce.denoiser.enabled = true;
     ImageHandle motion, depth;
-    b.output = [&](GraphScope scope, const GiFrame& f) {
-        motion = f.gbuffer.motion, depth = f.gbuffer.depth;
+    b.output = [&](GraphScope scope, const RenderFrame& f) {
+        motion = f.gbuffer.surfaces.motion, depth = f.gbuffer.surfaces.depth;
         if (motion) scope.output(motion);
         scope.output(depth);
     };

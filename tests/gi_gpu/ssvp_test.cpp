@@ -7,6 +7,7 @@
 #include "tools/scenegen/builder.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 constexpr float kAlbedo = 0.5f;
@@ -43,11 +44,11 @@ Lists listsOf(const SsvpSettings& settings, int frames = 2) {
     Bench b(fineRoom(), {64, 36});
     applyPreset("ssvp", b.settings);
     b.settings.ssvp = settings;
-    b.output = [](GraphScope scope, const GiFrame& f) { scope.output(f.vals.vals); };
+    b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.vals.vals); };
     for (int i = 0; i < frames; ++i)
         b.frame();
-    const std::vector<io::Val> all = b.read<io::Val>(b.last.vals.vals);
-    const auto end = all.begin() + b.last.firstCount;
+    const std::vector<io::Val> all = b.read<io::Val>(b.last.bounce.vals.vals);
+    const auto end = all.begin() + b.last.bounce.firstCount;
     return {{all.begin(), end}, {end, end + settings.secondCount}};
 }
 

@@ -5,6 +5,7 @@
 #include "tools/scenegen/builder.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 std::unique_ptr<Bench> courtWithSun() {
@@ -24,7 +25,7 @@ std::unique_ptr<Bench> courtWithSun() {
                                .intensity = glm::vec3(3),
                                .id = 7});
     b->scene.instances.back().movable = true;
-    b->output = [](GraphScope scope, const GiFrame& f) {
+    b->output = [](GraphScope scope, const RenderFrame& f) {
         if (f.shadows.atlas) scope.output(f.shadows.atlas);
     };
     return b;

@@ -8,6 +8,7 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 // Whatever lacks light is given it once, by one invocation: at sizes whose tiles end inside a workgroup or
@@ -15,8 +16,8 @@ namespace {
 TEST(ValShading, NotesEachPixelThatLacksLightOnce) {
     for (const glm::uvec2 size : {glm::uvec2(65, 17), glm::uvec2(1, 1), glm::uvec2(72, 48)}) {
         Bench b(*scenegen::buildScene("cornell", 0), size);
-        b.settings.spacing = 1;
-        b.settings.valShading.interleave = 3;
+        b.settings.bounce.spacing = 1;
+        b.settings.bounce.valShading.interleave = 3;
         for (int i = 0; i < 3; ++i)
             b.frame();
         const FrameGraph& graph = b.renderer.graph();

@@ -7,9 +7,9 @@
 #include "common/hemisphere_map.h"
 #include "common/sampling.h"
 #include "engine/gpu/transfer.h"
+#include "engine/renderer/renderer.h"
+#include "engine/renderer/scene_surfaces.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_renderer.h"
-#include "gi/surface_sampling.h"
 #include "tests/support/device_environment.h"
 #include "tools/bench/spot_sweep.h"
 #include "tools/reference/reference.h"
@@ -17,6 +17,7 @@
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 struct Parity {
@@ -26,7 +27,7 @@ struct Parity {
         setCamera(scene, cameraOf(asset, 0), size);
         renderer.load(asset.geometry);
     }
-    Image render(Layer layer, const GiSettings& settings, uint32_t frames) {
+    Image render(Layer layer, const RenderSettings& settings, uint32_t frames) {
         return renderLayer(renderer, scene, size, settings, layer, frames, {.timing = TimingMode::kOff});
     }
     reference::Reference trace(const reference::ReferenceSettings& settings) {
@@ -39,7 +40,7 @@ struct Parity {
     glm::uvec2 size{160, 90};
     SceneAsset asset;
     RenderScene scene;
-    GiRenderer renderer;
+    Renderer renderer;
 };
 
 ImageDifference differ(const Image& truth, const Image& test) {
@@ -95,16 +96,16 @@ TEST(Parity, FirstBounceWithoutVisibility) {
         Parity p(name);
         const Image truth =
             p.trace({.paths = {.bounces = 1, .unshadowed = true}, .samplesPerPixel = 512}).bounces[1];
-        GiSettings brute;
+        RenderSettings brute;
         applyPreset("rsm-brute", brute);
-        brute.rsm.resolution = 256;
+        brute.bounce.rsm.resolution = 256;
         const Image texels = p.render(Layer::kBounce1, brute, 1);
-        GiSettings clusters;
-        clusters.ismAtlas.enabled = false;
-        clusters.spacing = 1;
-        clusters.rsm.resolution = 256;
+        RenderSettings clusters;
+        clusters.bounce.ismAtlas.enabled = false;
+        clusters.bounce.spacing = 1;
+        clusters.bounce.rsm.resolution = 256;
         const bool folds = std::string_view(name) == "corridor";
-        clusters.valClustering.count = folds ? 1024 : 256;
+        clusters.bounce.valClustering.count = folds ? 1024 : 256;
         const Image vals = p.render(Layer::kBounce1, clusters, 32);
         const ImageDifference a = differ(truth, texels), b = differ(truth, vals), c = differ(texels, vals);
         std::printf(
@@ -121,10 +122,10 @@ TEST(Parity, SecondBounce) {
     for (const char* name : {"cornell", "corridor"}) {
         Parity p(name);
         const Image truth = p.trace({.paths = {.bounces = 2}, .samplesPerPixel = 1024}).bounces[2];
-        GiSettings settings;
-        settings.laterBounces.enabled = true;
-        settings.laterBounces.feedback = false;
-        settings.valClustering.count = 256;  // corridor's folds: 1.05 to 1.08 with 128
+        RenderSettings settings;
+        settings.bounce.laterBounces.enabled = true;
+        settings.bounce.laterBounces.feedback = false;
+        settings.bounce.valClustering.count = 256;  // corridor's folds: 1.05 to 1.08 with 128
         const ImageDifference d = differ(truth, p.render(Layer::kBounce2, settings, 80));
         std::printf("%s, second bounce: mean ratio %.4f, relative RMSE %.3f\n", name, d.meanRatio,
                     d.relativeRmse);
@@ -144,10 +145,10 @@ GlossErrors glossErrors(uint32_t percent, bool visibility) {
     Image truth =
         p.trace({.paths = {.bounces = 1, .glossy = true, .unshadowed = !visibility}, .samplesPerPixel = 512})
             .radiance;
-    GiSettings settings;
-    settings.ismAtlas.enabled = visibility;
+    RenderSettings settings;
+    settings.bounce.ismAtlas.enabled = visibility;
     Image with = p.render(Layer::kRadiance, settings, 32);
-    settings.valShading.glossy = false;
+    settings.bounce.valShading.glossy = false;
     Image without = p.render(Layer::kRadiance, settings, 32);
     for (size_t i = 0; i < truth.pixels.size(); ++i)
         if (with.pixels[i] == without.pixels[i]) with.pixels[i] = without.pixels[i] = truth.pixels[i] = {};
@@ -176,8 +177,8 @@ TEST(Parity, FirstBounceThroughImperfectShadowMaps) {
         Parity p(name);
         const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512}).bounces[1];
         for (const uint32_t spacing : {1u, 2u}) {
-            GiSettings settings;
-            settings.spacing = spacing;
+            RenderSettings settings;
+            settings.bounce.spacing = spacing;
             const ImageDifference d = differ(truth, p.render(Layer::kBounce1, settings, 34));
             std::printf("%s, every %u. pixel: mean ratio %.4f, relative RMSE %.3f\n", name, spacing,
                         d.meanRatio, d.relativeRmse);
@@ -199,9 +200,9 @@ TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
     b.camera("camera", {0, 1, 1.9f}, {0, 1, -1}, 50);
     const SceneAsset scene = b.finish();
     Parity p{SceneAsset(scene)}, q{SceneAsset(scene)};
-    GiSettings alone, shared;
-    alone.spacing = shared.spacing = 1;
-    shared.valShading.interleave = 3;
+    RenderSettings alone, shared;
+    alone.bounce.spacing = shared.bounce.spacing = 1;
+    shared.bounce.valShading.interleave = 3;
     const ImageDifference d =
         differ(p.render(Layer::kBounce1, alone, 34), q.render(Layer::kBounce1, shared, 34));
     std::printf("slats: mean ratio %.4f, relative RMSE %.3f\n", d.meanRatio, d.relativeRmse);
@@ -213,8 +214,8 @@ TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
 TEST(Parity, ErrorsInTheViewPutClustersWhereTheyAreSeen) {
     Parity p("corridor");
     const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512}).bounces[1];
-    GiSettings byFlux;
-    byFlux.importance.viewWeight = 0;
+    RenderSettings byFlux;
+    byFlux.bounce.importance.viewWeight = 0;
     Parity fresh("corridor");  // clusters are carried over: each starts with none
     const double view = differ(truth, p.render(Layer::kBounce1, {}, 34)).relativeRmse;
     const double flux = differ(truth, fresh.render(Layer::kBounce1, byFlux, 34)).relativeRmse;
@@ -247,13 +248,13 @@ struct MapAgreement {
 // Whether maps and rays agree about which points on surfaces the lights see, away from shadows' edges: where
 // the texels round the looked-up one say the same.
 MapAgreement agreement(Parity& p) {
-    GiFrame frame;
+    RenderFrame frame;
     for (int i = 0; i < 4; ++i)
         p.renderer.render(p.scene, p.size, {}, {.timing = TimingMode::kOff},
-                          [&](GraphScope scope, const SceneView&, const GiFrame& declared) {
+                          [&](GraphScope scope, const SceneView&, const RenderFrame& declared) {
                               frame = declared;
-                              scope.output(declared.isms.planes);
-                              scope.output(declared.vals.vals);
+                              scope.output(declared.bounce.isms.planes);
+                              scope.output(declared.bounce.vals.vals);
                           });
     const auto read = [&]<class T>(BufferHandle buffer, std::vector<T>& items) {
         const gpu::Buffer& source = p.renderer.graph().physical(buffer);
@@ -263,13 +264,13 @@ MapAgreement agreement(Parity& p) {
     };
     std::vector<io::Val> vals;
     std::vector<glm::vec4> planes;
-    read(frame.vals.vals, vals);
-    read(frame.isms.planes, planes);
+    read(frame.bounce.vals.vals, vals);
+    read(frame.bounce.isms.planes, planes);
     const reference::RayScene rays(p.scene);
-    const SurfaceSamples points = sampleSurfaces(p.scene, 512);
-    const int size = int(frame.isms.tileSize);
+    const SurfaceSamples points = render::sampleSurfaces(p.scene, 512);
+    const int size = int(frame.bounce.isms.tileSize);
     MapAgreement result;
-    for (size_t v = 0; v < frame.isms.mapCount; ++v) {
+    for (size_t v = 0; v < frame.bounce.isms.mapCount; ++v) {
         if (vals[v].flux == glm::vec3(0)) continue;
         glm::vec3 t, b;
         io::orthonormalBasis(vals[v].normal, t, b);
@@ -313,7 +314,7 @@ TEST(Parity, ImperfectShadowMapsSeeWhatRaysSee) {
 TEST(Parity, HolesBetweenDisksAreClosed) {
     Parity p("occluder");
     const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512}).bounces[1];
-    const auto leak = [&](const GiSettings& settings) {
+    const auto leak = [&](const RenderSettings& settings) {
         const Image image = p.render(Layer::kBounce1, settings, 34);
         double dark = 0, all = 0;
         for (size_t i = 0; i < image.pixels.size(); ++i) {
@@ -323,8 +324,8 @@ TEST(Parity, HolesBetweenDisksAreClosed) {
         }
         return dark / all;
     };
-    GiSettings open;
-    open.ismAtlas.pullPush = false;
+    RenderSettings open;
+    open.bounce.ismAtlas.pullPush = false;
     const double closed = leak({}), holes = leak(open);
     std::printf("of the light %.3f %% where there is none, %.3f %% with holes\n", 100 * closed, 100 * holes);
     EXPECT_LT(closed, 0.5 * holes);
@@ -357,16 +358,16 @@ TEST(Parity, ClosedRoomsKeepTheirLight) {
 // With the disk over the whole map, samples are an estimate of all its texels.
 TEST(Parity, SamplesOfTheSunsMapTendToAllItsTexels) {
     Parity p("corridor");
-    GiSettings brute, samples;
+    RenderSettings brute, samples;
     applyPreset("rsm-brute", brute);
     applyPreset("rsm-400", samples);
-    samples.rsm.resolution = brute.rsm.resolution;
-    samples.stochasticRsm = {.samples = 4096, .radius = 1.5f};
+    samples.bounce.rsm.resolution = brute.bounce.rsm.resolution;
+    samples.bounce.stochasticRsm = {.samples = 4096, .radius = 1.5f};
     const Image truth = p.render(Layer::kBounce1, brute, 1);
     EXPECT_NEAR(differ(truth, p.render(Layer::kBounce1, samples, 1)).meanRatio, 1, 0.01);
-    samples.stochasticRsm = {.samples = 400, .radius = 0.3f};
+    samples.bounce.stochasticRsm = {.samples = 400, .radius = 0.3f};
     const Image plain = p.render(Layer::kBounce1, samples, 1);
-    samples.stochasticRsm.interpolate = true;
+    samples.bounce.stochasticRsm.interpolate = true;
     EXPECT_NEAR(differ(plain, p.render(Layer::kBounce1, samples, 1)).meanRatio, 1, 0.02)
         << "blending neighbours keeps the mean";
 }

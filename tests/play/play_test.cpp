@@ -40,7 +40,7 @@ class Walkthrough : public testing::Test {
         lit_.clear();
         stage_.reset();
     }
-    static void row(const char* name, const gi::GiSettings& settings, std::span<const size_t> flowers,
+    static void row(const char* name, const render::RenderSettings& settings, std::span<const size_t> flowers,
                     uint32_t frames = 24);
 
     static constexpr const char* kRecording = AFTERGLOW_SOURCE_DIR "/game/level/walkthrough.replay";
@@ -67,7 +67,7 @@ float mean(glm::vec3 e) {
 // Where the walkthrough lights a flower, its probe has what the path tracer has there.
 TEST_F(Walkthrough, FlowersMeasureWhatThePathTracerMeasures) {
     ASSERT_EQ(lit_.size(), 11u);
-    gi::GiRenderer renderer(test::device());
+    render::Renderer renderer(test::device());
     renderer.load(stage_->game.level().geometry);
     for (size_t i = 0; i < lit_.size(); ++i) {
         const gi::ProbeReading measured = measureLight(renderer, lit_[i], {}, 12),
@@ -84,13 +84,13 @@ TEST_F(Walkthrough, FlowersMeasureWhatThePathTracerMeasures) {
 }
 
 // A line of errors in percent, each of a renderer that starts anew.
-void Walkthrough::row(const char* name, const gi::GiSettings& settings, std::span<const size_t> flowers,
-                      uint32_t frames) {
+void Walkthrough::row(const char* name, const render::RenderSettings& settings,
+                      std::span<const size_t> flowers, uint32_t frames) {
     std::printf("%-28s", name);
     for (const size_t i : flowers) {
-        gi::GiRenderer renderer(test::device());
+        render::Renderer renderer(test::device());
         renderer.load(stage_->game.level().geometry);
-        const float truth = mean(referenceLight(lit_[i], !settings.ismAtlas.enabled).bounced);
+        const float truth = mean(referenceLight(lit_[i], !settings.bounce.ismAtlas.enabled).bounced);
         const float light = mean(measureLight(renderer, lit_[i], settings, frames).bounced);
         std::printf(" %+6.1f", 100 * (light / truth - 1));
         std::fflush(stdout);
@@ -111,13 +111,13 @@ TEST_F(Walkthrough, TellsWhichTermOfAFlowersLightIsOff) {
         std::printf(" %6.1f", 100 * mean(referenceLight(lit_[i]).bounced) /
                                   mean(referenceLight(lit_[i], true).bounced));
     std::printf(" %%\n");
-    gi::GiSettings open, taps, views, clusters, maps, low;
-    open.ismAtlas.enabled = false;
-    taps.probes.taps = 16;
-    views.ismAtlas.tileSize = 128;
-    views.ismAtlas.pointsPerMap = 16384;
-    clusters.valClustering.count = 512;
-    maps.rsm.resolution = 512;
+    render::RenderSettings open, taps, views, clusters, maps, low;
+    open.bounce.ismAtlas.enabled = false;
+    taps.bounce.probes.taps = 16;
+    views.bounce.ismAtlas.tileSize = 128;
+    views.bounce.ismAtlas.pointsPerMap = 16384;
+    clusters.bounce.valClustering.count = 512;
+    maps.bounce.rsm.resolution = 512;
     applyQuality(Quality::kLow, low);
     row("default", {}, flowers);
     row("without shadows, both", open, flowers);

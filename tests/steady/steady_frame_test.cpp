@@ -3,12 +3,13 @@
 // is per thread.
 #include <gtest/gtest.h>
 
+#include "engine/renderer/renderer.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_renderer.h"
 #include "tests/support/allocation_counter.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
+using namespace render;
 namespace {
 
 TEST(SteadyFrame, AllocatesNothingWhileThingsMove) {
@@ -17,9 +18,9 @@ TEST(SteadyFrame, AllocatesNothingWhileThingsMove) {
     const SceneAsset asset = *scenegen::buildScene("hall", 0);
     RenderScene scene = staticScene(asset);
     const glm::uvec2 size(96, 54);
-    GiRenderer renderer(**device);
+    Renderer renderer(**device);
     renderer.load(asset.geometry);
-    const GiSettings settings;
+    const RenderSettings settings;
     CameraPose pose = cameraOf(asset, 0);
     uint64_t ran = 0;
     const auto frame = [&](int i) {
@@ -29,7 +30,7 @@ TEST(SteadyFrame, AllocatesNothingWhileThingsMove) {
         scene.instances.back().worldFromLocal[3].y += 0.001f;
         ++scene.instancesVersion;
         renderer.render(scene, size, settings, {},
-                        [](GraphScope scope, const SceneView&, const GiFrame& declared) {
+                        [](GraphScope scope, const SceneView&, const RenderFrame& declared) {
                             scope.output(declared.outputs.display);
                         });
         for (const PassReport& pass : renderer.graph().report())

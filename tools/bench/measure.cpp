@@ -9,8 +9,8 @@
 #include "engine/core/flip.h"
 #include "engine/core/hash.h"
 #include "engine/core/settings.h"
+#include "engine/renderer/frame_budget.h"
 #include "engine/scene/static_scene.h"
-#include "gi/frame_budget.h"
 #include "tools/bench/path_tracing.h"
 #include "tools/bench/walking.h"
 #include "tools/reference/vpl_tracer.h"
@@ -45,26 +45,29 @@ double quantile(std::vector<double> values, double q) {
 
 // Just the layer, so that only the passes it needs run.
 struct Frame {
-    gi::GiRenderer& renderer;
+    render::Renderer& renderer;
     glm::uvec2 size;
-    gi::Layer layer;
+    render::Layer layer;
     ImageHandle shown{};
     uint32_t emitters = 0;
 
-    void render(const RenderScene& scene, const gi::GiSettings& settings, const FrameGraphOptions& options) {
-        renderer.render(scene, size, settings, options,
-                        [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
-                            shown = gi::addLayer(scope, view, frame, layer);
-                            if (shown) scope.output(shown);
-                            emitters =
-                                settings.firstBounce == gi::FirstBounce::kAreaLights ? frame.vals.count : 0;
-                        });
+    void render(const RenderScene& scene, const render::RenderSettings& settings,
+                const FrameGraphOptions& options) {
+        renderer.render(
+            scene, size, settings, options,
+            [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
+                shown = render::addLayer(scope, view, frame, layer);
+                if (shown) scope.output(shown);
+                emitters = settings.technique == render::Technique::kAreaLights ? frame.bounce.vals.count : 0;
+            });
     }
-    void settle(const RenderScene& scene, const gi::GiSettings& settings) {
+    void settle(const RenderScene& scene, const render::RenderSettings& settings) {
         for (uint32_t i = 0; i < kWarmFrames; ++i)
             render(scene, settings, {});
     }
-    Image image() const { return shown ? gi::readImage(renderer, shown) : Image(int(size.x), int(size.y)); }
+    Image image() const {
+        return shown ? render::readImage(renderer, shown) : Image(int(size.x), int(size.y));
+    }
 };
 
 }  // namespace
@@ -111,7 +114,7 @@ Result<const ReferenceTrend*> SceneBench::trend(std::string_view term) {
     return &trends_.emplace(term, std::move(*made)).first->second;
 }
 
-void SceneBench::timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row& row) {
+void SceneBench::timeFrames(const render::RenderSettings& settings, render::Layer layer, Row& row) {
     Frame frame{renderer_, options_.size, layer};
     FrameGraphOptions everything;
     everything.skip = false;
@@ -142,15 +145,16 @@ void SceneBench::timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row
     for (auto& [name, times] : passes)
         row.passes[name] = quantile(times, 0.5);
     row.gbufferMs = row.passes["gbuffer.fill"];
-    const bool nothing = settings.firstBounce == gi::FirstBounce::kNone && layer != gi::Layer::kDirect;
+    const bool nothing = settings.technique == render::Technique::kNone && layer != render::Layer::kDirect;
     if (nothing) row.gbufferMs = row.gpuMsMedian = 0;
 }
 
 // As a program with --budget-ms does it, frame after frame of a scene in which all passes run.
-void SceneBench::settleBudget(double budgetMs, gi::GiSettings& settings, gi::Layer layer, Row& row) {
-    gi::BudgetController budget(budgetMs, gi::firstFullSizeStep());
-    gi::FrameCost cost;
-    const auto apply = [&] { gi::applyQualityStep(gi::qualitySteps()[budget.step()], settings); };
+void SceneBench::settleBudget(double budgetMs, render::RenderSettings& settings, render::Layer layer,
+                              Row& row) {
+    render::BudgetController budget(budgetMs, render::firstFullSizeStep());
+    render::FrameCost cost;
+    const auto apply = [&] { render::applyQualityStep(render::qualitySteps()[budget.step()], settings); };
     apply();
     Frame frame{renderer_, options_.size, layer};
     std::vector<double> last;
@@ -164,12 +168,12 @@ void SceneBench::settleBudget(double budgetMs, gi::GiSettings& settings, gi::Lay
         apply();
     }
     row.settings["budget_ms"] = fmt::format("{:g}", budgetMs);
-    row.settings["budget_step"] = gi::qualitySteps()[budget.step()].name;
+    row.settings["budget_step"] = render::qualitySteps()[budget.step()].name;
     row.settings["budget_changes"] = std::to_string(changes);
     row.settings["budget_median_ms"] = fmt::format("{:.2f}", quantile(last, 0.5));
 }
 
-Status SceneBench::measureFlicker(const gi::GiSettings& settings, gi::Layer layer, Row& row) {
+Status SceneBench::measureFlicker(const render::RenderSettings& settings, render::Layer layer, Row& row) {
     const auto truth = trend(row.term);
     if (!truth) return truth.error();
     Frame frame{renderer_, options_.flickerSize, layer};
@@ -194,7 +198,7 @@ Status SceneBench::measureFlicker(const gi::GiSettings& settings, gi::Layer laye
     return Ok{};
 }
 
-void SceneBench::measureWalking(const gi::GiSettings& settings, gi::Layer layer, Row& row) {
+void SceneBench::measureWalking(const render::RenderSettings& settings, render::Layer layer, Row& row) {
     Frame frame{renderer_, options_.flickerSize, layer};
     RenderScene scene = flickerScene_;
     std::vector<Image> standing, walking;
@@ -217,19 +221,19 @@ void SceneBench::measureWalking(const gi::GiSettings& settings, gi::Layer layer,
 }
 
 Status SceneBench::measureGpu(const Technique& technique, const Variant& variant, Row& row, Image& image) {
-    gi::GiSettings settings;
+    render::RenderSettings settings;
     Settings registry;
-    gi::registerSettings(registry, settings);
+    render::registerSettings(registry, settings);
     const std::string_view preset = technique.preset.empty() ? technique.name : technique.preset;
-    if (!gi::applyPreset(preset, settings)) return Error{fmt::format("there is no preset '{}'", preset)};
+    if (!render::applyPreset(preset, settings)) return Error{fmt::format("there is no preset '{}'", preset)};
     for (const std::string& assignment : variant.settings) {
         if (const Status set = registry.set(assignment); !set) return set;
         const size_t equals = assignment.find('=');
         row.settings[assignment.substr(0, equals)] = assignment.substr(equals + 1);
     }
-    const auto layer = gi::layerFromName(layerOfTerm(row.term));
+    const auto layer = render::layerFromName(layerOfTerm(row.term));
     if (!layer) return Error{fmt::format("there is no layer '{}'", row.term)};
-    if (!gi::showsGloss(*layer)) settings.valShading.glossy = false;
+    if (!render::showsGloss(*layer)) settings.bounce.valShading.glossy = false;
     renderer_.load(*scene_.geometry);
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "gi/gi_renderer.h"
+#include "engine/renderer/renderer.h"
 #include "tools/bench/moving_light.h"
 #include "tools/bench/report.h"
 #include "tools/bench/techniques.h"
@@ -38,12 +38,12 @@ class SceneBench {
     reference::ReferenceSettings referenceSettings(std::string_view term) const;
     Status measureGpu(const Technique& technique, const Variant& variant, Row& row, Image& image);
     void measureEmitters(Row& row, Image& image);
-    void timeFrames(const gi::GiSettings& settings, gi::Layer layer, Row& row);
-    Status measureFlicker(const gi::GiSettings& settings, gi::Layer layer, Row& row);
-    void settleBudget(double budgetMs, gi::GiSettings& settings, gi::Layer layer, Row& row);
-    void measureWalking(const gi::GiSettings& settings, gi::Layer layer, Row& row);
+    void timeFrames(const render::RenderSettings& settings, render::Layer layer, Row& row);
+    Status measureFlicker(const render::RenderSettings& settings, render::Layer layer, Row& row);
+    void settleBudget(double budgetMs, render::RenderSettings& settings, render::Layer layer, Row& row);
+    void measureWalking(const render::RenderSettings& settings, render::Layer layer, Row& row);
 
-    gi::GiRenderer renderer_;
+    render::Renderer renderer_;
     const RenderScene& scene_;
     RenderScene flickerScene_;  // seen at the flicker's size
     std::string name_;

@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "gi/gi_renderer.h"
+#include "engine/renderer/renderer.h"
 #include "tools/bench/moving_light.h"
 #include "tools/bench/svg.h"
 #include "tools/reference/ray_scene.h"
@@ -62,7 +62,7 @@ uint32_t addBox(GeometryArrays& g) {
 class Walkthrough {
   public:
     Walkthrough(gpu::Device& device, SceneAsset& asset, RenderScene& scene, glm::uvec2 size,
-                const gi::GiSettings& settings)
+                const render::RenderSettings& settings)
         : renderer_(device), scene_(scene), size_(size), settings_(settings) {
         const reference::RayScene rays(scene);
         const glm::vec3 corner = cornerSeen(rays);
@@ -82,11 +82,11 @@ class Walkthrough {
     }
 
     ChangeCost measure(Change change) {
-        settings_.importance.viewWeight =
+        settings_.bounce.importance.viewWeight =
             change == Change::kCameraByFlux ? 0 : gi::ImportanceSettings{}.viewWeight;
         restart(change);
         ChangeCost cost;
-        const uint32_t cpuFrames = kRounds * settings_.refresh.lightFrames;
+        const uint32_t cpuFrames = kRounds * settings_.bounce.refresh.lightFrames;
         const uint32_t timedFrames = kLateFrames + cpuFrames;
         const double part = 1.0 / cpuFrames;
         for (uint32_t i = 0; i < kWarmFrames; ++i)
@@ -175,17 +175,17 @@ class Walkthrough {
     void frame(Change change, const FrameGraphOptions& options) {
         apply(change);
         renderer_.render(scene_, size_, settings_, options,
-                         [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& declared) {
+                         [](GraphScope scope, const render::SceneView&, const render::RenderFrame& declared) {
                              scope.output(declared.outputs.display);
                          });
         scene_.allInstancesChanged = false;
     }
 
-    gi::GiRenderer renderer_;
+    render::Renderer renderer_;
     RenderScene& scene_;
     RenderScene start_;
     glm::uvec2 size_;
-    gi::GiSettings settings_;
+    render::RenderSettings settings_;
     float thingSize_ = 0;  // m
     std::array<glm::vec3, 2> places_{};
     uint32_t frame_ = 0;
@@ -216,7 +216,7 @@ std::string_view changeName(Change change) {
 }
 
 SceneCosts measureChanges(gpu::Device& device, SceneAsset& asset, RenderScene scene, std::string name,
-                          glm::uvec2 size, const gi::GiSettings& settings,
+                          glm::uvec2 size, const render::RenderSettings& settings,
                           FunctionRef<void(double)> progress) {
     SceneCosts costs{.scene = std::move(name), .size = size};
     Walkthrough walk(device, asset, scene, size, settings);

@@ -8,8 +8,8 @@
 
 #include "engine/core/function_ref.h"
 #include "engine/gpu/device.h"
+#include "engine/renderer/render_settings.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_settings.h"
 
 namespace ag::bench {
 
@@ -46,7 +46,7 @@ struct SceneCosts {
 
 // Adds a small box to asset and scene and measures every change. `scene` is of `asset`.
 SceneCosts measureChanges(gpu::Device& device, SceneAsset& asset, RenderScene scene, std::string name,
-                          glm::uvec2 size, const gi::GiSettings& settings,
+                          glm::uvec2 size, const render::RenderSettings& settings,
                           FunctionRef<void(double)> progress);
 
 std::string changesToSvg(const std::vector<SceneCosts>& scenes, std::string_view device);

@@ -9,8 +9,8 @@
 
 #include "engine/core/image.h"
 #include "engine/gpu/transfer.h"
+#include "engine/renderer/renderer.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_renderer.h"
 #include "tools/bench/svg.h"
 #include "tools/scenegen/builder.h"
 
@@ -38,26 +38,27 @@ glm::vec3 directionAt(double share) {
 }
 
 struct Run {
-    gi::GiRenderer renderer;
-    gi::GiSettings settings;
-    gi::GiFrame frame;
+    render::Renderer renderer;
+    render::RenderSettings settings;
+    render::RenderFrame frame;
     ImageHandle shown{};
 
     explicit Run(gpu::Device& device) : renderer(device) {}
 
     void render(const RenderScene& scene, const FrameGraphOptions& options = {}) {
-        renderer.render(scene, kSize, settings, options,
-                        [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& declared) {
-                            frame = declared;
-                            shown = gi::addLayer(scope, view, declared, gi::Layer::kBounce1);
-                            scope.output(shown);
-                            if (declared.clusters.clusters) scope.output(declared.clusters.clusters);
-                        });
+        renderer.render(
+            scene, kSize, settings, options,
+            [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& declared) {
+                frame = declared;
+                shown = render::addLayer(scope, view, declared, render::Layer::kBounce1);
+                scope.output(shown);
+                if (declared.bounce.clusters.clusters) scope.output(declared.bounce.clusters.clusters);
+            });
     }
 };
 
 double spreadOf(Run& run) {
-    const gpu::Buffer& source = run.renderer.graph().physical(run.frame.clusters.clusters);
+    const gpu::Buffer& source = run.renderer.graph().physical(run.frame.bounce.clusters.clusters);
     std::vector<io::Cluster> clusters(source.sizeBytes() / sizeof(io::Cluster));
     run.renderer.waitIdle();
     gpu::downloadBuffer(run.renderer.device(), source, std::as_writable_bytes(std::span(clusters)));
@@ -70,14 +71,14 @@ double spreadOf(Run& run) {
     return mean > 0 ? std::sqrt(std::max(squares / count - mean * mean, 0.0)) / mean : 0;
 }
 
-gi::GiSettings settingsOf(size_t variant, uint32_t clusters) {
-    gi::GiSettings gi;
-    gi.rsm.resolution = kMap;
-    gi.ismAtlas.enabled = false;
-    gi.spacing = 1;
-    gi.valClustering.count = clusters;
-    gi.valClustering.adaptive = variant > 0;
-    if (variant < 2) gi.importance.viewWeight = 0;
+render::RenderSettings settingsOf(size_t variant, uint32_t clusters) {
+    render::RenderSettings gi;
+    gi.bounce.rsm.resolution = kMap;
+    gi.bounce.ismAtlas.enabled = false;
+    gi.bounce.spacing = 1;
+    gi.bounce.valClustering.count = clusters;
+    gi.bounce.valClustering.adaptive = variant > 0;
+    if (variant < 2) gi.bounce.importance.viewWeight = 0;
     return gi;
 }
 
@@ -95,8 +96,8 @@ std::vector<SweepFrame> sweepSpot(gpu::Device& device, const SweepOptions& optio
         runs.back()->settings = settingsOf(v, options.clusters);
     }
     Run& truth = *runs.back();
-    gi::applyPreset("rsm-brute", truth.settings);
-    truth.settings.rsm.resolution = kMap;
+    render::applyPreset("rsm-brute", truth.settings);
+    truth.settings.bounce.rsm.resolution = kMap;
 
     std::vector<SweepFrame> measured;
     for (uint32_t i = 0; i < options.frames + kWarmFrames; ++i) {
@@ -108,11 +109,12 @@ std::vector<SweepFrame> sweepSpot(gpu::Device& device, const SweepOptions& optio
             runs[v]->render(scene);
         if (i < kWarmFrames || step % options.every != 0) continue;
         truth.render(scene);
-        const Image exact = gi::readImage(truth.renderer, truth.shown);
+        const Image exact = render::readImage(truth.renderer, truth.shown);
         SweepFrame frame{.seconds = share * kSweepSeconds};
         for (size_t v = 0; v < kSweepVariants.size(); ++v) {
             frame.spread[v] = spreadOf(*runs[v]);
-            const auto difference = compareImages(exact, gi::readImage(runs[v]->renderer, runs[v]->shown));
+            const auto difference =
+                compareImages(exact, render::readImage(runs[v]->renderer, runs[v]->shown));
             frame.error[v] = difference ? difference->relativeRmse : 0;
         }
         measured.push_back(frame);

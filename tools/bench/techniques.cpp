@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "gi/frame_budget.h"
+#include "engine/renderer/frame_budget.h"
 
 namespace ag::bench {
 namespace {
@@ -56,15 +56,15 @@ std::vector<Variant> paraboloids() {
 // What a budget chooses among.
 std::vector<Variant> qualityLadder() {
     std::vector<Variant> variants;
-    for (const gi::QualityStep& s : gi::qualitySteps().subspan(gi::firstFullSizeStep()))
-        variants.push_back(
-            {s.name,
-             {fmt::format("rsm.resolution={}", s.mapResolution),
-              fmt::format("val_clustering.count={}", s.valCount),
-              fmt::format("ism_atlas.tile_size={}", s.ismTile),
-              fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
-              fmt::format("gi.spacing={}", s.spacing), fmt::format("val_shading.near_reach={}", s.nearReach),
-              fmt::format("val_shading.taps={}", s.taps)}});
+    for (const render::QualityStep& s : render::qualitySteps().subspan(render::firstFullSizeStep()))
+        variants.push_back({s.name,
+                            {fmt::format("rsm.resolution={}", s.mapResolution),
+                             fmt::format("val_clustering.count={}", s.valCount),
+                             fmt::format("ism_atlas.tile_size={}", s.ismTile),
+                             fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
+                             fmt::format("gi.spacing={}", s.spacing),
+                             fmt::format("val_shading.near_reach={}", s.nearReach),
+                             fmt::format("val_shading.taps={}", s.taps)}});
     return variants;
 }
 

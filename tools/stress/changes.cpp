@@ -40,7 +40,7 @@ void settles(const Bench& bench, const std::string& name, double limit,
         stage.frame();
         if (!fault) fault = stage.fault();
     }
-    stage.frames(std::max(bench.options.frames, stage.settings.valClustering.settleFrames + 8));
+    stage.frames(std::max(bench.options.frames, stage.settings.bounce.valClustering.settleFrames + 8));
     if (!fault) fault = stage.fault();
     bench.report(
         {name, "relative RMSE once it rests", relativeRmse(truth.image, stage.radiance()), limit, fault});

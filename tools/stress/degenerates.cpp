@@ -50,12 +50,12 @@ class Degenerates {
         if (!bench_.wants(name)) return;
         const auto bounceOnly = [&](Stage& stage) {
             prepare(stage);
-            stage.settings.ismAtlas.enabled = false;
+            stage.settings.bounce.ismAtlas.enabled = false;
         };
         const Still still = renderStill(bench_, asset, bounceOnly);
         const Still truth = renderStill(bench_, asset, [&](Stage& stage) {
             bounceOnly(stage);
-            stage.settings.firstBounce = gi::FirstBounce::kTexels;
+            stage.settings.technique = render::Technique::kRsmBrute;
         });
         bench_.report({name, "mean against every texel, off 1",
                        std::abs(meanRadiance(still.image) / meanRadiance(truth.image) - 1), limit,
@@ -89,7 +89,7 @@ class Degenerates {
         if (!bench_.wants(name)) return;
         uint32_t lit = 0;
         const Still still = renderStill(bench_, patch(0.02f), [&](Stage& stage) {
-            stage.settings.rsm.resolution = 32;
+            stage.settings.bounce.rsm.resolution = 32;
             stage.frame();
             lit = stage.litTexels();
         });
@@ -121,15 +121,15 @@ void runDegenerates(const Bench& bench) {
     d.againstTexels(
         "more clusters than lit texels", cornell(),
         [](Stage& s) {
-            s.settings.valClustering.count = io::kMaxClusters;
-            s.settings.rsm.resolution = 32;
+            s.settings.bounce.valClustering.count = io::kMaxClusters;
+            s.settings.bounce.rsm.resolution = 32;
         },
         0.03);
     d.againstTexels(
-        "one cluster", cornell(), [](Stage& s) { s.settings.valClustering.count = 1; }, 0.5);
+        "one cluster", cornell(), [](Stage& s) { s.settings.bounce.valClustering.count = 1; }, 0.5);
     d.oneLitTexel();
     d.againstTexels(
-        "one lit texel's light", patch(0.02f), [](Stage& s) { s.settings.rsm.resolution = 32; }, 0.03);
+        "one lit texel's light", patch(0.02f), [](Stage& s) { s.settings.bounce.rsm.resolution = 32; }, 0.03);
     d.againstTexels(
         "collinear clusters", strip(), [](Stage&) {}, 0.05);
     SceneAsset black = cornell();
@@ -138,7 +138,7 @@ void runDegenerates(const Bench& bench) {
     d.dark("black albedo", black, [](Stage&) {});
     d.dark("light without power", cornell(), [](Stage& s) { s.scene.lights[0].intensity = glm::vec3(0); });
     d.finite("no importance: nothing lit faces the view", cornell(), [](Stage& s) {
-        s.settings.importance.viewWeight = 1;
+        s.settings.bounce.importance.viewWeight = 1;
         setCamera(s.scene, {.position = {0, 1, 4}, .forward = {0, 0, 1}}, s.size);
     });
     d.finite("window of one pixel", cornell(), [](Stage& s) {

@@ -39,9 +39,9 @@ SceneAsset scaled(SceneAsset asset, float by) {
 
 // Clustering weighs distances per m², or per square of the renderer's unit where that is no metre.
 void keepMetric(Stage& stage, float by) {
-    const float perUnit = gi::chooseUnits(stage.scene, 0, {}).length / by;
-    stage.settings.valClustering.distanceWeight *= perUnit * perUnit;
-    stage.settings.valClustering.planeWeight *= perUnit * perUnit;
+    const float perUnit = render::chooseUnits(stage.scene, 0, {}).length / by;
+    stage.settings.bounce.valClustering.distanceWeight *= perUnit * perUnit;
+    stage.settings.bounce.valClustering.planeWeight *= perUnit * perUnit;
 }
 
 SceneAsset lit(SceneAsset asset, float by) {

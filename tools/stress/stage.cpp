@@ -38,18 +38,19 @@ Stage::Stage(gpu::Device& device, SceneAsset built, glm::uvec2 pixels)
 void Stage::frame() {
     renderer.render(
         scene, size, settings, options,
-        [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& declared) {
+        [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& declared) {
             last_ = declared;
-            radiance_ = gi::addLayer(scope, view, declared, gi::Layer::kRadiance);
+            radiance_ = render::addLayer(scope, view, declared, render::Layer::kRadiance);
             scope.output(radiance_);
             scope.output(declared.outputs.display);
-            if (declared.rsm.empty() || settings.firstBounce == gi::FirstBounce::kNone) return;
-            scope.output(declared.rsm.texels);
-            if (!declared.clusters.clusters) return;
-            for (const BufferHandle b : {declared.clusters.clusters, declared.clusters.candidates,
-                                         declared.clusters.candidateCounts, declared.clusters.slotOfTexel})
+            if (declared.bounce.rsm.empty() || settings.technique == render::Technique::kNone) return;
+            scope.output(declared.bounce.rsm.texels);
+            if (!declared.bounce.clusters.clusters) return;
+            for (const BufferHandle b :
+                 {declared.bounce.clusters.clusters, declared.bounce.clusters.candidates,
+                  declared.bounce.clusters.candidateCounts, declared.bounce.clusters.slotOfTexel})
                 scope.output(b);
-            scope.output(declared.vals.vals);
+            scope.output(declared.bounce.vals.vals);
         });
 }
 
@@ -59,7 +60,7 @@ void Stage::frames(uint32_t count) {
 }
 
 Image Stage::radiance() {
-    return gi::readImage(renderer, radiance_);
+    return render::readImage(renderer, radiance_);
 }
 
 template <class T>
@@ -72,13 +73,13 @@ std::vector<T> Stage::read(BufferHandle buffer) {
 }
 
 std::optional<std::string> Stage::clusterFault() {
-    const auto texels = read<io::RsmTexel>(last_.rsm.texels);
+    const auto texels = read<io::RsmTexel>(last_.bounce.rsm.texels);
     if (!finiteFloats(texels, sizeof(io::RsmTexel) / 4)) return "a texel of a light map is no number";
-    if (!last_.clusters.clusters) return std::nullopt;
-    const auto clusters = read<io::Cluster>(last_.clusters.clusters);
-    const auto slots = read<uint32_t>(last_.clusters.slotOfTexel);
-    const auto candidates = read<uint32_t>(last_.clusters.candidates);
-    const auto counts = read<uint32_t>(last_.clusters.candidateCounts);
+    if (!last_.bounce.clusters.clusters) return std::nullopt;
+    const auto clusters = read<io::Cluster>(last_.bounce.clusters.clusters);
+    const auto slots = read<uint32_t>(last_.bounce.clusters.slotOfTexel);
+    const auto candidates = read<uint32_t>(last_.bounce.clusters.candidates);
+    const auto counts = read<uint32_t>(last_.bounce.clusters.candidateCounts);
     glm::dvec3 ofTexels(0), ofClusters(0);
     std::vector<uint32_t> members(clusters.size(), 0);
     for (size_t i = 0; i < texels.size(); ++i) {
@@ -103,20 +104,20 @@ std::optional<std::string> Stage::clusterFault() {
     for (int channel = 0; channel < 3; ++channel)
         if (std::abs(ofClusters[channel] - ofTexels[channel]) > 1e-4 * ofTexels[channel])
             return fmt::format("clusters hold {:.6g} of {:.6g} W", ofClusters[channel], ofTexels[channel]);
-    if (!finiteFloats(read<io::Val>(last_.vals.vals), sizeof(io::Val) / 4))
+    if (!finiteFloats(read<io::Val>(last_.bounce.vals.vals), sizeof(io::Val) / 4))
         return "an area light holds what is no number";
     return std::nullopt;
 }
 
 std::optional<std::string> Stage::fault() {
     if (!finite(radiance())) return "a pixel is no number";
-    if (last_.rsm.empty() || settings.firstBounce == gi::FirstBounce::kNone) return std::nullopt;
+    if (last_.bounce.rsm.empty() || settings.technique == render::Technique::kNone) return std::nullopt;
     return clusterFault();
 }
 
 uint32_t Stage::litTexels() {
     uint32_t lit = 0;
-    for (const io::RsmTexel& texel : read<io::RsmTexel>(last_.rsm.texels))
+    for (const io::RsmTexel& texel : read<io::RsmTexel>(last_.bounce.rsm.texels))
         lit += texel.weight > 0;
     return lit;
 }

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/renderer/renderer.h"
 #include "engine/scene/static_scene.h"
-#include "gi/gi_renderer.h"
 
 namespace ag::stress {
 
@@ -25,16 +25,16 @@ class Stage {
     SceneAsset asset;
     RenderScene scene;
     glm::uvec2 size;
-    gi::GiSettings settings;
+    render::RenderSettings settings;
     FrameGraphOptions options{.timing = TimingMode::kOff};
-    gi::GiRenderer renderer;
+    render::Renderer renderer;
 
   private:
     template <class T>
     std::vector<T> read(BufferHandle buffer);
     std::optional<std::string> clusterFault();
 
-    gi::GiFrame last_;
+    render::RenderFrame last_;
     ImageHandle radiance_;
 };
 

@@ -3,11 +3,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
 
-#include "capture/diff.h"
-#include "capture/record.h"
-#include "capture/save_capture.h"
-#include "capture/schedule_spans.h"
-#include "capture/world_source.h"
+#include "engine/capture/diff.h"
+#include "engine/capture/record.h"
+#include "engine/capture/save_capture.h"
+#include "engine/capture/schedule_spans.h"
+#include "engine/capture/world_source.h"
 #include "engine/core/settings.h"
 #include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
@@ -35,14 +35,14 @@ struct CaptureOptions {
 
 // Status of everything the options say beyond the scene.
 Status readSettings(const CaptureOptions& o, capture::RecordSettings& settings, std::string& repeatPass) {
-    if (!gi::applyPreset(o.preset, settings.gi))
+    if (!render::applyPreset(o.preset, settings.gi))
         return Error{fmt::format("there is no preset '{}' (there are: {})", o.preset,
-                                 fmt::join(gi::presetNames(), ", "))};
+                                 fmt::join(render::presetNames(), ", "))};
     Settings registry;
     registry.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
                  &settings.graph.skip);
     registry.add({"engine", "alias", 0, 0, "", "scratch images share memory"}, &settings.graph.alias);
-    gi::registerSettings(registry, settings.gi);
+    render::registerSettings(registry, settings.gi);
     for (const std::string& assignment : o.assignments)
         if (const Status set = registry.set(assignment); !set) return set.error();
     settings.frames = o.frames;
@@ -103,7 +103,7 @@ void printSummary(const CaptureOptions& o, const capture::Capture& seen,
 }
 
 // Frames, pictures, graphs of the scene as it is or as entities.
-Status captureScene(const CaptureOptions& o, LoadedScene& loaded, gi::GiRenderer& renderer, glm::vec3 walk,
+Status captureScene(const CaptureOptions& o, LoadedScene& loaded, render::Renderer& renderer, glm::vec3 walk,
                     const capture::RecordSettings& settings, gpu::RenderDoc renderDoc,
                     const std::string& rdcPath, capture::Capture& seen) {
     std::optional<capture::WorldSource> world;
@@ -145,7 +145,7 @@ int runCapture(const CaptureOptions& o) {
     auto device = gpu::Device::create({.validation = o.validate});
     if (!device) return refuse(device.error().message);
 
-    gi::GiRenderer renderer(**device);
+    render::Renderer renderer(**device);
     renderer.load(loaded->asset->geometry);
     settings.size = loaded->size;
     capture::Capture seen{.scene = o.scene.scene,
@@ -182,7 +182,7 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
                      "frames before them in which nothing is skipped, so that every pass gets a time")
         ->check(numberFrom(1, 1000))
         ->capture_default_str();
-    command->add_option("--preset", o->preset, fmt::format("{}", fmt::join(gi::presetNames(), ", ")))
+    command->add_option("--preset", o->preset, fmt::format("{}", fmt::join(render::presetNames(), ", ")))
         ->capture_default_str();
     command->add_option("--set", o->assignments, "group.name=value")->allow_extra_args(false);
     command->add_option("--walk", o->walk, "DX,DY,DZ, m the camera moves in each frame");

@@ -15,14 +15,14 @@ LayerName splitLayerName(const std::string& text) {
 
 std::vector<std::string_view> layerNames() {
     std::vector<std::string_view> names;
-    for (uint32_t i = 0; i < uint32_t(gi::Layer::kCount); ++i)
-        names.push_back(gi::layerInfo(gi::Layer(i)).name);
+    for (uint32_t i = 0; i < uint32_t(render::Layer::kCount); ++i)
+        names.push_back(render::layerInfo(render::Layer(i)).name);
     return names;
 }
 
 namespace {
 
-std::string tableLine(const gi::LayerInfo& info) {
+std::string tableLine(const render::LayerInfo& info) {
     return fmt::format("  {:<14} {:<23} {}\n", info.name, info.unit, info.meaning);
 }
 
@@ -33,16 +33,16 @@ constexpr const char* kProducts =
 
 std::string layerTable() {
     std::string out = "Layers:\n";
-    for (uint32_t i = 0; i < uint32_t(gi::Layer::kCount); ++i)
-        out += tableLine(gi::layerInfo(gi::Layer(i)));
+    for (uint32_t i = 0; i < uint32_t(render::Layer::kCount); ++i)
+        out += tableLine(render::layerInfo(render::Layer(i)));
     return out + kProducts;
 }
 
-gi::LayerInfo referenceLayerInfo(std::string_view name) {
+render::LayerInfo referenceLayerInfo(std::string_view name) {
     if (name.starts_with("bounce"))
         return {name, "W/m²", "irradiance of exactly that many bounces, before albedo", true};
-    const auto layer = gi::layerFromName(name);
-    return layer ? gi::layerInfo(*layer) : gi::LayerInfo{name, "", ""};
+    const auto layer = render::layerFromName(name);
+    return layer ? render::layerInfo(*layer) : render::LayerInfo{name, "", ""};
 }
 
 std::string referenceLayerTable() {
@@ -50,12 +50,12 @@ std::string referenceLayerTable() {
     for (const std::string_view name :
          {"radiance", "direct", "indirect", "irradiance", "albedo", "normal", "depth"})
         out += tableLine(referenceLayerInfo(name));
-    gi::LayerInfo bounces = referenceLayerInfo("bounce1");
+    render::LayerInfo bounces = referenceLayerInfo("bounce1");
     bounces.name = "bounce1 to 8";
     return out + tableLine(bounces) + kProducts;
 }
 
-std::map<std::string, std::string> layerAttributes(const gi::LayerInfo& info, bool asRadiance) {
+std::map<std::string, std::string> layerAttributes(const render::LayerInfo& info, bool asRadiance) {
     if (!asRadiance)
         return {{"layer", std::string(info.name)},
                 {"unit", std::string(info.unit)},

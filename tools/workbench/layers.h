@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/core/image.h"
-#include "gi/debug_view.h"
+#include "engine/renderer/debug_view.h"
 
 namespace ag::workbench {
 
@@ -23,11 +23,11 @@ std::vector<std::string_view> layerNames();  // of the renderer
 std::string layerTable();                    // one line each: name, unit, meaning
 
 // The reference's layers; bounceN is exactly the N-th bounce there.
-gi::LayerInfo referenceLayerInfo(std::string_view name);
+render::LayerInfo referenceLayerInfo(std::string_view name);
 std::string referenceLayerTable();
 
 // For an image file: layer, unit, meaning.
-std::map<std::string, std::string> layerAttributes(const gi::LayerInfo& info, bool asRadiance);
+std::map<std::string, std::string> layerAttributes(const render::LayerInfo& info, bool asRadiance);
 
 // Irradiance to the radiance that a Lambert surface of this albedo sends on, W/(m² sr).
 void toRadiance(Image& irradiance, const Image& albedo);

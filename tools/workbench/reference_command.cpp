@@ -57,11 +57,11 @@ Image imageOf(const ReferenceOptions& o, const LayerName& layer, const reference
               const reference::Reference& result) {
     Image image = *reference::layerOf(result, layer.layer);
     if (layer.asRadiance) toRadiance(image, result.albedo);
-    const gi::LayerInfo info = referenceLayerInfo(layer.layer);
+    const render::LayerInfo info = referenceLayerInfo(layer.layer);
     const bool light = info.isIrradiance || layer.layer == "radiance";
     if (light && o.output.ends_with(".png"))
         for (glm::vec3& p : image.pixels)
-            p = io::applyTonemap(p, 1, uint32_t(gi::CompositeSettings{}.tonemap));
+            p = io::applyTonemap(p, 1, uint32_t(render::CompositeSettings{}.tonemap));
     image.attributes = layerAttributes(info, layer.asRadiance);
     const reference::PathSettings& paths = settings.paths;
     image.attributes.insert({{"scene", o.scene.scene},

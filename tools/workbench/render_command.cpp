@@ -8,8 +8,8 @@
 
 #include "engine/core/safe_file.h"
 #include "engine/core/settings.h"
-#include "gi/frame_budget.h"
-#include "gi/gi_renderer.h"
+#include "engine/renderer/frame_budget.h"
+#include "engine/renderer/renderer.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/layers.h"
 #include "tools/workbench/progress_line.h"
@@ -35,7 +35,7 @@ struct RenderOptions {
 };
 
 struct RenderSettings {
-    gi::GiSettings gi;
+    render::RenderSettings gi;
     FrameGraphOptions graph;
     Settings registry;
 
@@ -43,7 +43,7 @@ struct RenderSettings {
         registry.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
                      &graph.skip);
         registry.add({"engine", "alias", 0, 0, "", "scratch images share memory"}, &graph.alias);
-        gi::registerSettings(registry, gi);
+        render::registerSettings(registry, gi);
     }
 };
 
@@ -54,7 +54,7 @@ std::string layerOf(const RenderOptions& options) {
 
 // Process CPU time of each pass once more with everything run, which also warms the numbers: the first frames
 // compile.
-void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSettings& settings) {
+void printTimes(render::Renderer& renderer, const LoadedScene& loaded, RenderSettings& settings) {
     FrameGraphOptions options = settings.graph;
     options.skip = false;
     options.timing = TimingMode::kProcessCpu;
@@ -62,7 +62,7 @@ void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSetti
     constexpr int kRepeats = 7;
     for (int i = 0; i < kRepeats; ++i) {
         renderer.render(loaded.scene, loaded.size, settings.gi, options,
-                        [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                        [](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
                             scope.output(frame.outputs.display);
                         });
         best.resize(renderer.graph().report().size(), 1e30);
@@ -82,7 +82,7 @@ void printTimes(gi::GiRenderer& renderer, const LoadedScene& loaded, RenderSetti
 }
 
 // The same while the camera walks: passes are skipped as ever, each has its mean over the frames.
-void printTimesOfWalk(gi::GiRenderer& renderer, LoadedScene& loaded, RenderSettings& settings,
+void printTimesOfWalk(render::Renderer& renderer, LoadedScene& loaded, RenderSettings& settings,
                       glm::vec3 step) {
     FrameGraphOptions options = settings.graph;
     options.timing = TimingMode::kProcessCpu;
@@ -96,7 +96,7 @@ void printTimesOfWalk(gi::GiRenderer& renderer, LoadedScene& loaded, RenderSetti
         camera.worldFromClip = glm::inverse(camera.clipFromWorld);
         ++loaded.scene.cameraVersion;
         renderer.render(loaded.scene, loaded.size, settings.gi, options,
-                        [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                        [](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
                             scope.output(frame.outputs.display);
                         });
         for (const PassReport& pass : renderer.graph().report()) {
@@ -118,40 +118,41 @@ void printTimesOfWalk(gi::GiRenderer& renderer, LoadedScene& loaded, RenderSetti
 // --budget-ms: the quality follows what frames take.
 class Budget {
   public:
-    Budget(double ms, gi::GiSettings& gi) : controller_(ms, gi::firstFullSizeStep()) {
-        if (ms > 0) gi::applyQualityStep(gi::qualitySteps()[controller_.step()], gi);
+    Budget(double ms, render::RenderSettings& gi) : controller_(ms, render::firstFullSizeStep()) {
+        if (ms > 0) render::applyQualityStep(render::qualitySteps()[controller_.step()], gi);
     }
-    void follow(gi::GiRenderer& renderer, gi::GiSettings& gi) {
+    void follow(render::Renderer& renderer, render::RenderSettings& gi) {
         lastMs_ = cost_.add(renderer.graph().report(), renderer.timesArePartial());
-        if (controller_.frame(lastMs_)) gi::applyQualityStep(gi::qualitySteps()[controller_.step()], gi);
+        if (controller_.frame(lastMs_))
+            render::applyQualityStep(render::qualitySteps()[controller_.step()], gi);
     }
     void print() const {
         std::cout << fmt::format("budget {:.1f} ms: quality step {}, passes of a whole frame {:.1f} ms\n",
-                                 controller_.budgetMs(), gi::qualitySteps()[controller_.step()].name,
+                                 controller_.budgetMs(), render::qualitySteps()[controller_.step()].name,
                                  lastMs_);
     }
 
   private:
-    gi::BudgetController controller_;
-    gi::FrameCost cost_;
+    render::BudgetController controller_;
+    render::FrameCost cost_;
     double lastMs_ = 0;
 };
 
 // LAYER or LAYER:radiance: an irradiance as the radiance that a Lambert surface sends on, albedo / pi times
 // it.
 struct AskedLayer {
-    gi::Layer layer{};
+    render::Layer layer{};
     bool asRadiance = false;
 };
 
 Result<AskedLayer> parseLayer(const RenderOptions& options) {
     const std::string text = layerOf(options);
     const LayerName name = splitLayerName(text);
-    const auto layer = gi::layerFromName(name.layer);
+    const auto layer = render::layerFromName(name.layer);
     if (!layer)
         return Error{
             fmt::format("there is no layer '{}' (there are: {})", name.layer, fmt::join(layerNames(), ", "))};
-    if (name.asRadiance && !gi::layerInfo(*layer).isIrradiance)
+    if (name.asRadiance && !render::layerInfo(*layer).isIrradiance)
         return Error{fmt::format("layer {} is no irradiance that ':radiance' could be taken of", name.layer)};
     if (!name.known) return Error{fmt::format("a layer is NAME or NAME:radiance, not '{}'", text)};
     return AskedLayer{*layer, name.asRadiance};
@@ -169,13 +170,13 @@ Status checkOptions(const RenderOptions& o) {
 }
 
 // Why a layer is not there; empty where it is, or where black is the truth.
-std::string whyMissing(const RenderOptions& o, const RenderScene& scene, const gi::GiFrame& frame,
-                       const gi::GiSettings& settings, gi::Layer layer) {
-    if (gi::hasLayer(frame, settings, layer)) return "";
+std::string whyMissing(const RenderOptions& o, const RenderScene& scene, const render::RenderFrame& frame,
+                       render::Layer layer) {
+    if (render::hasLayer(frame, layer)) return "";
     const bool lit = std::ranges::any_of(scene.lights, [&](const RenderLight& l) {
-        return l.bounces || layer == gi::Layer::kDirect || layer == gi::Layer::kIrradiance;
+        return l.bounces || layer == render::Layer::kDirect || layer == render::Layer::kIrradiance;
     });
-    const gi::LayerInfo& info = gi::layerInfo(layer);
+    const render::LayerInfo& info = render::layerInfo(layer);
     if (!lit && info.isIrradiance) return "";
     return lit ? fmt::format("preset {} makes no layer {} ({}) of {}", o.preset, info.name, info.meaning,
                              o.scene.scene)
@@ -212,10 +213,10 @@ class Rendering {
     }
 
     Image image() {
-        Image out = shown_.image ? gi::readImage(renderer_, shown_.image)
+        Image out = shown_.image ? render::readImage(renderer_, shown_.image)
                                  : Image(int(loaded_.size.x), int(loaded_.size.y));
-        if (asked_.asRadiance) toRadiance(out, gi::readImage(renderer_, shown_.albedo));
-        const gi::LayerInfo& info = gi::layerInfo(asked_.layer);
+        if (asked_.asRadiance) toRadiance(out, render::readImage(renderer_, shown_.albedo));
+        const render::LayerInfo& info = render::layerInfo(asked_.layer);
         out.attributes = layerAttributes(info, asked_.asRadiance);
         out.attributes["scene"] = options_.scene.scene;
         out.attributes["preset"] = options_.preset;
@@ -226,28 +227,28 @@ class Rendering {
         return out;
     }
 
-    gi::GiRenderer& renderer() { return renderer_; }
+    render::Renderer& renderer() { return renderer_; }
 
   private:
     void renderFrame() {
         const bool png = std::filesystem::path(options_.output).extension() == ".png";
-        renderer_.render(loaded_.scene, loaded_.size, settings_.gi, settings_.graph,
-                         [&](GraphScope scope, const gi::SceneView& view, const gi::GiFrame& frame) {
-                             shown_.missing =
-                                 whyMissing(options_, loaded_.scene, frame, settings_.gi, asked_.layer);
-                             shown_.image = png ? gi::addLayerView(scope, view, frame, asked_.layer,
-                                                                   loaded_.size, settings_.gi.composite)
-                                                : gi::addLayer(scope, view, frame, asked_.layer);
-                             if (asked_.asRadiance)
-                                 shown_.albedo = gi::addLayer(scope, view, frame, gi::Layer::kAlbedo);
-                             for (const ImageHandle image : {shown_.image, shown_.albedo})
-                                 if (image) scope.output(image);
-                         });
+        renderer_.render(
+            loaded_.scene, loaded_.size, settings_.gi, settings_.graph,
+            [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
+                shown_.missing = whyMissing(options_, loaded_.scene, frame, asked_.layer);
+                shown_.image = png ? render::addLayerView(scope, view, frame, asked_.layer, loaded_.size,
+                                                          settings_.gi.composite)
+                                   : render::addLayer(scope, view, frame, asked_.layer);
+                if (asked_.asRadiance)
+                    shown_.albedo = render::addLayer(scope, view, frame, render::Layer::kAlbedo);
+                for (const ImageHandle image : {shown_.image, shown_.albedo})
+                    if (image) scope.output(image);
+            });
     }
 
     const RenderOptions& options_;
     const AskedLayer asked_;
-    gi::GiRenderer renderer_;
+    render::Renderer renderer_;
     LoadedScene& loaded_;
     RenderSettings& settings_;
     Shown shown_;
@@ -255,9 +256,9 @@ class Rendering {
 
 int runRender(const RenderOptions& options) {
     RenderSettings settings;
-    if (!gi::applyPreset(options.preset, settings.gi))
+    if (!render::applyPreset(options.preset, settings.gi))
         return refuse(fmt::format("there is no preset '{}' (there are: {})", options.preset,
-                                  fmt::join(gi::presetNames(), ", ")));
+                                  fmt::join(render::presetNames(), ", ")));
     for (const std::string& assignment : options.assignments)
         if (const Status set = settings.registry.set(assignment); !set) return refuse(set.error().message);
     if (options.listSettings) {
@@ -267,7 +268,7 @@ int runRender(const RenderOptions& options) {
     if (const Status good = checkOptions(options); !good) return refuse(good.error().message);
     const auto asked = parseLayer(options);
     if (!asked) return refuse(asked.error().message);
-    if (!gi::showsGloss(asked->layer)) settings.gi.valShading.glossy = false;
+    if (!render::showsGloss(asked->layer)) settings.gi.bounce.valShading.glossy = false;
     const auto walk = parseStep(options.walk);
     if (!walk) return refuse(walk.error().message);
     auto loaded = loadScene(options.scene);
@@ -303,7 +304,8 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->add_option("--layer", options->layer,
                         "which intermediate; radiance (exr, pfm) or final (png) by default");
     command->footer(layerTable());
-    command->add_option("--preset", options->preset, fmt::format("{}", fmt::join(gi::presetNames(), ", ")))
+    command
+        ->add_option("--preset", options->preset, fmt::format("{}", fmt::join(render::presetNames(), ", ")))
         ->capture_default_str();
     command
         ->add_option("--budget-ms", options->budgetMs,

@@ -27,8 +27,9 @@ void printPasses(const bench::SceneCosts& costs) {
 }
 
 int runSkipping(const SkippingArguments& o) {
-    gi::GiSettings settings;
-    if (!gi::applyPreset(o.preset, settings)) return refuse(fmt::format("there is no preset '{}'", o.preset));
+    render::RenderSettings settings;
+    if (!render::applyPreset(o.preset, settings))
+        return refuse(fmt::format("there is no preset '{}'", o.preset));
     if (const Status ready = prepareTextFiles({o.plot, o.markdown}); !ready)
         return refuse(ready.error().message);
     auto device = gpu::Device::create({});

@@ -96,11 +96,11 @@ void Bot::look(double x, double y, double z) {
 
 bool Bot::waitForFlower(size_t index, int mostTicks) {
     const int margin = 30;  // for other machines and longer frames
-    gi::ProbeLight best;
+    render::ProbeLight best;
     for (int i = 0; i < mostTicks; ++i) {
         tick({0, 0});
         const Flower f = stage_.flower(index);
-        const gi::ProbeLight light = stage_.lightAt(index);
+        const render::ProbeLight light = stage_.lightAt(index);
         if (light.bounced.x + light.bounced.y + light.bounced.z >=
             best.bounced.x + best.bounced.y + best.bounced.z)
             best = light;

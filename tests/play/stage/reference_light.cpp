@@ -56,14 +56,14 @@ std::vector<LitFlower> litFlowers(Stage& stage, std::span<const Input> inputs) {
     return lit;
 }
 
-gi::ProbeReading measureLight(gi::GiRenderer& renderer, const LitFlower& lit, const gi::GiSettings& settings,
-                              uint32_t frames) {
+gi::ProbeReading measureLight(render::Renderer& renderer, const LitFlower& lit,
+                              const render::RenderSettings& settings, uint32_t frames) {
     RenderScene scene = lit.scene;
     scene.allInstancesChanged = true;
     gi::ProbeReading light;
     for (uint32_t i = 0; i < frames; ++i) {
         renderer.render(scene, {64, 36}, settings, {.timing = TimingMode::kOff},
-                        [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                        [](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
                             scope.output(frame.outputs.display);
                         });
         scene.allInstancesChanged = false;

@@ -16,8 +16,8 @@ struct LitFlower {
 std::vector<LitFlower> litFlowers(Stage& stage, std::span<const Input> inputs);
 
 // By the renderer, after some frames. It must hold the stage's geometry.
-gi::ProbeReading measureLight(gi::GiRenderer& renderer, const LitFlower& lit, const gi::GiSettings& settings,
-                              uint32_t frames);
+gi::ProbeReading measureLight(render::Renderer& renderer, const LitFlower& lit,
+                              const render::RenderSettings& settings, uint32_t frames);
 
 // Mean over all directions, W/m²: straight from the lights that bounce, and of one bounce. `unshadowed`:
 // bounced light passes through surfaces.

@@ -31,7 +31,7 @@ void Stage::tick(const Input& input) {
     if (++ticks % perFrame) return;
     game.frame(size);
     renderer.render(game.scene(), size, settings, options,
-                    [](GraphScope scope, const gi::SceneView&, const gi::GiFrame& frame) {
+                    [](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
                         scope.output(frame.outputs.display);
                     });
     game.takeReadings(renderer.probeReadings());
@@ -41,8 +41,8 @@ Flower Stage::flower(size_t index) {
     return *game.world().get<Flower>(flowers.at(index));
 }
 
-gi::ProbeLight Stage::lightAt(size_t index) {
-    return *game.world().get<gi::ProbeLight>(flowers.at(index));
+render::ProbeLight Stage::lightAt(size_t index) {
+    return *game.world().get<render::ProbeLight>(flowers.at(index));
 }
 
 glm::dvec3 Stage::flowerAt(size_t index) {

@@ -2,10 +2,10 @@
 // tests.
 #pragma once
 
+#include "engine/renderer/probe_components.h"
+#include "engine/renderer/renderer.h"
 #include "game/game.h"
 #include "game/quality.h"
-#include "gi/gi_components.h"
-#include "gi/gi_renderer.h"
 
 namespace ag::game {
 
@@ -14,13 +14,13 @@ struct Stage {
 
     void tick(const Input& input);
     Flower flower(size_t index);  // in the order of the level
-    gi::ProbeLight lightAt(size_t index);
+    render::ProbeLight lightAt(size_t index);
     glm::dvec3 flowerAt(size_t index);  // m, of its head
 
     Game game;
-    gi::GiSettings settings;
+    render::RenderSettings settings;
     FrameGraphOptions options;
-    gi::GiRenderer renderer;
+    render::Renderer renderer;
     glm::uvec2 size;
     uint32_t perFrame;
     uint64_t ticks = 0;

@@ -1,0 +1,42 @@
+#include "engine/renderer/composite.h"
+
+#include <cmath>
+
+namespace ag::render {
+
+RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const gi::Irradiance& direct,
+                           const gi::BounceLight& bounce, const CompositeSettings& settings) {
+    const gi::Surfaces& surfaces = gbuffer.surfaces;
+    RenderOutputs out;
+    out.radiance =
+        scope.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = surfaces.size});
+    out.display =
+        scope.image("composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = surfaces.size});
+
+    // A term that is not there is compiled out; its binding takes any image of the same class.
+    const auto orAlbedo = [&](ImageHandle image) { return image ? image : surfaces.albedo; };
+    scope.fullscreen("composite.combine", "composite/combine.frag")
+        .sample("albedoMap", surfaces.albedo)
+        .sample("directMap", orAlbedo(direct.image))
+        .sample("indirectMap", orAlbedo(bounce.irradiance.image))
+        .sample("emissiveMap", orAlbedo(gbuffer.emissive))
+        .sample("coatMap", orAlbedo(bounce.gloss))
+        .sample("depthMap", surfaces.depth)
+        .spec(0, bool(direct.image))
+        .spec(1, bool(bounce.irradiance.image))
+        .spec(2, bool(gbuffer.emissive))
+        .spec(3, bool(bounce.gloss))
+        .colorClear(out.radiance, glm::vec4(0));
+
+    struct Push {
+        float exposure;
+        uint32_t mode;
+    };
+    scope.fullscreen("composite.tonemap", "composite/tonemap.frag")
+        .sample("radianceMap", out.radiance)
+        .push(Push{std::exp2(settings.exposure), uint32_t(settings.tonemap)})
+        .colorClear(out.display, glm::vec4(0));
+    return out;
+}
+
+}  // namespace ag::render

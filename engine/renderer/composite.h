@@ -1,0 +1,26 @@
+// The last steps: outgoing radiance of what the camera sees, and its display image.
+#pragma once
+
+#include "engine/renderer/gbuffer.h"
+#include "gi/bounce_light.h"
+
+namespace ag::render {
+
+enum class Tonemap : uint32_t { kNone, kReinhard, kAces };
+
+struct CompositeSettings {
+    float exposure = 0;  // stops
+    Tonemap tonemap = Tonemap::kAces;
+
+    bool operator==(const CompositeSettings&) const = default;
+};
+
+struct RenderOutputs {
+    ImageHandle radiance;  // rgba16f, W/(m² sr); alpha 0 where no surface is seen
+    ImageHandle display;   // rgba8, sRGB-encoded
+};
+
+RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const gi::Irradiance& direct,
+                           const gi::BounceLight& bounce, const CompositeSettings& settings);
+
+}  // namespace ag::render

@@ -1,0 +1,121 @@
+#include "engine/renderer/indirect_light.h"
+
+#include "engine/renderer/rsm_draws.h"
+#include "engine/renderer/ssvp_draws.h"
+#include "gi/published/published.h"
+
+namespace ag::render {
+namespace {
+
+gi::RsmLight rsmLightOf(const RenderLight& light) {
+    return {.kind = light.kind,
+            .position = light.position,
+            .direction = light.direction,
+            .intensity = light.intensity,
+            .range = light.range,
+            .innerConeAngle = light.innerConeAngle,
+            .outerConeAngle = light.outerConeAngle,
+            .resolution = light.rsmResolution,
+            .budgetShare = light.budgetShare,
+            .id = light.id};
+}
+
+gi::MovedThing ballRound(uint32_t row, const Bounds& b) {
+    return {row, 0.5f * (b.min + b.max), 0.5f * glm::length(b.max - b.min)};
+}
+
+void listMoved(const SceneView& scene, std::vector<gi::MovedThing>& moved) {
+    moved.clear();
+    uint32_t count = 0;
+    for (const RenderScene::Range& range : scene.moved)
+        count += range.end - range.begin;
+    if (count > gi::kMostMovedThings) return;
+    for (const RenderScene::Range& range : scene.moved)
+        for (uint32_t row = range.begin; row < range.end; ++row)
+            moved.push_back(ballRound(row, scene.draws->boundsOf(row)));
+}
+
+gi::Occluders occludersOf(const SceneView& scene) {
+    return {.instances = scene.instances,
+            .samples = scene.surfaceSamples,
+            .pointAreas = scene.pointAreas,
+            .sampleCount = scene.surfaceSampleCount,
+            .stillSampleCount = scene.stillSampleCount,
+            .bouncePoints = scene.bouncePoints,
+            .bouncePointCount = scene.bouncePointCount,
+            .deformedPositions = scene.skin.deformedPositions,
+            .deformedAttributes = scene.skin.deformedAttributes,
+            .stillVersion = scene.stillVersion,
+            .extent = scene.extent};
+}
+
+gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::BounceLightInputs& in,
+                          const RenderSettings& s, gi::BounceLightHistory& h) {
+    switch (s.technique) {
+        case Technique::kNone:
+            h.probes.clear();
+            return {};
+        case Technique::kAreaLights:
+            return gi::addBounceLight(scope, in, s.bounce, h);
+        case Technique::kStochastic:
+            return gi::addStochasticLight(scope, in, s.bounce, h);
+        case Technique::kRsmBrute:
+            return gi::addRsmBrute(scope, in, s.bounce, h);
+        case Technique::kRsm400:
+            return gi::addRsm400(scope, in, s.bounce, h);
+        case Technique::kIrsm:
+            return gi::addIrsm(scope, in, s.bounce, h);
+        case Technique::kIsm:
+            return gi::addIsm(scope, in, s.bounce, h);
+        case Technique::kRsmc:
+            return gi::addRsmc(scope, in, s.bounce, h);
+        case Technique::kAcrsm:
+            return gi::addAcrsm(scope, in, s.bounce, h);
+        case Technique::kSsvp:
+            break;
+    }
+    const auto draw = [&](GraphScope at, const gi::Paraboloids& maps) { drawParaboloids(at, scene, maps); };
+    return gi::addSsvpLight(scope, in, s.bounce, s.ssvp, draw, h);
+}
+
+}  // namespace
+
+bool needsMotion(const RenderSettings& s) {
+    return s.technique != Technique::kNone && s.bounce.denoiser.enabled && s.bounce.denoiser.motion;
+}
+
+gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,
+                  std::vector<gi::MovedThing>& moved) {
+    const RenderScene& s = *scene.scene;
+    lights.clear();
+    for (const RenderLight& light : s.lights)
+        if (light.bounces) lights.push_back(rsmLightOf(light));
+    listMoved(scene, moved);
+    const bool empty = s.instances.empty();
+    return {.lights = lights,
+            .bounds = empty ? Bounds{} : s.bounds,
+            .versions = {.scene = scene.loadedVersion,
+                         .instances = s.instancesVersion,
+                         .lights = s.lightsVersion,
+                         .camera = s.cameraVersion,
+                         .origin = s.originVersion},
+            .moved = moved,
+            .extent = scene.extent};
+}
+
+gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces,
+                                 const RenderSettings& s, RenderHistory& h) {
+    if (std::exchange(h.technique, s.technique) != s.technique) h.bounce.refresh = {};
+    const auto draw = [&](GraphScope at, gi::RsmSet& rsm) { drawRsm(at, scene, rsm); };
+    const gi::BounceLightInputs in{.surfaces = surfaces,
+                                   .world = worldOf(scene, h.lights, h.moved),
+                                   .occluders = occludersOf(scene),
+                                   .drawRsm = draw,
+                                   .probes = scene.scene->probes,
+                                   .lightUnit = scene.units.light};
+    gi::BounceLight light = addRecipe(scope, scene, in, s, h.bounce);
+    if (!light.viewPoints) light.viewPoints = gi::addViewPoints(scope, surfaces);
+    return light;
+}
+
+}  // namespace ag::render

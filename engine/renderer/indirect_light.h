@@ -1,0 +1,18 @@
+// The scene handed over to gi/, and the choice among its recipes.
+#pragma once
+
+#include "engine/renderer/render_frame.h"
+
+namespace ag::render {
+
+// Whether histories of indirect light follow what moves.
+bool needsMotion(const RenderSettings& settings);
+
+gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces,
+                                 const RenderSettings& settings, RenderHistory& history);
+
+// What gi/ knows of the scene; valid as long as the two lists are left alone.
+gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,
+                  std::vector<gi::MovedThing>& moved);
+
+}  // namespace ag::render

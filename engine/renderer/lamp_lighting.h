@@ -1,0 +1,29 @@
+// Irradiance straight from spots and points, however many: by tiles of the screen with lists of the lamps
+// that reach them, where a cluster's visibility is found once a pixel for all of its lamps (LightCluster).
+// Differences: no pixel meets lamps out of reach; instead of an image of each cluster's visibility two images
+// for all keep what arrives and what would without shadows, at a pixel of each 2 x 2; shadows come from the
+// centre instead of a disk (PCSS), and lamps far from it as seen from the receiver have less of them.
+#pragma once
+
+#include "engine/renderer/lamp_lists.h"
+#include "engine/renderer/lamp_shadows.h"
+#include "gi/val_shading.h"
+
+namespace ag::render {
+
+struct LampLightingSettings {
+    bool tiles = true;  // off: every pixel meets all lamps in view
+    bool quads = true;  // shadows at one pixel of each 2 x 2, the others take their neighbours' share
+    // A lamp has all of its cluster's shadow where it is so many times farther off than from the centre,
+    // nearer by in proportion less. 0: everywhere, as published.
+    float shadowReach = 4;
+
+    bool operator==(const LampLightingSettings&) const = default;
+};
+
+// Adds to `before`, or starts anew where that has no image.
+gi::Irradiance addLampLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
+                               const LampLists& lists, const LampShadows& shadows, gi::Irradiance before,
+                               const LampLightingSettings& settings);
+
+}  // namespace ag::render

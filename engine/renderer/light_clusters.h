@@ -1,0 +1,70 @@
+// Lamps that share a shadow map (LightCluster, Wiesenhütter, Klein, Nischwitz). Pure functions of lights and
+// camera. Two passes: centres among the lamps themselves by a minimum distance in proportion to the distance
+// to the camera, then each other lamp to the nearest centre.
+#pragma once
+
+#include <vector>
+
+#include "engine/renderer/lamp_relevance.h"
+#include "engine/scene/render_scene.h"
+
+namespace ag::render {
+
+constexpr uint32_t kMostLampClusters = 256;
+constexpr uint32_t kMostLamps = 16384;  // in view; of more the brightest as seen from the camera are taken
+
+struct LightClusterSettings {
+    float growth = 0.02f;     // m between centres for each m to the camera: the error seen stays the same
+    uint32_t most = 32;       // clusters; the distances are stretched until so many do
+    bool strongFirst = true;  // lamps that matter keep a map of their own longer; off: as published, in order
+    float hysteresis = 0.75f;  // a centre of the frame before needs this part of the distance; 1: none
+
+    // Farther from the nearest centre than this part of its range a lamp goes without shadow: the centre's
+    // says nothing of what is so near to the lamp. 0: no limit, as published.
+    float shareWithin = 0.5f;
+
+    bool operator==(const LightClusterSettings&) const = default;
+};
+
+struct LightCluster {
+    uint32_t center = 0;  // index into the scene's lights
+    float radius = 0;     // m: of its farthest lamp from the centre, the size of the light its shadows have
+    float reach = 0;      // m from the centre, that light of its lamps may go; 0: without limit
+    uint32_t lampCount = 0;
+};
+
+struct LightClusters {
+    std::vector<uint32_t> lamps;      // indices into the scene's lights: those that may light what is seen
+    std::vector<uint32_t> clusterOf;  // parallel to `lamps`; kNoCluster: casts no shadow
+    std::vector<LightCluster> clusters;
+    float stretch = 1;     // what the distances were multiplied by to keep to the budget
+    uint32_t leftOut = 0;  // lamps in view beyond kMostLamps
+    static constexpr uint32_t kNoCluster = ~0u;
+};
+
+// What outlives a frame; also scratch, so that a steady frame allocates nothing.
+struct LightClusterHistory {
+    std::vector<uint64_t> centers;  // ids of lights, sorted
+    std::vector<uint32_t> order;
+    std::vector<float> weights;    // how much each lamp matters, 1: as the mean
+    std::vector<float> distances;  // m that centres keep from each lamp
+    LightClusters clusters;
+    // What they were made for; while it is the same nothing is done.
+    std::vector<RenderLight> lights;
+    glm::mat4 clipFromWorld{0};
+    LightClusterSettings settings;
+    LampRelevance relevance;
+};
+
+// Whether a sphere reaches into a camera's view (its five planes; there is no far one).
+bool sphereInView(const glm::mat4& clipFromWorld, glm::vec3 center, float radius);
+
+// How many clusters may come to need a map: `most`, or the scene's casters, in powers of two, so that neither
+// walking about nor lamps that come and go change it often.
+uint32_t mostClustersNeeded(const RenderScene& scene, uint32_t most);
+
+// Spots and points with light whose range reaches into the view, clustered. The result lives in the history.
+const LightClusters& clusterLamps(const RenderScene& scene, const LampRelevance& relevance,
+                                  const LightClusterSettings& settings, LightClusterHistory& history);
+
+}  // namespace ag::render

@@ -1,0 +1,44 @@
+// What the renderer makes of a scene each frame: the camera's surfaces, direct and indirect light, the
+// picture.
+#pragma once
+
+#include "engine/renderer/composite.h"
+#include "engine/renderer/direct_lighting.h"
+#include "engine/renderer/gbuffer.h"
+#include "engine/renderer/lamp_lighting.h"
+#include "engine/renderer/render_settings.h"
+#include "gi/bounce_light.h"
+
+namespace ag::render {
+
+// State that outlives a frame; one per view of the scene.
+struct RenderHistory {
+    Technique technique = Technique::kNone;
+    gi::BounceLightHistory bounce;
+    SunShadowHistory sunShadows;
+    LightClusterHistory lightClusters;
+    LampShadowHistory lampShadows;
+    LampListsHistory lampLists;
+    LampRelevance lampRelevance;
+    // Scratch, so that a steady frame allocates nothing
+    std::vector<gi::RsmLight> lights;
+    std::vector<gi::MovedThing> moved;
+};
+
+// Everything the frame made: for composition, debug views, tests and captures.
+struct RenderFrame {
+    GBuffer gbuffer;
+    gi::BounceLight bounce;
+    ShadowMaps shadows;
+    LampShadows lampShadows;
+    LampLists lampLists;
+    gi::Irradiance direct;
+    RenderOutputs outputs;
+};
+
+// Declares the passes of one frame, in order. Nothing runs until the graph is executed, and then only what
+// the graph's outputs need.
+RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSettings& settings,
+                     RenderHistory& history);
+
+}  // namespace ag::render

@@ -1,0 +1,60 @@
+// Every tunable of the frame: a plain struct per technique, gathered here and registered once.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string_view>
+
+#include "engine/renderer/composite.h"
+#include "engine/renderer/lamp_lighting.h"
+#include "engine/renderer/shadow_maps.h"
+#include "gi/published/ssvp.h"
+#include "gi/settings.h"
+
+namespace ag {
+class Settings;
+}
+
+namespace ag::render {
+
+// How indirect light is made: ours, or a paper's (gi/published).
+enum class Technique : uint32_t {
+    kNone,        // no indirect light, and nothing that only it needs
+    kAreaLights,  // clusters of light-map texels as area lights: gi/bounce_light.cpp
+    kStochastic,  // samples of the light maps: gi/bounce_light.cpp
+    kRsmBrute,
+    kRsm400,
+    kIrsm,
+    kIsm,
+    kRsmc,
+    kAcrsm,
+    kSsvp,
+};
+
+struct RenderSettings {
+    Technique technique = Technique::kAreaLights;
+    gi::BounceLightSettings bounce;
+    gi::SsvpSettings ssvp;
+    ShadowMapSettings shadowMaps;
+    LightClusterSettings lightClusters;
+    LampShadowSettings lampShadows;
+    LampLightingSettings lampLighting;
+    CompositeSettings composite;
+
+    bool operator==(const RenderSettings&) const = default;
+};
+
+// Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
+// "rsm-400" (Dachsbacher & Stamminger 2005), "irsm" (few samples and a denoiser, as published), "stochastic"
+// (that, ours), "ism" (Ritschel et al. 2008), "ssvp" (two bounces, as published), "rsmc" (RSM clustering) and
+// "acrsm" (with adaption and shadows) as published, "afterglow" (the default), "afterglow-bounces" (with
+// every later bounce), and the default by budget: "low", "medium" (the same), "high", "ultra". For the direct
+// light of lamps, without bounces: "lights-reference" (a shadow map each), "lightcluster" as published,
+// "afterglow-lights" (the default's). False if there is no such preset.
+bool applyPreset(std::string_view name, RenderSettings& s);
+std::span<const std::string_view> presetNames();
+
+// Registers every group's settings. `s` must outlive `settings`.
+void registerSettings(Settings& settings, RenderSettings& s);
+
+}  // namespace ag::render

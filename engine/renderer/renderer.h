@@ -1,0 +1,96 @@
+// Runs frames on a device: owns the scene's device memory, the frame graph and the histories, keeps two
+// frames in flight. Windowed and headless programs and the tests all render through it.
+#pragma once
+
+#include <array>
+
+#include "engine/core/function_ref.h"
+#include "engine/core/image.h"
+#include "engine/gpu/device.h"
+#include "engine/renderer/debug_view.h"
+
+namespace ag::render {
+
+// Swapchain semaphores of a frame that is shown; both null when headless.
+struct FrameSemaphores {
+    VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
+};
+
+// When the CPU did what for a frame, on std::chrono::steady_clock, ns.
+struct FrameMoments {
+    uint64_t begin = 0;      // then it waits for the device to be done with the frame before last
+    uint64_t waited = 0;     // then it declares the passes
+    uint64_t declared = 0;   // then it plans and records them
+    uint64_t recorded = 0;   // then it submits them
+    uint64_t submitted = 0;  // (a software device may have run some of them by now)
+};
+
+class Renderer {
+  public:
+    // `threads` 1: views are culled in order on the caller, and render() waits for the device; 0: as many as
+    // the machine has, while the device works on the frame before.
+    explicit Renderer(gpu::Device& device, uint32_t threads = 0);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Blocking: a scene just loaded; histories start anew.
+    void load(const GeometryArrays& geometry);
+
+    // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs;
+    // `present` records after it, with the command buffer of the frame.
+    using Finish = FunctionRef<void(GraphScope, const SceneView&, const RenderFrame&)>;
+    using Present = FunctionRef<void(VkCommandBuffer)>;
+    struct PresentNothing {
+        void operator()(VkCommandBuffer) const {}
+    };
+    static constexpr PresentNothing kPresentNothing{};
+    void render(const RenderScene& scene, glm::uvec2 size, const RenderSettings& settings,
+                const FrameGraphOptions& options, Finish finish, Present present = kPresentNothing,
+                FrameSemaphores semaphores = {});
+    void waitIdle() { device_.waitIdle(); }
+
+    // Of the scene's probes, kFramesInFlight frames ago.
+    const gi::ProbeReadings& probeReadings() const { return history_.bounce.probes; }
+    FrameGraph& graph() { return graph_; }
+    SceneGpu& scene() { return scene_; }
+    gpu::Device& device() { return device_; }
+    gpu::PipelineLibrary& pipelines() { return pipelines_; }
+    // Of everything in the frame; the layers of debug_view and the probes' readings are in metres and watts.
+    RenderUnits units() const { return units_; }
+    // Of the times that the graph reports now: what may be late was (see refresh.h).
+    bool timesArePartial() const { return history_.bounce.refresh.sincePatient <= kFramesInFlight; }
+    const FrameMoments& moments() const { return moments_; }  // of the frame last rendered
+    uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
+
+  private:
+    void startAnew();
+    const RenderScene& inOwnUnits(const RenderScene& scene);
+    struct Slot {
+        VkCommandPool pool = VK_NULL_HANDLE;
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        uint64_t submitted = 0;
+    };
+    gpu::Device& device_;
+    JobRunner jobs_;
+    gpu::PipelineLibrary pipelines_;
+    SceneGpu scene_;
+    FrameGraph graph_;
+    RenderHistory history_;
+    RenderUnits units_;
+    float extent_ = 0;  // in those units
+    uint64_t unitsGeneration_ = 0;
+    RenderScene converted_;  // while the units are not metres and watts
+    std::array<Slot, kFramesInFlight> slots_;
+    uint64_t frame_ = 0;
+    FrameMoments moments_;
+};
+
+// Renders `frames` frames of a still scene and reads back a layer (black where the frame has none).
+Image renderLayer(Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
+                  const RenderSettings& settings, Layer layer, uint32_t frames,
+                  const FrameGraphOptions& options = {});
+// An image the graph left as its output, as floats; rgba8, rgba16f, rgba32f and r32f.
+Image readImage(Renderer& renderer, ImageHandle image);
+
+}  // namespace ag::render

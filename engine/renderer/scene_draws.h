@@ -1,0 +1,28 @@
+// From culled draw lists to the draws of a raster pass.
+#pragma once
+
+#include "engine/renderer/scene_gpu.h"
+
+namespace ag::render {
+
+// kShapes: all too, but without their materials, as kOpaqueOnly.
+enum class DrawFilter { kAll, kShapes, kOpaqueOnly, kMaskedOnly };
+
+// Normal maps bend what the camera sees, and it does not see single-sided surfaces from behind (glTF). Light
+// meets the surface itself and does not pass it either way.
+enum class Viewer { kCamera, kLight };
+
+// One RasterDraw per non-empty bucket: the variant's constants (ids 0 texture class, 1 alpha mask, 2 normal
+// map), the view's matrix as push constant, its viewport.
+void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
+              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
+              DrawLayer layer = DrawLayer::kAll);
+// The same with other push constants, for views that are no matrix.
+void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
+              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
+              DrawLayer layer = DrawLayer::kAll);
+bool hasMasked(const SceneView& scene);  // any alpha-masked surface
+// The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
+void bindMaterials(PassBuilder& pass, const SceneView& scene);
+
+}  // namespace ag::render

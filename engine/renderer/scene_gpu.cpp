@@ -1,0 +1,346 @@
+#include "engine/renderer/scene_gpu.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/core/hash.h"
+#include "engine/gpu/transfer.h"
+#include "engine/renderer/light_clusters.h"
+#include "engine/renderer/scene_surfaces.h"
+#include "gi/surfaces.h"
+#include "shaders/shadow_maps/shadow_maps_io.h"
+
+namespace ag::render {
+namespace {
+
+constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr uint32_t kSurfaceSamples = 1u << 17;  // over the whole scene
+constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounces on
+
+io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
+    const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
+    return {
+        .worldFromLocal0 = rows[0],
+        .worldFromLocal1 = rows[1],
+        .worldFromLocal2 = rows[2],
+        .ids = {geometry.primitives[instance.primitive].material, instance.primitive, instance.figure, 0}};
+}
+
+io::Material materialRow(const Material& m, RenderUnits units) {
+    return {.baseColor = m.baseColor,
+            .emissive = m.emissive / units.light,
+            .alphaCutoff = m.alphaMode == AlphaMode::kMask ? m.alphaCutoff : 0.0f,
+            .metallic = m.metallic,
+            .roughness = m.roughness,
+            .specular = m.specular,
+            .normalScale = m.normalScale,
+            .layers = {m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer},
+            .uvRow0 = {m.uvTransform[0][0], m.uvTransform[1][0], m.uvTransform[2][0],
+                       m.doubleSided ? 1.0f : 0.0f},
+            .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], 0.0f}};
+}
+
+// A class without textures still needs something bound: one black texel.
+std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, VkFormat format, uint32_t size,
+                                       const std::vector<std::vector<uint8_t>>& layers) {
+    const uint32_t side = layers.empty() ? 1 : size;
+    uint32_t mips = 1;
+    while ((side >> mips) > 0)
+        ++mips;
+    auto image = std::make_unique<gpu::Image>(
+        device, gpu::ImageDesc{.name = name,
+                               .format = format,
+                               .size = {side, side},
+                               .layers = std::max<uint32_t>(uint32_t(layers.size()), 1),
+                               .mips = mips,
+                               .array = true});
+    const std::array<std::byte, 4> black{};
+    if (layers.empty()) gpu::uploadImage(device, *image, 0, black, false);
+    for (uint32_t layer = 0; layer < layers.size(); ++layer)
+        gpu::uploadImage(device, *image, layer, std::as_bytes(std::span(layers[layer])), true);
+    return image;
+}
+
+// Which instances there are, wherever they stand.
+uint64_t instanceSet(const RenderScene& scene) {
+    uint64_t hash = scene.geometry->version;
+    for (const RenderInstance& instance : scene.instances)
+        hash = combineHash(combineHash(hash, instance.primitive * 2 + instance.movable), instance.figure);
+    for (const RenderFigure& figure : scene.figures)
+        hash = combineHash(combineHash(hash, figure.firstDeformed), figure.firstVertex);
+    return hash;
+}
+
+enum class Transfer { kBefore, kBetweenCopies, kAfter };
+
+void transferBarrier(const gpu::Functions& vk, VkCommandBuffer commands, Transfer when) {
+    VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    const bool before = when == Transfer::kBefore, after = when == Transfer::kAfter;
+    barrier.srcStageMask = before ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_2_COPY_BIT;
+    barrier.srcAccessMask = before ? VK_ACCESS_2_NONE : VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.dstStageMask = after ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_2_COPY_BIT;
+    barrier.dstAccessMask = after ? VK_ACCESS_2_MEMORY_READ_BIT : VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
+    vk.CmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace
+
+SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device) {}
+SceneGpu::~SceneGpu() {
+    device_.waitIdle();
+}
+
+void SceneGpu::load(const GeometryArrays& geometry) {
+    device_.waitIdle();
+    positions_ =
+        gpu::loadBuffer(device_, {.name = "scene.positions", .vertexOrIndex = true}, geometry.positions);
+    attributes_ =
+        gpu::loadBuffer(device_, {.name = "scene.attributes", .vertexOrIndex = true}, geometry.attributes);
+    indices_ = gpu::loadBuffer(device_, {.name = "scene.indices", .vertexOrIndex = true}, geometry.indices);
+    skin_.load(geometry);
+    ++loads_;
+    loadTextures(geometry);
+    useUnits(geometry, {});
+    geometryVersion_ = geometry.version;
+}
+
+void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
+    loadMaterials(geometry, units);
+    instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
+}
+
+void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) {
+    std::vector<io::Material> rows;
+    strongestEmission_ = 0;
+    hasGlossy_ = hasNormalMaps_ = false;
+    for (const Material& m : geometry.materials) {
+        rows.push_back(materialRow(m, units));
+        strongestEmission_ = std::max({strongestEmission_, m.emissive.x, m.emissive.y, m.emissive.z});
+        hasGlossy_ = hasGlossy_ || m.metallic > 0 || m.specular > 0;
+        hasNormalMaps_ = hasNormalMaps_ || m.normalLayer >= 0;
+    }
+    materials_ = gpu::loadBuffer(device_, {.name = "scene.materials", .texelFormat = kVec4Texels}, rows);
+    materialsVersion_ = combineHash(geometry.version, hashValue(units.light));
+}
+
+void SceneGpu::loadTextures(const GeometryArrays& geometry) {
+    for (uint32_t c = 1; c < kTextureClassCount; ++c) {
+        const uint32_t size = textureClassSize(TextureClass(c));
+        srgb_[c - 1] =
+            loadLayers(device_, "scene.srgb", VK_FORMAT_R8G8B8A8_SRGB, size, geometry.textures[c].srgb);
+        linear_[c - 1] =
+            loadLayers(device_, "scene.linear", VK_FORMAT_R8G8B8A8_UNORM, size, geometry.textures[c].linear);
+    }
+}
+
+std::unique_ptr<gpu::Buffer> SceneGpu::grown(std::unique_ptr<gpu::Buffer> old, const char* name,
+                                             uint64_t bytes, VkFormat texel, bool indirect) {
+    if (old && old->sizeBytes() >= bytes) return old;
+    gpu::retire(device_, std::move(old));
+    return std::make_unique<gpu::Buffer>(
+        device_,
+        gpu::BufferDesc{
+            .name = name, .sizeBytes = bytes + bytes / 2, .indirect = indirect, .texelFormat = texel});
+}
+
+void SceneGpu::reserveBuffers(const RenderScene& scene) {
+    const uint64_t rowBytes = std::max<uint64_t>(scene.instances.size(), 1) * sizeof(io::Instance);
+    const gpu::Buffer* before = instances_.get();
+    instances_ = grown(std::move(instances_), "scene.instances", rowBytes, kVec4Texels, false);
+    if (instances_.get() != before) instancesVersion_ = 0;
+    previousInstances_ =
+        grown(std::move(previousInstances_), "scene.previous_instances", rowBytes, kVec4Texels, false);
+    const uint64_t commandBytes =
+        std::max<uint64_t>(uint64_t(viewSlots(scene).count) * std::max<uint64_t>(scene.instances.size(), 1) *
+                               sizeof(VkDrawIndexedIndirectCommand),
+                           64);
+    const gpu::Buffer* commandsBefore = commands_.get();
+    commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
+    if (commands_.get() != commandsBefore) draws_.markAllDirty();
+}
+
+// Points stay on their instances while these move; they are chosen anew when instances come or go.
+void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
+    const bool mayDiffer = scene.allInstancesChanged || sampledVersion_ == 0;
+    if (sampledVersion_ == scene.instancesVersion || !mayDiffer) return;
+    sampledVersion_ = scene.instancesVersion;
+    const uint64_t set = instanceSet(scene);
+    if (set == sampledSet_) return;
+    sampledSet_ = set;
+    const gi::SurfaceSamples chosen = sampleSurfaces(scene, kSurfaceSamples);
+    sampleCount_ = uint32_t(chosen.samples.size());
+    stillSampleCount_ = chosen.stillCount;
+    for (auto* old : {&samples_, &pointAreas_, &bouncePoints_})
+        gpu::retire(device_, std::move(*old));
+    bouncePointCount_ = 0;
+    if (sampleCount_ == 0) return;
+    samples_ = gpu::loadBuffer(device_, {.name = "scene.surface_samples", .texelFormat = kVec4Texels},
+                               chosen.samples);
+    pointAreas_ = gpu::loadBuffer(device_, {.name = "scene.point_areas", .texelFormat = VK_FORMAT_R32_SFLOAT},
+                                  chosen.pointAreas);
+    const auto points = chooseBouncePoints(scene, chosen, kBouncePoints);
+    bouncePointCount_ = uint32_t(points.size());
+    bouncePoints_ = gpu::loadBuffer(device_, {.name = "scene.bounce_points"}, points);
+}
+
+void SceneGpu::noteMovements(const RenderScene& scene) {
+    if (notedVersion_ == scene.instancesVersion) return;
+    bool moved = scene.allInstancesChanged || notedVersion_ + 1 != scene.instancesVersion;
+    for (const RenderScene::Range& range : scene.changedInstances)
+        for (uint32_t i = range.begin; i < range.end && !moved; ++i)
+            moved = !scene.instances[i].movable;
+    if (moved) ++stillVersion_;
+    notedVersion_ = scene.instancesVersion;
+}
+
+ViewSlots viewSlots(const RenderScene& scene) {
+    uint32_t lightMaps = 0, cascades = 0;
+    for (const RenderLight& light : scene.lights) {
+        if (light.bounces) lightMaps += light.kind == LightKind::kPoint ? 6 : 1;
+        if (light.kind == LightKind::kDirectional) cascades += io::kMaxCascades;
+    }
+    ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .firstLightMap = 3};
+    s.firstCascade = s.firstLightMap + lightMaps;
+    s.firstLamp = s.firstCascade + cascades;
+    s.count = s.firstLamp + 6 * mostClustersNeeded(scene, kMostLampClusters);
+    return s;
+}
+
+SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size) {
+    AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
+                 "load() the scene's geometry first");
+    reserveBuffers(scene);
+    sampleSurfacesAnew(scene);
+    noteMovements(scene);
+    SceneView view{.scene = &scene,
+                   .draws = &draws_,
+                   .slots = viewSlots(scene),
+                   .size = size,
+                   .hasEmissive = strongestEmission_ > 0,
+                   .hasGlossy = hasGlossy_,
+                   .hasNormalMaps = hasNormalMaps_};
+    view.skin = skin_.import(scope, scene, *positions_, *attributes_);
+    view.loadedVersion = combineHash(geometryVersion_, loads_);
+    view.geometry = {positions_.get(), attributes_.get(),           indices_.get(),
+                     geometryVersion_, view.skin.deformedPositions, view.skin.deformedAttributes};
+    // Constant versions: what a view draws of them is in its draws' versions.
+    view.instances = scope.importBuffer("scene.instances", *instances_, 1);
+    view.previousInstances = scope.importBuffer("scene.previous_instances", *previousInstances_, 1);
+    const bool follows = !scene.allInstancesChanged && instancesVersion_ != 0 &&
+                         instancesVersion_ + 1 == scene.instancesVersion;
+    if (follows) view.moved = scene.changedInstances;
+    view.commands = scope.importBuffer("scene.commands", *commands_, 1);
+    view.materials = scope.importBuffer("scene.materials", *materials_, materialsVersion_);
+    static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024",
+                                              "scene.srgb2048"};
+    static constexpr std::array kLinearNames = {"scene.linear256", "scene.linear512", "scene.linear1024",
+                                                "scene.linear2048"};
+    for (size_t c = 0; c < 4; ++c) {
+        view.srgbTextures[c] = scope.importImage(kSrgbNames[c], *srgb_[c], geometryVersion_);
+        view.linearTextures[c] = scope.importImage(kLinearNames[c], *linear_[c], geometryVersion_);
+    }
+    if (sampleCount_ > 0) {
+        view.pointAreas = scope.importBuffer("scene.point_areas", *pointAreas_, sampledSet_);
+        view.surfaceSamples = scope.importBuffer("scene.surface_samples", *samples_, sampledSet_);
+        view.surfaceSampleCount = sampleCount_;
+        view.bouncePoints = scope.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
+        view.bouncePointCount = bouncePointCount_;
+        view.stillSampleCount = stillSampleCount_;
+        view.stillVersion = combineHash(combineHash(sampledSet_, stillVersion_), scene.originVersion);
+    }
+    view.camera = gi::addCamera(scope, "scene.camera", scene.camera, size);
+    return view;
+}
+
+void SceneGpu::stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
+                     const gpu::Buffer& to, uint64_t offset) {
+    if (bytes.empty()) return;
+    Staging& staging = staging_[frameSlot];
+    if (!staging.buffer || staging.used + bytes.size() > staging.buffer->sizeBytes()) {
+        gpu::retire(device_, std::move(staging.buffer));
+        const uint64_t size = std::max<uint64_t>(uint64_t(1) << 20, bytes.size() * 2);
+        staging.buffer = std::make_unique<gpu::Buffer>(
+            device_, gpu::BufferDesc{.name = "scene.staging", .sizeBytes = size, .hostVisible = true});
+        staging.used = 0;
+    }
+    std::memcpy(staging.buffer->mapped() + staging.used, bytes.data(), bytes.size());
+    if (uploadedBytes_ == 0) transferBarrier(device_.vk(), commands, Transfer::kBefore);
+    const VkBufferCopy region{.srcOffset = staging.used, .dstOffset = offset, .size = bytes.size()};
+    device_.vk().CmdCopyBuffer(commands, staging.buffer->handle(), to.handle(), 1, &region);
+    staging.used += bytes.size();
+    uploadedBytes_ += bytes.size();
+}
+
+// On the device, before new rows take their place.
+void SceneGpu::keepPrevious(VkCommandBuffer commands, const SceneView& view) {
+    std::vector<VkBufferCopy> regions;
+    for (const RenderScene::Range& range : view.moved) {
+        const uint64_t offset = range.begin * sizeof(io::Instance);
+        regions.push_back({offset, offset, (range.end - range.begin) * sizeof(io::Instance)});
+        uploadedBytes_ += regions.back().size;
+    }
+    if (regions.empty()) return;
+    transferBarrier(device_.vk(), commands, Transfer::kBefore);
+    device_.vk().CmdCopyBuffer(commands, instances_->handle(), previousInstances_->handle(),
+                               uint32_t(regions.size()), regions.data());
+    if (view.skin) {
+        const std::vector<VkBufferCopy> joints = skin_.copiesToPrevious(*view.scene, view.moved);
+        if (!joints.empty())
+            device_.vk().CmdCopyBuffer(commands, skin_.joints().handle(), skin_.previousJoints().handle(),
+                                       uint32_t(joints.size()), joints.data());
+    }
+    transferBarrier(device_.vk(), commands, Transfer::kBetweenCopies);
+}
+
+void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot) {
+    if (instancesVersion_ == scene.instancesVersion) return;
+    const bool all = scene.allInstancesChanged || instancesVersion_ + 1 != scene.instancesVersion;
+    const auto send = [&](uint32_t begin, uint32_t end) {
+        rows_.clear();
+        for (uint32_t i = begin; i < end; ++i)
+            rows_.push_back(instanceRow(scene.instances[i], *scene.geometry));
+        stage(commands, frameSlot, std::as_bytes(std::span(rows_)), *instances_,
+              begin * sizeof(io::Instance));
+    };
+    if (all)
+        send(0, uint32_t(scene.instances.size()));
+    else
+        for (const RenderScene::Range& range : scene.changedInstances)
+            send(range.begin, range.end);
+    instancesVersion_ = scene.instancesVersion;
+}
+
+void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, Previous previous,
+                      uint32_t frameSlot) {
+    const RenderScene& scene = *view.scene;
+    uploadedBytes_ = 0;
+    staging_[frameSlot].used = 0;
+    if (previous == Previous::kKept) keepPrevious(commands, view);
+    uploadInstances(commands, scene, frameSlot);
+    if (view.skin)
+        skin_.upload(scene, [&](std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {
+            stage(commands, frameSlot, bytes, to, offset);
+        });
+    const uint64_t stride = draws_.commandsPerView() * sizeof(VkDrawIndexedIndirectCommand);
+    AG_CHECK_MSG(draws_.viewCount() * stride <= commands_->sizeBytes(), "a view was added after import()");
+    for (uint32_t slot = 0; slot < draws_.viewCount(); ++slot)
+        if (draws_.takeDirty(slot))
+            stage(commands, frameSlot,
+                  std::as_bytes(
+                      draws_.commands().subspan(slot * draws_.commandsPerView(), draws_.commandsPerView())),
+                  *commands_, slot * stride);
+    if (uploadedBytes_ > 0) transferBarrier(device_.vk(), commands, Transfer::kAfter);
+}
+
+uint64_t SceneGpu::deviceBytes() const {
+    uint64_t bytes = 0;
+    for (const auto* buffer :
+         {positions_.get(), attributes_.get(), indices_.get(), materials_.get(), instances_.get(),
+          previousInstances_.get(), commands_.get(), samples_.get(), pointAreas_.get(), bouncePoints_.get()})
+        if (buffer) bytes += buffer->sizeBytes();
+    return bytes + skin_.deviceBytes();
+}
+
+}  // namespace ag::render

@@ -1,0 +1,126 @@
+// The scene in device memory: geometry and textures uploaded once, transforms streamed as changed ranges,
+// lights and draw commands when they change. What the passes see of it is SceneView: typed handles of one
+// frame.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "engine/frame/frame_graph.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/resources.h"
+#include "engine/renderer/draw_lists.h"
+#include "engine/renderer/render_units.h"
+#include "engine/renderer/skinning.h"
+#include "engine/scene/render_scene.h"
+#include "shaders/scene/scene_io.h"
+
+namespace ag::render {
+
+// Of DrawLists, by what is drawn into them: the same from frame to frame as long as lights are, so that what
+// is culled for them lasts.
+struct ViewSlots {
+    uint32_t camera = 0, moved = 0, everything = 0;
+    uint32_t firstLightMap = 0, firstCascade = 0, firstLamp = 0;  // a row each
+    uint32_t count = 0;
+};
+// For each light at most a cube of light maps and one of shadow views.
+ViewSlots viewSlots(const RenderScene& scene);
+
+// Handles of this frame's scene, and what the techniques need to declare draws.
+struct SceneView {
+    const RenderScene* scene = nullptr;
+    DrawLists* draws = nullptr;
+    ViewSlots slots;
+    Geometry geometry;
+    uint64_t loadedVersion = 0;  // of the geometry loaded, unlike any before
+    SkinView skin;
+    BufferHandle instances;          // io::Instance rows; versions are the draws' (see DrawLists)
+    BufferHandle previousInstances;  // the rows of `moved` as they were in the frame before
+    std::span<const RenderScene::Range>
+        moved;  // rows that stood elsewhere then; others are new or did not move
+    BufferHandle materials;
+    BufferHandle camera;                                      // io::CameraConstants
+    BufferHandle commands;                                    // indirect draws of all views
+    std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
+    glm::uvec2 size{0};                                       // pixels of the camera's image
+    RenderUnits units;                                        // of everything above
+    float extent = 0;                                         // see steadyExtent()
+    bool hasEmissive = false;
+    bool hasGlossy = false;  // a material that is not Lambert
+    bool hasNormalMaps = false;
+    BufferHandle surfaceSamples;  // io::SurfaceSample; also a texel buffer of vec4
+    BufferHandle pointAreas;      // m² that a sample of each instance stands for: a texel buffer of float
+    uint32_t surfaceSampleCount = 0;  // 0: no surface
+    uint32_t stillSampleCount = 0;    // the first ones are on what stands still
+    BufferHandle bouncePoints;        // io::BouncePoint: some of the samples
+    uint32_t bouncePointCount = 0;    // a square of a power of two, or 0
+    uint64_t stillVersion = 0;        // changes when an instance that is not movable may have moved
+};
+
+class SceneGpu {
+  public:
+    explicit SceneGpu(gpu::Device& device);
+    ~SceneGpu();
+    SceneGpu(const SceneGpu&) = delete;
+    SceneGpu& operator=(const SceneGpu&) = delete;
+
+    // Blocking: geometry, materials and textures of a scene just loaded.
+    void load(const GeometryArrays& geometry);
+    // Of the scene loaded: what follows comes in other units. Nothing may be under way.
+    void useUnits(const GeometryArrays& geometry, RenderUnits units);
+    float strongestEmission() const { return strongestEmission_; }  // of its materials, W/(m² sr)
+
+    // Once a frame before the passes are declared: bounds, buckets.
+    void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
+    SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size);
+    // After the passes are declared (all views culled), before they are recorded: copies what changed.
+    // `previous`: whether a pass reads where things were in the frame before.
+    enum class Previous : uint8_t { kUnread, kKept };
+    void upload(VkCommandBuffer commands, const SceneView& view, Previous previous, uint32_t frameSlot);
+
+    DrawLists& draws() { return draws_; }
+    uint64_t uploadedBytes() const { return uploadedBytes_; }  // in the last frame
+    uint64_t deviceBytes() const;
+
+  private:
+    struct Staging {
+        std::unique_ptr<gpu::Buffer> buffer;
+        uint64_t used = 0;
+    };
+    void loadMaterials(const GeometryArrays& geometry, RenderUnits units);
+    void loadTextures(const GeometryArrays& geometry);
+    void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
+               const gpu::Buffer& to, uint64_t offset);
+    void keepPrevious(VkCommandBuffer commands, const SceneView& view);
+    void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
+    void reserveBuffers(const RenderScene& scene);
+    void sampleSurfacesAnew(const RenderScene& scene);
+    void noteMovements(const RenderScene& scene);
+    std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
+                                       VkFormat texel, bool indirect);
+
+    gpu::Device& device_;
+    DrawLists draws_;
+    SkinGpu skin_;
+    uint64_t geometryVersion_ = 0, loads_ = 0;
+    float strongestEmission_ = 0;
+    uint64_t materialsVersion_ = 0;
+    bool hasGlossy_ = false, hasNormalMaps_ = false;
+    std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
+        previousInstances_, commands_;
+    std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
+    std::unique_ptr<gpu::Buffer> samples_, pointAreas_, bouncePoints_;
+    uint32_t bouncePointCount_ = 0;
+    uint32_t sampleCount_ = 0;
+    uint32_t stillSampleCount_ = 0;
+    uint64_t stillVersion_ = 0, notedVersion_ = 0;  // notedVersion_: of the instances it is about
+    uint64_t sampledVersion_ = 0, sampledSet_ = 0;  // of the instances the samples are on
+    std::vector<io::Instance> rows_;                // scratch for the conversion
+    uint64_t instancesVersion_ = 0;                 // last uploaded
+    std::array<Staging, kFramesInFlight> staging_;
+    uint64_t uploadedBytes_ = 0;
+};
+
+}  // namespace ag::render

@@ -1,0 +1,14 @@
+// The renderer's scene as gi/ chooses points on it: triangles, where they stand, what they reflect.
+#pragma once
+
+#include "engine/scene/render_scene.h"
+#include "gi/bounce_points.h"
+
+namespace ag::render {
+
+// See gi/surface_sampling.h, gi/bounce_points.h. Alpha-blended surfaces have no points.
+gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
+std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
+                                                uint32_t count);
+
+}  // namespace ag::render

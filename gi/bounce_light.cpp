@@ -1,0 +1,70 @@
+// How indirect light is made, top to bottom. Each line takes handles and settings and returns handles; the
+// frame graph finds order, barriers and what can be skipped.
+#include "gi/bounce_light.h"
+
+#include <algorithm>
+
+#include "gi/bounce_steps.h"
+
+namespace ag::gi {
+
+BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+                           BounceLightHistory& h) {
+    BounceLight f;
+    // What may wait
+    const Refresh refresh = chooseRefresh(in.world, in.surfaces.view, in.surfaces.size, s, h.refresh);
+    const GraphScope lights = scope.held(!refresh.lights);
+
+    // Where light lands, as few area lights
+    f.viewPoints = addViewPoints(lights, in.surfaces);
+    f.laterLight = addLaterLight(lights, in.occluders, in.world.versions, s.laterBounces, h.laterBounces);
+    addAreaLights(lights, in, s, h, f);
+    f.firstCount = std::min(f.vals.count, f.rsm.firstLater());
+
+    // What each of them sees
+    addVisibility(scope, in, s.ismAtlas, f);
+
+    // Gather on screen, at some of the pixels
+    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
+    f.bounce1 = addValShading(scope, thin, firstVals(f.vals, f.firstCount), f.isms, s.valShading,
+                              kFirstBounceShading, refresh.pixels);
+    f.gloss = addValGloss(scope, in.surfaces, f.vals, f.isms, s.valShading, refresh.pixels);
+
+    // Light that goes on
+    f.irradiance = f.bounce1;
+    addLaterIrradiance(scope, f.laterLight, f.vals, f.firstCount, f.isms, s.laterBounces);
+    if (f.bounce1.image && f.vals.count > f.firstCount)
+        f.irradiance = addLaterShading(scope, thin, f.bounce1, f.vals, f.firstCount, f.isms, s.valShading,
+                                       s.laterBounces.spacing);
+
+    // To all pixels, and to the rules of a game
+    addToPixels(scope, in, thin, s, h, f);
+    addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
+    return f;
+}
+
+BounceLight addStochasticLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+                               BounceLightHistory& h) {
+    BounceLight f;
+    const Refresh refresh = chooseRefresh(in.world, in.surfaces.view, in.surfaces.size, s, h.refresh);
+    const GraphScope lights = scope.held(!refresh.lights);
+
+    // Light maps, and clusters of their texels that share a shadow map
+    f.viewPoints = addViewPoints(lights, in.surfaces);
+    addAreaLights(lights, in, s, h, f);
+    f.firstCount = f.vals.count;
+    addVisibility(scope, in, s.ismAtlas, f);
+
+    // Gather on screen, at some of the pixels
+    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
+    f.irradiance = f.bounce1 =
+        addStochasticRsm(scope, in.world.versions, thin, f.rsm, {f.clusters, f.vals, f.isms}, s.stochasticRsm,
+                         h.stochasticRsm);
+
+    // To all pixels, and to the rules of a game
+    addToPixels(scope, in, thin, s, h, f);
+    addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
+    return f;
+}
+
+}  // namespace ag::gi

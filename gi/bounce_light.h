@@ -1,0 +1,60 @@
+// Indirect light for any renderer: hand over what the camera sees, lights, and points on surfaces; get
+// irradiance, gloss and readings of probes. The passes are declared in a graph and run when that is executed.
+#pragma once
+
+#include "engine/core/function_ref.h"
+#include "gi/inputs.h"
+#include "gi/refresh.h"
+#include "gi/settings.h"
+#include "gi/surface_points.h"
+#include "gi/val_fit.h"
+
+namespace ag::gi {
+
+struct BounceLightInputs {
+    Surfaces surfaces;
+    World world;
+    Occluders occluders;
+    // Draws what the lights of planRsm see (rsm.h).
+    FunctionRef<void(GraphScope, RsmSet&)> drawRsm;
+    std::span<const RenderProbe> probes;
+    float lightUnit = 1;  // W/m² in one of the light's numbers, for readings of probes
+};
+
+// State that outlives a frame; one per view of the scene.
+struct BounceLightHistory {
+    RefreshHistory refresh;
+    ClusterShares clusterShares;
+    ValClusteringHistory valClustering;
+    Settling stochasticRsm;
+    Settling laterBounces;
+    DenoiserHistory denoiser;
+    ProbeReadings probes;
+};
+
+// What was made, with all that it was made from: for composition, debug views, tests and captures.
+struct BounceLight {
+    Irradiance irradiance;  // of all bounces
+    Irradiance bounce1;     // of the first alone; the same image where there are no others
+    ImageHandle gloss;      // what glossy materials reflect beyond irradiance: rgba16f, W/(m² sr)
+
+    BufferHandle viewPoints;
+    LaterLight laterLight;
+    RsmSet rsm;
+    Importance importance;
+    Clusters clusters;
+    Vals vals;
+    uint32_t firstCount = 0;  // of the lights, those of the first bounce
+    SurfacePoints surfacePoints;
+    IsmAtlas isms;
+};
+
+// Where light lands, as few area lights that see through shadow maps of their own; and where it goes on.
+BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
+                           BounceLightHistory& history);
+
+// The first bounce from a few samples of the light maps a pixel, seen through the same shadow maps, denoised.
+BounceLight addStochasticLight(GraphScope scope, const BounceLightInputs& in,
+                               const BounceLightSettings& settings, BounceLightHistory& history);
+
+}  // namespace ag::gi

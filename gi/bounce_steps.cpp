@@ -1,0 +1,45 @@
+#include "gi/bounce_steps.h"
+
+#include "engine/core/hash.h"
+#include "gi/upsampling.h"
+
+namespace ag::gi {
+
+void addLightMaps(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+                  BounceLightHistory& h, BounceLight& f) {
+    f.rsm = planRsm(scope, in.world, s.rsm, s.valClustering.count, f.laterLight, h.clusterShares);
+    if (f.rsm.empty()) return;
+    in.drawRsm(scope, f.rsm);
+    addRsmTexels(scope, f.rsm, f.laterLight);
+}
+
+void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+                   BounceLightHistory& h, BounceLight& f) {
+    addLightMaps(scope, in, s, h, f);
+    f.importance = addImportance(scope, f.rsm, f.viewPoints, s.importance);
+    f.clusters = addValClustering(scope, f.rsm, f.importance, s.valClustering, in.world.versions.camera,
+                                  h.valClustering);
+    f.vals = addValFit(scope, f.rsm, f.laterLight, f.clusters);
+}
+
+void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlasSettings& s, BounceLight& f) {
+    if (f.vals.count == 0 || !s.enabled) return;
+    f.surfacePoints = addSurfacePoints(scope, in.occluders, in.world.versions.instances);
+    f.isms = addIsmAtlas(scope, f.surfacePoints, f.vals, s);
+}
+
+void addToPixels(GraphScope scope, const BounceLightInputs& in, Surfaces thin, const BounceLightSettings& s,
+                 BounceLightHistory& h, BounceLight& f) {
+    const bool goesOn = f.irradiance.image != f.bounce1.image;
+    if (f.irradiance.image)
+        thin.motion = addThinImage(scope, "gbuffer.thin_motion", in.surfaces.motion, thin.spacing);
+    const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
+    const uint64_t light = combineHash(f.rsm.inputsVersion, in.world.versions.instances);
+    f.irradiance = addDenoiser(scope, thin, in.world.versions.origin, {f.irradiance, light, steps},
+                               s.denoiser, h.denoiser);
+    f.irradiance = addUpsampling(scope, in.surfaces, thin, f.irradiance);
+    f.bounce1 =
+        goesOn ? addUpsampling(scope, in.surfaces, thin, f.bounce1, kFirstBounceUpsampling) : f.irradiance;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,21 @@
+// Prutkin, Kaplanyan, Dachsbacher 2012.
+#include "gi/bounce_steps.h"
+#include "gi/published/published.h"
+
+namespace ag::gi {
+
+BounceLight addRsmc(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+                    BounceLightHistory& h) {
+    BounceLight f;
+    f.viewPoints = addViewPoints(scope, in.surfaces);
+    addAreaLights(scope, in, s, h, f);
+    f.firstCount = f.vals.count;
+    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
+    f.irradiance = f.bounce1 = addValShading(scope, thin, f.vals, f.isms, s.valShading);
+    f.gloss = addValGloss(scope, in.surfaces, f.vals, f.isms, s.valShading);
+    addToPixels(scope, in, thin, s, h, f);
+    addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
+    return f;
+}
+
+}  // namespace ag::gi

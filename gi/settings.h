@@ -1,0 +1,33 @@
+// Every tunable of our indirect light: a plain struct per technique, gathered here.
+#pragma once
+
+#include "gi/denoiser.h"
+#include "gi/importance.h"
+#include "gi/ism_atlas.h"
+#include "gi/later_bounces.h"
+#include "gi/probes.h"
+#include "gi/refresh_settings.h"
+#include "gi/rsm.h"
+#include "gi/stochastic_rsm.h"
+#include "gi/val_clustering.h"
+#include "gi/val_shading.h"
+
+namespace ag::gi {
+
+struct BounceLightSettings {
+    uint32_t spacing = 2;  // pixels from one that indirect light is gathered at to the next
+    RsmSettings rsm;
+    ImportanceSettings importance;
+    ValClusteringSettings valClustering;
+    IsmAtlasSettings ismAtlas;
+    LaterBouncesSettings laterBounces;
+    ValShadingSettings valShading;
+    StochasticRsmSettings stochasticRsm;
+    DenoiserSettings denoiser;
+    ProbeSettings probes;
+    RefreshSettings refresh;
+
+    bool operator==(const BounceLightSettings&) const = default;
+};
+
+}  // namespace ag::gi

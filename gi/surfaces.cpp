@@ -1,0 +1,84 @@
+#include "gi/surfaces.h"
+
+#include "shaders/gbuffer/view_points_io.h"
+#include "shaders/scene/scene_io.h"
+
+namespace ag::gi {
+namespace {
+
+// Of pixels c spacing + spacing / 2: their centres are those of an image of `size` / spacing pixels.
+RenderCamera thinned(const RenderCamera& camera, glm::uvec2 size, uint32_t spacing) {
+    const glm::vec2 all(size), thin(glm::max(size / spacing, 1u) * spacing);
+    const float aside =
+        spacing % 2 == 0 ? 0.5f : 0.0f;  // pixels, of the chosen ones from the squares' middles
+    const glm::vec2 scale = thin / all, shift = scale + 2 * aside / all - 1.0f;
+    glm::mat4 allFromThin(1), thinFromAll(1);
+    for (int i = 0; i < 2; ++i) {
+        allFromThin[i][i] = scale[i], allFromThin[3][i] = shift[i];
+        thinFromAll[i][i] = 1 / scale[i], thinFromAll[3][i] = -shift[i] / scale[i];
+    }
+    RenderCamera out = camera;
+    out.clipFromWorld = thinFromAll * camera.clipFromWorld;
+    out.worldFromClip = camera.worldFromClip * allFromThin;
+    return out;
+}
+
+}  // namespace
+
+BufferHandle addCamera(GraphScope scope, std::string_view name, const RenderCamera& camera, glm::uvec2 size) {
+    const io::CameraConstants constants{.clipFromWorld = camera.clipFromWorld,
+                                        .worldFromClip = camera.worldFromClip,
+                                        .position = camera.position,
+                                        .near = camera.near,
+                                        .size = size};
+    const BufferHandle buffer = scope.buffer(name, {.sizeBytes = sizeof constants});
+    scope.upload(name, buffer, std::as_bytes(std::span(&constants, 1)));
+    return buffer;
+}
+
+Surfaces addThinned(GraphScope scope, const Surfaces& all, uint32_t spacing, const ThinningNames& names) {
+    if (spacing == 1) return all;
+    const glm::uvec2 size = glm::max(all.size / spacing, 1u);
+    Surfaces g{
+        .depth = scope.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
+        .normal = addThinImage(scope, names.normal, all.normal, spacing),
+        .size = size,
+        .bent = all.bent,
+        .spacing = all.spacing * spacing,
+        .view = thinned(all.view, all.size, spacing),
+    };
+    g.camera = addCamera(scope, names.camera, g.view, size);
+    scope.compute(names.depth, "gbuffer/thin_depth.comp")
+        .sample("all", all.depth)
+        .write("thin", g.depth)
+        .push(int32_t(spacing))
+        .dispatchThreads(size.x, size.y);
+    return g;
+}
+
+ImageHandle addThinImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing) {
+    if (!all || spacing == 1) return all;
+    const glm::uvec2 size = glm::max(scope.info(all).size / spacing, 1u);
+    const ImageHandle thin = scope.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size});
+    scope.compute(name, "gbuffer/thin_image.comp")
+        .sample("all", all)
+        .write("thin", thin)
+        .push(int32_t(spacing))
+        .dispatchThreads(size.x, size.y);
+    return thin;
+}
+
+BufferHandle addViewPoints(GraphScope scope, const Surfaces& surfaces) {
+    const BufferHandle points =
+        scope.buffer("gbuffer.view_points", {.sizeBytes = io::kViewPointCount * sizeof(io::ViewPoint),
+                                             .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    scope.compute("gbuffer.sample_view", "gbuffer/sample_view.comp")
+        .sample("normalMap", surfaces.normal)
+        .sample("depthMap", surfaces.depth)
+        .read("camera", surfaces.camera)
+        .write("viewPoints", points)
+        .dispatchThreads(io::kViewPointCount);
+    return points;
+}
+
+}  // namespace ag::gi
