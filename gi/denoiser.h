@@ -5,6 +5,7 @@
 // cut off, and the filter is narrow where the mean is certain.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "gi/surfaces.h"
 #include "gi/val_shading.h"
 
@@ -20,6 +21,27 @@ struct DenoiserSettings {  // ours
     bool adaptive = true;       // light that changes takes over, bright samples are spread
     bool motion = true;         // histories follow surfaces that move
     float lightTolerance = 4;   // standard deviations by which the light of taps may differ; 0: any
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"enabled", &DenoiserSettings::enabled, 0, 0, "",
+                         "steady and smooth indirect light over frames and screen"},
+            SettingField{"least_share", &DenoiserSettings::leastShare, 0.001, 1, "",
+                         "of a new frame in the mean"},
+            SettingField{"most_length", &DenoiserSettings::mostLength, 1, 2048, "frames",
+                         "a history stands for"},
+            SettingField{"rounds", &DenoiserSettings::rounds, 0, 5, "rounds",
+                         "of the filter, each twice as wide"},
+            SettingField{"separable", &DenoiserSettings::separable, 0, 0, "",
+                         "filter along two lines instead of over a square"},
+            SettingField{"recurrent", &DenoiserSettings::recurrent, 0, 0, "",
+                         "the filter's first round goes into the history"},
+            SettingField{"adaptive", &DenoiserSettings::adaptive, 0, 0, "",
+                         "changing light takes over, bright samples are spread"},
+            SettingField{"motion", &DenoiserSettings::motion, 0, 0, "", "histories follow what moves"},
+            SettingField{"light_tolerance", &DenoiserSettings::lightTolerance, 0, 1000, "deviations",
+                         "by which the light of taps may differ; 0: any"}};
+    }
 
     bool operator==(const DenoiserSettings&) const = default;
 };

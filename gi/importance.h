@@ -3,6 +3,7 @@
 // (the sources: one a texel), at most 64x64 a face, summed into a 2x2 pyramid for warping.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "gi/rsm.h"
 #include "gi/surfaces.h"
 #include "shaders/importance/importance_io.h"
@@ -11,6 +12,11 @@ namespace ag::gi {
 
 struct ImportanceSettings {
     float viewWeight = 0.7f;  // w_v: 0 flux alone (clusters then do not depend on the camera), 1 view alone
+
+    static constexpr auto fields() {
+        return std::tuple{SettingField{"view_weight", &ImportanceSettings::viewWeight, 0, 1, "",
+                                       "seed clusters by flux (0) or by what faces the view (1)"}};
+    }
 
     bool operator==(const ImportanceSettings&) const = default;
 };

@@ -6,6 +6,7 @@
 // surface never shadows itself.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "gi/surface_points.h"
 #include "gi/val_fit.h"
 #include "shaders/ism_atlas/ism_atlas_io.h"
@@ -24,6 +25,27 @@ struct IsmAtlasSettings {
     bool planes = true;    // what texels keep; off: distances with a bias of a disk, as in the sources
     bool keepMaps = true;  // of lights that stand still before points that do; not with skipping off
     bool pullPush = true;  // close the holes between points
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"enabled", &IsmAtlasSettings::enabled, 0, 0, "", "visibility of indirect light"},
+            SettingField{"tile_size", &IsmAtlasSettings::tileSize, 16, 128, "texels",
+                         "side of a light's depth map, rounded down to a multiple of 16"},
+            SettingField{"points_per_map", &IsmAtlasSettings::pointsPerMap, 64, 131072, "points",
+                         "splatted into each depth map"},
+            SettingField{"near_more", &IsmAtlasSettings::nearMore, 0, 0, "",
+                         "more points from surfaces near the light, fewer far off"},
+            SettingField{"splat_scale", &IsmAtlasSettings::splatScale, 0.1, 10, "",
+                         "of the points' disks; at 1 they have the surfaces' area"},
+            SettingField{"mapping", &IsmAtlasSettings::mapping, 0, 0, "", "of the hemisphere to a square",
+                         "octahedral|paraboloid"},
+            SettingField{"planes", &IsmAtlasSettings::planes, 0, 0, "",
+                         "texels keep planes; off: distances with a bias of a disk"},
+            SettingField{"keep_maps", &IsmAtlasSettings::keepMaps, 0, 0, "",
+                         "do not splat again for lights that stand still"},
+            SettingField{"pull_push", &IsmAtlasSettings::pullPush, 0, 0, "",
+                         "close the holes between points"}};
+    }
 
     bool operator==(const IsmAtlasSettings&) const = default;
 };

@@ -5,6 +5,7 @@
 // clusters; here surfaces are sampled once, by area, so that flux is exact and nothing depends on the view.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "gi/inputs.h"
 #include "gi/settling.h"
 #include "shaders/later_bounces/later_bounces_io.h"
@@ -22,6 +23,19 @@ struct LaterBouncesSettings {
     float share = 0.4f;          // of all clusters
     uint32_t spacing = 2;        // of the pixels bounced light is gathered at, to those later bounces are
     uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"enabled", &LaterBouncesSettings::enabled, 0, 0, "",
+                         "light goes on after its first bounce"},
+            SettingField{"feedback", &LaterBouncesSettings::feedback, 0, 0, "",
+                         "and after its second; off: no more than two"},
+            SettingField{"share", &LaterBouncesSettings::share, 0.05, 0.8, "", "of all clusters"},
+            SettingField{"spacing", &LaterBouncesSettings::spacing, 1, 4, "pixels",
+                         "of those bounced light is gathered at, to those later bounces are"},
+            SettingField{"settle_frames", &LaterBouncesSettings::settleFrames, 1, 1000000, "frames",
+                         "light goes on bouncing after anything last changed"}};
+    }
 
     bool operator==(const LaterBouncesSettings&) const = default;
 };

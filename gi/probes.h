@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/render_probe.h"
+#include "engine/core/setting_fields.h"
 #include "gi/ism_atlas.h"
 #include "gi/val_shading.h"
 #include "shaders/probes/probes_io.h"
@@ -19,6 +20,12 @@ constexpr uint32_t kMostProbes = 4096;  // further ones are left out
 struct ProbeSettings {
     ValShape shape = ValShape::kPolygon;
     uint32_t taps = 4;  // of an area light's soft shadow
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"shape", &ProbeSettings::shape}.unlisted(),
+            SettingField{"taps", &ProbeSettings::taps, 1, 32, "", "of area lights' soft shadows at probes"}};
+    }
 
     bool operator==(const ProbeSettings&) const = default;
 };

@@ -7,6 +7,7 @@
 
 #include <array>
 
+#include "engine/core/setting_fields.h"
 #include "gi/inputs.h"
 #include "gi/later_bounces.h"
 #include "shaders/rsm/rsm_io.h"
@@ -16,6 +17,15 @@ namespace ag::gi {
 struct RsmSettings {
     uint32_t resolution = 0;  // texels along a map's side; 0: as each light says
     float sunMargin = 0.02f;  // part of the scene's width added round a sun's map
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"resolution", &RsmSettings::resolution, 0, 1024, "texels",
+                         "side of a light map, rounded down to a power of two, less with many lights; "
+                         "0: as each light says"},
+            SettingField{"sun_margin", &RsmSettings::sunMargin, 0, 1, "",
+                         "part of the scene's width added round a sun's map"}};
+    }
 
     bool operator==(const RsmSettings&) const = default;
 };

@@ -1,6 +1,8 @@
 // Every tunable of our indirect light: a plain struct per technique, gathered here.
 #pragma once
 
+#include <string_view>
+
 #include "gi/denoiser.h"
 #include "gi/importance.h"
 #include "gi/ism_atlas.h"
@@ -29,5 +31,11 @@ struct BounceLightSettings {
 
     bool operator==(const BounceLightSettings&) const = default;
 };
+
+// Ours by budget: "low", "medium" (the default), "high", "ultra". False if there is no such quality.
+bool applyQuality(std::string_view name, BounceLightSettings& s);
+
+// Registers every group's settings. `s` must outlive `settings`.
+void registerSettings(Settings& settings, BounceLightSettings& s);
 
 }  // namespace ag::gi

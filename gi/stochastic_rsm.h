@@ -4,6 +4,7 @@
 // frame (improved reflective shadow maps), for the denoiser.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "gi/ism_atlas.h"
 #include "gi/rsm.h"
 #include "gi/settling.h"
@@ -23,6 +24,24 @@ struct StochasticRsmSettings {
     bool whole = false;    // every other sample from all of the map, so that no light is lost; not of points
     bool visible = false;  // samples as far as their cluster's imperfect shadow map lets them be seen
     uint32_t settleFrames = 64;  // frames with new samples after anything last changed
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"samples", &StochasticRsmSettings::samples, 1, 4096, "samples",
+                         "of each light map, a pixel"},
+            SettingField{"radius", &StochasticRsmSettings::radius, 0.001, 2, "map widths",
+                         "of the disk about the pixel's projection; light beyond it is lost"},
+            SettingField{"interpolate", &StochasticRsmSettings::interpolate, 0, 0, "",
+                         "gather a 16th of the pixels, blend where surfaces are alike"},
+            SettingField{"random", &StochasticRsmSettings::random, 0, 0, "",
+                         "other samples in each pixel and frame, for the denoiser"},
+            SettingField{"whole", &StochasticRsmSettings::whole, 0, 0, "",
+                         "every other sample from all of the map, so that no light is lost"},
+            SettingField{"visible", &StochasticRsmSettings::visible, 0, 0, "",
+                         "samples as far as their cluster's imperfect shadow map lets them be seen"},
+            SettingField{"settle_frames", &StochasticRsmSettings::settleFrames, 0, 1000000, "frames",
+                         "with new samples after anything last changed"}};
+    }
 
     bool operator==(const StochasticRsmSettings&) const = default;
 };

@@ -27,12 +27,6 @@ uint32_t lookPeriod(ValClusteringHistory& h, uint64_t lightVersion, uint32_t set
     return moves ? kWhileLightMoves : kWhileCameraMoves;
 }
 
-// Member by member: the struct has padding.
-uint64_t hashOf(const ValClusteringSettings& s) {
-    return combineHash(hashValue(metricWeights(s)),
-                       hashValue(glm::uvec3(s.count, s.settleFrames, s.adaptive)));
-}
-
 struct SeedPush {
     io::ClusterSettings settings;
     uint32_t faceCount;
@@ -174,7 +168,7 @@ Clusters addValClustering(GraphScope scope, const RsmSet& rsm, const Importance&
                           const ValClusteringSettings& settings, uint64_t viewVersion,
                           ValClusteringHistory& history) {
     if (rsm.empty()) return {};
-    const uint64_t light = combineHash(rsm.inputsVersion, hashOf(settings));
+    const uint64_t light = combineHash(rsm.inputsVersion, hashFields(settings));
     const uint64_t inputs = combineHash(light, importance.viewDependent() ? viewVersion : 0);
     // Past that the clusters rest, and everything behind them is skipped.
     const bool late = scope.isHeld();

@@ -4,6 +4,7 @@
 // a segmented sum in a fixed order, so that equal inputs give equal bits.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "gi/importance.h"
 #include "gi/settling.h"
 #include "shaders/val_clustering/val_clustering_io.h"
@@ -18,6 +19,23 @@ struct ValClusteringSettings {
     float planeWeight = 12;      // of the distance from the cluster's plane, 1/m²
     bool adaptive = true;        // split clusters with much error, drop those with little (ACRSM 4.8)
     uint32_t settleFrames = 32;  // steps taken after the light maps last changed; then clusters rest
+
+    static constexpr auto fields() {
+        return std::tuple{SettingField{"count", &ValClusteringSettings::count, 16, 1024, "clusters",
+                                       "clusters over all bounce lights"},
+                          SettingField{"distance_weight", &ValClusteringSettings::distanceWeight, 0, 1000,
+                                       "1/m2", "metric: squared distance"},
+                          SettingField{"normal_weight", &ValClusteringSettings::normalWeight, 0, 1000, "",
+                                       "metric: 1 - cosine of the normals"},
+                          SettingField{"chroma_weight", &ValClusteringSettings::chromaWeight, 0, 1000, "",
+                                       "metric: squared difference of flux colour"},
+                          SettingField{"plane_weight", &ValClusteringSettings::planeWeight, 0, 1000, "1/m2",
+                                       "metric: squared distance from the plane"},
+                          SettingField{"adaptive", &ValClusteringSettings::adaptive, 0, 0, "",
+                                       "split clusters with much error, drop those with little"},
+                          SettingField{"settle_frames", &ValClusteringSettings::settleFrames, 0, 1000,
+                                       "frames", "clustering steps after the light maps last changed"}};
+    }
 
     bool operator==(const ValClusteringSettings&) const = default;
 };

@@ -4,6 +4,7 @@
 // surface.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "gi/ism_atlas.h"
 #include "gi/refresh_settings.h"
 #include "gi/surfaces.h"
@@ -26,6 +27,24 @@ struct ValShadingSettings {
     uint32_t taps = 4;        // of near lights' soft shadows; 1: hard ones, from the light's centre
     uint32_t farTaps = 1;     // of far lights'
     bool glossy = true;  // materials reflect by their roughness, where a scene has such and lights are areas
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"shape", &ValShadingSettings::shape, 0, 0, "", "form factor of a near area light",
+                         "point|disk|vector_disk|rectangle|polygon"},
+            SettingField{"far_shape", &ValShadingSettings::farShape, 0, 0, "",
+                         "form factor of a far area light", "point|disk|vector_disk|rectangle|polygon"},
+            SettingField{"near_reach", &ValShadingSettings::nearReach, 0, 1e6, "half lengths",
+                         "lights nearer to a screen tile than this are met by each of its pixels; 0: none"},
+            SettingField{"interleave", &ValShadingSettings::interleave, 1, 4, "pixels",
+                         "blocks of n x n pixels share the far lights, each pixel meets a part of them"},
+            SettingField{"taps", &ValShadingSettings::taps, 1, 64, "taps",
+                         "of near lights' soft shadows; 1: hard ones"},
+            SettingField{"far_taps", &ValShadingSettings::farTaps, 1, 64, "taps",
+                         "of far lights' soft shadows; 1: hard ones"},
+            SettingField{"glossy", &ValShadingSettings::glossy, 0, 0, "",
+                         "area lights shine on materials by their roughness; off: all are Lambert"}};
+    }
 
     bool operator==(const ValShadingSettings&) const = default;
 };

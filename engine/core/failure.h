@@ -8,7 +8,14 @@
 
 namespace ag {
 
-enum class FailureKind : uint32_t { kMistake, kDevice, kDeviceLost, kDeviceMemory, kHostMemory };
+enum class FailureKind : uint32_t {
+    kMistake,
+    kUnsupported,
+    kDevice,
+    kDeviceLost,
+    kDeviceMemory,
+    kHostMemory
+};
 
 class Failure : public std::runtime_error {
   public:

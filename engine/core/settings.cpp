@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/core/number.h"
+#include "engine/core/setting_fields.h"
 
 namespace ag {
 namespace {
@@ -42,6 +43,16 @@ size_t likeness(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::vector<std::string> detail::split(std::string_view choices) {
+    std::vector<std::string> parts;
+    while (!choices.empty()) {
+        const size_t end = std::min(choices.find('|'), choices.size());
+        parts.emplace_back(choices.substr(0, end));
+        choices.remove_prefix(std::min(end + 1, choices.size()));
+    }
+    return parts;
+}
 
 double settingValue(const Setting& setting) {
     return std::visit([](auto* v) { return double(*v); }, setting.value);

@@ -198,6 +198,8 @@ Memory& FrameGraph::Impl::borrow(uint32_t resource, const Borrowed& how) {
     r.isOutput = true;
     r.outputLayout = how.after;
     Memory& memory = slot.halves[0];
+    memory.borrowedImage = nullptr;
+    memory.borrowedBuffer = nullptr;
     memory.sync = {.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
                    .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,

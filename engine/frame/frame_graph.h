@@ -371,6 +371,8 @@ class FrameGraph : public GraphScope {
     // `submit` returns what that took, ms.
     using Submit = FunctionRef<double(const std::function<void(VkCommandBuffer)>& record)>;
     void executeAlone(Submit submit);
+    // Instead: makes the pipelines of the passes declared, and nothing else.
+    void preparePipelines();
     // Physical resources behind handles of the frame last executed.
     const gpu::Image& physical(ImageHandle image) const;
     const gpu::Buffer& physical(BufferHandle buffer) const;

@@ -228,6 +228,10 @@ void FrameGraph::execute(VkCommandBuffer commands) {
     g.retireUnused();
 }
 
+void FrameGraph::preparePipelines() {
+    impl_->resolvePipelines();
+}
+
 void FrameGraph::executeAlone(Submit submit) {
     Impl& g = *impl_;
     g.plan();

@@ -56,9 +56,9 @@ gpu::PipelineRequest FrameGraph::Impl::requestFor(const Pass& pass, const Raster
 void FrameGraph::Impl::resolvePipelines() {
     for (Pass& pass : passes) {
         pass.pipelineKey = pipelineNameKey(pass);
-        const bool draws = firstDraw(drawsOf(pass)) || pass.callback != ~0u;
+        const bool drawn = firstDraw(drawsOf(pass)) || pass.callback != ~0u;
         const bool shader = pass.kind == PassKind::kCompute || pass.kind == PassKind::kFullscreen ||
-                            (pass.kind == PassKind::kRaster && draws);
+                            (pass.kind == PassKind::kRaster && drawn);
         if (!context || !shader) continue;
         const RasterDraw* draw = pass.kind == PassKind::kRaster ? firstDraw(drawsOf(pass)) : nullptr;
         pass.pipeline = &pipelines->get(requestFor(pass, draw));

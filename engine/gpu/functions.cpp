@@ -28,6 +28,8 @@ void loadDeviceFunctions(Functions& vk, VkDevice device) {
         using Pointer = std::remove_reference_t<decltype(function)>;
         if (!function) function = Pointer(vk.GetDeviceProcAddr(device, name));
     };
+    orExtension(vk.CmdBindVertexBuffers2, "vkCmdBindVertexBuffers2EXT");
+    orExtension(vk.CmdSetFrontFace, "vkCmdSetFrontFaceEXT");
     orExtension(vk.CmdBeginRendering, "vkCmdBeginRenderingKHR");
     orExtension(vk.CmdEndRendering, "vkCmdEndRenderingKHR");
     orExtension(vk.CmdPipelineBarrier2, "vkCmdPipelineBarrier2KHR");

@@ -27,12 +27,12 @@ namespace ag::gpu {
     X(AcquireNextImageKHR) X(AllocateCommandBuffers) X(AllocateDescriptorSets) X(AllocateMemory) \
     X(BeginCommandBuffer) X(BindBufferMemory) X(BindImageMemory) X(CmdBeginDebugUtilsLabelEXT) \
     X(CmdBeginQuery) X(CmdBeginRendering) X(CmdBindDescriptorSets) X(CmdBindIndexBuffer) \
-    X(CmdBindPipeline) X(CmdBindVertexBuffers) X(CmdBlitImage) X(CmdClearAttachments) \
+    X(CmdBindPipeline) X(CmdBindVertexBuffers) X(CmdBindVertexBuffers2) X(CmdBlitImage) X(CmdClearAttachments) \
     X(CmdClearColorImage) X(CmdCopyBuffer) X(CmdCopyBufferToImage) X(CmdCopyImage) X(CmdCopyImageToBuffer) \
     X(CmdCopyQueryPoolResults) X(CmdDispatch) X(CmdDispatchIndirect) X(CmdDraw) X(CmdDrawIndexed) \
     X(CmdDrawIndexedIndirect) X(CmdEndDebugUtilsLabelEXT) X(CmdEndQuery) X(CmdEndRendering) \
-    X(CmdFillBuffer) X(CmdPipelineBarrier2) X(CmdPushConstants) X(CmdResetQueryPool) X(CmdSetScissor) \
-    X(CmdSetViewport) X(CmdUpdateBuffer) X(CmdWriteTimestamp2) X(CreateBuffer) X(CreateBufferView) \
+    X(CmdFillBuffer) X(CmdPipelineBarrier2) X(CmdPushConstants) X(CmdResetQueryPool) X(CmdSetFrontFace) \
+    X(CmdSetScissor) X(CmdSetViewport) X(CmdUpdateBuffer) X(CmdWriteTimestamp2) X(CreateBuffer) X(CreateBufferView) \
     X(CreateCommandPool) X(CreateComputePipelines) X(CreateDescriptorPool) X(CreateDescriptorSetLayout) \
     X(CreateGraphicsPipelines) X(CreateImage) X(CreateImageView) X(CreatePipelineCache) \
     X(CreatePipelineLayout) X(CreateQueryPool) X(CreateSampler) X(CreateSemaphore) X(CreateShaderModule) \

@@ -145,6 +145,14 @@ uint64_t MemoryAllocator::liveBytes() const {
     return liveBytes_;
 }
 
+uint64_t MemoryAllocator::blockBytes() const {
+    const std::lock_guard lock(mutex_);
+    uint64_t bytes = 0;
+    for (const Block& block : blocks_)
+        bytes += block.place.memory ? block.sizeBytes : 0;
+    return bytes;
+}
+
 uint64_t MemoryAllocator::blockCount() const {
     const std::lock_guard lock(mutex_);
     return uint64_t(

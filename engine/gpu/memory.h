@@ -53,6 +53,7 @@ class MemoryAllocator {
     void free(const MemoryRange& range);
     uint64_t liveBytes() const;
     uint64_t blockCount() const;
+    uint64_t blockBytes() const;
 
   private:
     struct Gap {

@@ -31,7 +31,7 @@ uint64_t requestHash(const PipelineRequest& r) {
 }
 
 struct VertexInput {
-    std::array<VkVertexInputBindingDescription, 2> bindings{};
+    std::array<VkVertexInputBindingDescription, 3> bindings{};
     uint32_t bindingCount = 0;
     std::array<VkVertexInputAttributeDescription, 4> attributes{};
     uint32_t attributeCount = 0;
@@ -56,6 +56,14 @@ VertexInput vertexInput(VertexLayout layout) {
         in.attributes[in.attributeCount++] = {0, 0, VK_FORMAT_R32G32_SFLOAT, 0};
         in.attributes[in.attributeCount++] = {1, 0, VK_FORMAT_R32G32_SFLOAT, 8};
         in.attributes[in.attributeCount++] = {2, 0, VK_FORMAT_R8G8B8A8_UNORM, 16};
+    }
+    if (layout == VertexLayout::kStrided) {
+        constexpr std::array kFormats = {VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT,
+                                         VK_FORMAT_R32G32_SFLOAT};
+        for (uint32_t i = 0; i < kFormats.size(); ++i) {
+            in.bindings[in.bindingCount++] = {i, 0, VK_VERTEX_INPUT_RATE_VERTEX};
+            in.attributes[in.attributeCount++] = {i, i, kFormats[i], 0};
+        }
     }
     return in;
 }
@@ -86,8 +94,8 @@ struct PipelineLibrary::Impl {
         VkShaderModule handle = VK_NULL_HANDLE;
         uint64_t hash = 0;
     };
-    struct Layout {  // descriptor set and push layout of a set of shaders
-        VkDescriptorSetLayout set = VK_NULL_HANDLE;
+    struct Layout {                                   // descriptor sets and push layout of a set of shaders
+        std::array<VkDescriptorSetLayout, 2> sets{};  // the second one null where there is none
         VkPipelineLayout pipeline = VK_NULL_HANDLE;
     };
     Context& context;
@@ -99,6 +107,7 @@ struct PipelineLibrary::Impl {
     Shader& shader(std::string_view path);
     bool open(const std::string& path, Shader& shader, std::string* error) const;
     void mergeBindings(Pipeline& pipeline, const Shader& shader) const;
+    VkDescriptorSetLayout makeSetLayout(std::span<const ShaderBinding> of, const std::string& name) const;
     void makeLayout(Pipeline& pipeline, uint64_t shadersHash, const std::string& name);
     void makeCompute(const PipelineRequest& request, Pipeline& pipeline);
     void makeRaster(const PipelineRequest& request, Pipeline& pipeline);
@@ -130,20 +139,20 @@ PipelineLibrary::Impl::Shader& PipelineLibrary::Impl::shader(std::string_view pa
 }
 
 void PipelineLibrary::Impl::mergeBindings(Pipeline& pipeline, const Shader& shader) const {
+    const std::string& path = shader.module.path;
     for (const ShaderBinding& b : shader.module.bindings) {
-        if (b.set != 0)
+        if (b.set > 1)
+            fail(FailureKind::kMistake, "shader " + path + ": binding " + b.name + " is in a third set");
+        std::vector<ShaderBinding>& known = b.set == 0 ? pipeline.bindings : pipeline.drawBindings;
+        const auto same = std::ranges::find(known, b.name, &ShaderBinding::name);
+        const auto place = std::ranges::find(known, b.binding, &ShaderBinding::binding);
+        if (same != known.end() && (same->binding != b.binding || same->kind != b.kind))
+            fail(FailureKind::kMistake, "shader " + path + ": binding " + b.name + " differs between stages");
+        if (same == known.end() && place != known.end())
             fail(FailureKind::kMistake,
-                 "shader " + shader.module.path + ": binding " + b.name + " is not in set 0");
-        const auto same = std::ranges::find(pipeline.bindings, b.name, &ShaderBinding::name);
-        const auto place = std::ranges::find(pipeline.bindings, b.binding, &ShaderBinding::binding);
-        if (same != pipeline.bindings.end() && (same->binding != b.binding || same->kind != b.kind))
-            fail(FailureKind::kMistake,
-                 "shader " + shader.module.path + ": binding " + b.name + " differs between stages");
-        if (same == pipeline.bindings.end() && place != pipeline.bindings.end())
-            fail(FailureKind::kMistake, "shader " + shader.module.path + ": bindings " + b.name + " and " +
-                                            place->name + " share a number");
-        if (same == pipeline.bindings.end()) {
-            pipeline.bindings.push_back(b);
+                 "shader " + path + ": bindings " + b.name + " and " + place->name + " share a number");
+        if (same == known.end()) {
+            known.push_back(b);
         } else {
             same->reads = same->reads || b.reads;
             same->writes = same->writes || b.writes;
@@ -153,31 +162,38 @@ void PipelineLibrary::Impl::mergeBindings(Pipeline& pipeline, const Shader& shad
     pipeline.pushSizeBytes = std::max(pipeline.pushSizeBytes, shader.module.pushSizeBytes);
 }
 
+VkDescriptorSetLayout PipelineLibrary::Impl::makeSetLayout(std::span<const ShaderBinding> of,
+                                                           const std::string& name) const {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const ShaderBinding& b : of)
+        bindings.push_back({b.binding, descriptorType(b.kind), 1, VK_SHADER_STAGE_ALL, nullptr});
+    const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                               .bindingCount = uint32_t(bindings.size()),
+                                               .pBindings = bindings.data()};
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    AG_VK(context.vk().CreateDescriptorSetLayout(context.handle(), &info, context.hostAllocation(), &layout));
+    context.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, name);
+    return layout;
+}
+
 void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash, const std::string& name) {
     Layout& layout = layouts[shadersHash];
     const VkDevice device = context.handle();
-    if (!layout.set) {
-        std::vector<VkDescriptorSetLayoutBinding> bindings;
-        for (const ShaderBinding& b : pipeline.bindings)
-            bindings.push_back({b.binding, descriptorType(b.kind), 1, VK_SHADER_STAGE_ALL, nullptr});
-        const VkDescriptorSetLayoutCreateInfo info{
-            .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-            .bindingCount = uint32_t(bindings.size()),
-            .pBindings = bindings.data()};
-        AG_VK(context.vk().CreateDescriptorSetLayout(device, &info, context.hostAllocation(), &layout.set));
-        context.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout.set, name);
-    }
+    if (!layout.sets[0]) layout.sets[0] = makeSetLayout(pipeline.bindings, name);
+    if (!layout.sets[1] && !pipeline.drawBindings.empty())
+        layout.sets[1] = makeSetLayout(pipeline.drawBindings, name);
     if (!layout.pipeline) {
         const VkPushConstantRange push{pipeline.pushStages, 0, pipeline.pushSizeBytes};
         const VkPipelineLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                              .setLayoutCount = 1,
-                                              .pSetLayouts = &layout.set,
+                                              .setLayoutCount = layout.sets[1] ? 2u : 1u,
+                                              .pSetLayouts = layout.sets.data(),
                                               .pushConstantRangeCount = pipeline.pushSizeBytes ? 1u : 0u,
                                               .pPushConstantRanges = &push};
         AG_VK(context.vk().CreatePipelineLayout(device, &info, context.hostAllocation(), &layout.pipeline));
         context.setDebugName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout.pipeline, name);
     }
-    pipeline.setLayout = layout.set;
+    pipeline.setLayout = layout.sets[0];
+    pipeline.drawSetLayout = layout.sets[1];
     pipeline.layout = layout.pipeline;
 }
 
@@ -292,10 +308,12 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
         .attachmentCount = state.colorCount,
         .pAttachments = attachments.data()};
-    const VkDynamicState dynamics[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const VkDynamicState dynamics[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                       VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE,
+                                       VK_DYNAMIC_STATE_FRONT_FACE};
     const VkPipelineDynamicStateCreateInfo dynamic{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-        .dynamicStateCount = 2,
+        .dynamicStateCount = state.vertexLayout == VertexLayout::kStrided ? 4u : 2u,
         .pDynamicStates = dynamics};
     const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
                                                   .colorAttachmentCount = state.colorCount,
@@ -330,7 +348,8 @@ PipelineLibrary::~PipelineLibrary() {
         vk.DestroyPipeline(device, pipeline->handle, host);
     for (auto& [hash, layout] : impl_->layouts) {
         vk.DestroyPipelineLayout(device, layout.pipeline, host);
-        vk.DestroyDescriptorSetLayout(device, layout.set, host);
+        for (const VkDescriptorSetLayout set : layout.sets)
+            vk.DestroyDescriptorSetLayout(device, set, host);
     }
     for (auto& [path, shader] : impl_->shaders)
         vk.DestroyShaderModule(device, shader.handle, host);

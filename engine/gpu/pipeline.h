@@ -37,6 +37,8 @@ enum class VertexLayout : uint32_t {
     kPositionsAndAttributes,  // + binding 1: vec3 normal, vec4 tangent, vec2 uv (36 bytes)
     kPositionsAndUvs,         // the same without normal and tangent
     kImGui,                   // binding 0: vec2 position, vec2 uv, unorm8x4 colour (20 bytes)
+    kStrided,  // bindings 0, 1, 2: vec3 position, vec3 normal, vec2 uv; strides and the front's winding are
+               // dynamic
 };
 
 struct RasterState {
@@ -65,13 +67,16 @@ struct PipelineRequest {
 struct Pipeline {
     VkPipeline handle = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // everything lives in set 0
+    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  // of set 0, which the frame graph binds
+    VkDescriptorSetLayout drawSetLayout =
+        VK_NULL_HANDLE;  // of set 1, which draws bind by themselves; or null
     VkPipelineBindPoint bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags pushStages = 0;
     uint32_t pushSizeBytes = 0;
     glm::uvec3 workgroupSize{1};
-    std::vector<ShaderBinding> bindings;  // of all stages, merged by name
-    uint64_t id = 0;                      // identifies shader bytes and state: part of a pass's key
+    std::vector<ShaderBinding> bindings;      // of set 0, of all stages, merged by name
+    std::vector<ShaderBinding> drawBindings;  // of set 1
+    uint64_t id = 0;                          // identifies shader bytes and state: part of a pass's key
 };
 
 VkDescriptorType descriptorType(BindingKind kind);

@@ -1,6 +1,7 @@
 // The last steps: outgoing radiance of what the camera sees, and its display image.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "engine/renderer/gbuffer.h"
 #include "gi/bounce_light.h"
 
@@ -11,6 +12,13 @@ enum class Tonemap : uint32_t { kNone, kReinhard, kAces };
 struct CompositeSettings {
     float exposure = 0;  // stops
     Tonemap tonemap = Tonemap::kAces;
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"exposure", &CompositeSettings::exposure, -20, 20, "stops", "of the display image"},
+            SettingField{"tonemap", &CompositeSettings::tonemap, 0, 0, "", "curve of the display image",
+                         "none|reinhard|aces"}};
+    }
 
     bool operator==(const CompositeSettings&) const = default;
 };

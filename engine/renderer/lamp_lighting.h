@@ -5,6 +5,7 @@
 // centre instead of a disk (PCSS), and lamps far from it as seen from the receiver have less of them.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "engine/renderer/lamp_lists.h"
 #include "engine/renderer/lamp_shadows.h"
 #include "gi/val_shading.h"
@@ -17,6 +18,17 @@ struct LampLightingSettings {
     // A lamp has all of its cluster's shadow where it is so many times farther off than from the centre,
     // nearer by in proportion less. 0: everywhere, as published.
     float shadowReach = 4;
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"tiles", &LampLightingSettings::tiles, 0, 0, "",
+                         "pixels meet only lamps that reach their tile"},
+            SettingField{"quads", &LampLightingSettings::quads, 0, 0, "",
+                         "shadows at one pixel of each 2 x 2"},
+            SettingField{
+                "shadow_reach", &LampLightingSettings::shadowReach, 0, 100, "",
+                "times a lamp's distance from its cluster's centre, from where on it has all of its shadow"}};
+    }
 
     bool operator==(const LampLightingSettings&) const = default;
 };

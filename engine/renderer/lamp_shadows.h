@@ -3,6 +3,7 @@
 // one, and only faces in which something moved are drawn again.
 #pragma once
 
+#include "engine/core/setting_fields.h"
 #include "engine/renderer/light_clusters.h"
 #include "engine/renderer/scene_gpu.h"
 #include "shaders/direct_lighting/direct_lighting_io.h"
@@ -13,6 +14,16 @@ struct LampShadowSettings {
     uint32_t faceResolution = 512;  // texels along a cube face's side, at most; smaller for many clusters
     uint32_t atlasSize = 4096;      // texels along the atlas's side
     uint32_t softTaps = 0;  // of the disk as large as a cluster that its shadow comes from; 0: its centre
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"face_resolution", &LampShadowSettings::faceResolution, 16, 2048, "texels",
+                         "side of a cube's face, at most; a spot's map has twice"},
+            SettingField{"atlas_size", &LampShadowSettings::atlasSize, 256, 16384, "texels",
+                         "side of the atlas"},
+            SettingField{"soft_taps", &LampShadowSettings::softTaps, 0, 64, "taps",
+                         "of a disk as large as a cluster, for its shadow; 0: from its centre"}};
+    }
 
     bool operator==(const LampShadowSettings&) const = default;
 };

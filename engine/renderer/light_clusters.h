@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "engine/core/setting_fields.h"
 #include "engine/renderer/lamp_relevance.h"
 #include "engine/scene/render_scene.h"
 
@@ -22,6 +23,21 @@ struct LightClusterSettings {
     // Farther from the nearest centre than this part of its range a lamp goes without shadow: the centre's
     // says nothing of what is so near to the lamp. 0: no limit, as published.
     float shareWithin = 0.5f;
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"growth", &LightClusterSettings::growth, 0, 10, "",
+                         "m between clusters' centres for each m to the camera"},
+            SettingField{"most", &LightClusterSettings::most, 0, kMostLampClusters, "clusters",
+                         "of lamps, each with a shadow map"},
+            SettingField{"strong_first", &LightClusterSettings::strongFirst, 0, 0, "",
+                         "lamps that matter keep a shadow map of their own longer"},
+            SettingField{"hysteresis", &LightClusterSettings::hysteresis, 0, 1, "",
+                         "part of the distance that a centre of before needs"},
+            SettingField{
+                "share_within", &LightClusterSettings::shareWithin, 0, 100, "",
+                "part of its range that a lamp may be from the centre whose shadow it shares; 0: no limit"}};
+    }
 
     bool operator==(const LightClusterSettings&) const = default;
 };

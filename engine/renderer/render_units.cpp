@@ -7,52 +7,17 @@
 namespace ag::render {
 namespace {
 
-constexpr float kUsualDiagonal = 8;      // of a scene, in units of length
-constexpr float kDiagonalReach = 32;     // it may be so many times that, or that part of it
-constexpr float kIrradianceReach = 256;  // the same of irradiance, which usually is one
-constexpr float kStep = 5;               // powers of two from one unit to the next
-constexpr float kRoomToMove = 1.25f;     // diagonals that a steady extent starts with
-constexpr float kLeastExtent = 1e-6f;    // units, of a scene that is a point
-constexpr float kLeastFilled = 0.4f;     // of it, by the diagonal
 constexpr int kGenerationShift = 40;
-
-// The unit before as long as `value` is near one in it.
-float unitFor(float value, float reach, float before) {
-    const bool known = value > 0 && std::isfinite(value);
-    if (!known || (value >= before / reach && value <= before * reach)) return before;
-    return std::exp2(kStep * std::round(std::log2(std::clamp(value, 1e-30f, 1e30f)) / kStep));
-}
-
-float strongest(glm::vec3 v) {
-    return std::max({v.x, v.y, v.z});
-}
-
-// Of the strongest light a quarter of the scene away, or of what emits most, W/m².
-float usualIrradiance(const RenderScene& scene, float diagonal, float emission) {
-    float most = emission * std::numbers::pi_v<float>;
-    for (const RenderLight& light : scene.lights) {
-        float distance = diagonal / 4;
-        if (light.range > 0) distance = std::min(distance, light.range);
-        const float per = light.kind == LightKind::kDirectional ? 1 : distance * distance;
-        if (per > 0) most = std::max(most, strongest(light.intensity) / per);
-    }
-    return most;
-}
 
 }  // namespace
 
 RenderUnits chooseUnits(const RenderScene& scene, float emission, RenderUnits before) {
-    if (scene.bounds.empty()) return before;
     const float diagonal = glm::length(scene.bounds.max - scene.bounds.min);
-    return {unitFor(diagonal / kUsualDiagonal, kDiagonalReach, before.length),
-            unitFor(usualIrradiance(scene, diagonal, emission), kIrradianceReach, before.light)};
-}
-
-float steadyExtent(const Bounds& bounds, float before) {
-    if (bounds.empty()) return before;
-    const float diagonal = glm::length(bounds.max - bounds.min);
-    if (before > 0 && diagonal <= before && diagonal >= kLeastFilled * before) return before;
-    return std::max(kRoomToMove * diagonal, kLeastExtent);
+    float most = emission * std::numbers::pi_v<float>;
+    for (const RenderLight& light : scene.lights)
+        most = std::max(most, gi::irradianceOf(light.intensity, light.kind == LightKind::kDirectional,
+                                               light.range, diagonal));
+    return gi::chooseUnits(scene.bounds, most, before);
 }
 
 void inUnits(const RenderScene& scene, RenderUnits units, uint64_t generation, RenderScene& out) {

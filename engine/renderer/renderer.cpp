@@ -91,7 +91,7 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     scene_.beginFrame(scene, jobs_);
     SceneView view = scene_.import(graph_, scene, size);
     view.units = units_;
-    view.extent = extent_ = steadyExtent(scene.bounds, extent_);
+    view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     RenderSettings asked = settings;
     asked.bounce.ismAtlas.keepMaps = settings.bounce.ismAtlas.keepMaps && options.skip;
     asked.composite.exposure += std::log2(units_.light);

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "engine/core/setting_fields.h"
 #include "engine/renderer/scene_gpu.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
 
@@ -15,6 +16,18 @@ struct ShadowMapSettings {
     uint32_t cascades = 3;       // of each sun, 1 to 4
     float cascadeReach = 1;      // part of the way to the scene's end that cascades share out
     float cascadeSplit = 0.75f;  // 0 uniform, 1 logarithmic
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"resolution", &ShadowMapSettings::resolution, 64, 4096, "texels",
+                         "side of a sun's cascade"},
+            SettingField{"cascades", &ShadowMapSettings::cascades, 1, 4, "", "cascades of a sun"},
+            SettingField{
+                "cascade_reach", &ShadowMapSettings::cascadeReach, 0.001, 1, "",
+                "part of the way to the scene's end that cascades share out; the last one goes on to it"},
+            SettingField{"cascade_split", &ShadowMapSettings::cascadeSplit, 0, 1, "",
+                         "0 uniform, 1 logarithmic"}};
+    }
 
     bool operator==(const ShadowMapSettings&) const = default;
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/core/function_ref.h"
+#include "engine/core/setting_fields.h"
 #include "gi/ism_atlas.h"
 #include "gi/rsm.h"
 #include "gi/val_fit.h"
@@ -17,6 +18,19 @@ struct SsvpSettings {
     uint32_t rounds = 5;         // of k-means
     uint32_t mapSize = 256;      // texels along a paraboloid's square
     bool disk = true;            // sample the paraboloids' disks; off: the squares round them
+
+    static constexpr auto fields() {
+        return std::tuple{
+            SettingField{"clusters", &SsvpSettings::clusters, 1, 64, "clusters",
+                         "of point lights, each with a paraboloid map"},
+            SettingField{"second_count", &SsvpSettings::secondCount, 0, 4096, "lights",
+                         "of the second bounce"},
+            SettingField{"rounds", &SsvpSettings::rounds, 1, 20, "rounds", "of k-means a frame"},
+            SettingField{"map_size", &SsvpSettings::mapSize, 16, 512, "texels",
+                         "side of a paraboloid's square, a multiple of 16"},
+            SettingField{"disk", &SsvpSettings::disk, 0, 0, "",
+                         "sample the paraboloids' disks; off: the squares round them"}};
+    }
 
     bool operator==(const SsvpSettings&) const = default;
 };

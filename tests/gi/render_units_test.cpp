@@ -19,19 +19,19 @@ RenderScene sceneOf(float diagonal, float irradiance) {
 TEST(RenderUnits, OrdinaryScenesStayInMetresAndWatts) {
     for (const float diagonal : {0.5f, 3.0f, 200.0f})
         for (const float irradiance : {0.01f, 1.0f, 200.0f})
-            EXPECT_EQ(chooseUnits(sceneOf(diagonal, irradiance), 0, {}), RenderUnits{});
-    EXPECT_EQ(chooseUnits(sceneOf(3, 0), 0, {1, 32}).light, 32) << "without light the unit stays";
+            EXPECT_EQ(render::chooseUnits(sceneOf(diagonal, irradiance), 0, {}), RenderUnits{});
+    EXPECT_EQ(render::chooseUnits(sceneOf(3, 0), 0, {1, 32}).light, 32) << "without light the unit stays";
 }
 
 TEST(RenderUnits, OthersComeNearOne) {
     for (const float factor : {1e-6f, 1e-3f, 1e4f, 1e6f}) {
         const RenderScene scene = sceneOf(8 * factor, factor);
-        const RenderUnits units = chooseUnits(scene, 0, {});
+        const RenderUnits units = render::chooseUnits(scene, 0, {});
         EXPECT_LT(std::abs(std::log2(factor / units.length)), 3);
         EXPECT_LT(std::abs(std::log2(factor / units.light)), 3);
-        EXPECT_EQ(chooseUnits(scene, 0, units), units);
+        EXPECT_EQ(render::chooseUnits(scene, 0, units), units);
     }
-    EXPECT_GT(chooseUnits(sceneOf(8, 1), 1e6f, {}).light, 1e5f) << "what emits counts, too";
+    EXPECT_GT(render::chooseUnits(sceneOf(8, 1), 1e6f, {}).light, 1e5f) << "what emits counts, too";
 }
 
 TEST(RenderUnits, ConversionIsExactAndLeavesTheImageWhereItIs) {
