@@ -1,0 +1,23 @@
+#include "gi/library/embedded_shaders.h"
+
+#include <algorithm>
+
+namespace ag::guest {
+
+Result<gpu::ShaderModule> embeddedShader(const std::string& path) {
+    const auto all = embeddedShaders();
+    const auto found = std::ranges::find_if(all, [&](const EmbeddedShader& s) { return path == s.path; });
+    if (found == all.end()) return Error{"the library was built without the shader " + path};
+    gpu::ShaderModule module{
+        .path = path,
+        .stage = VkShaderStageFlagBits(found->stage),
+        .spirv = {found->words, found->words + found->wordCount},
+        .pushSizeBytes = found->pushSizeBytes,
+        .workgroupSize = {found->workgroupSize[0], found->workgroupSize[1], found->workgroupSize[2]},
+        .specConstantIds = {found->constantIds, found->constantIds + found->constantCount}};
+    for (const Binding& b : std::span(found->bindings, found->bindingCount))
+        module.bindings.push_back({b.name, gpu::BindingKind(b.kind), b.set, b.binding, b.reads, b.writes});
+    return module;
+}
+
+}  // namespace ag::guest

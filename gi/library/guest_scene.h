@@ -1,0 +1,110 @@
+// A host's world: what is behind an AgiScene. Nothing here is on the device but the sets that draws bind.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/core/render_probe.h"
+#include "gi/bounce_points.h"
+#include "gi/inputs.h"
+#include "gi/library/guest_context.h"
+
+namespace ag::guest {
+
+struct GuestMaterial {
+    glm::vec3 albedo{1}, mean{1};
+    VkImageView map = VK_NULL_HANDLE;
+    float alphaCutoff = 0, coverage = 1;
+    bool doubleSided = false;
+};
+
+struct GuestMesh {
+    AgiMesh given;  // its buffers; host pointers are not kept
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec2> uvs;
+    std::vector<uint32_t> indices;
+    Bounds bounds;  // m, of the mesh itself
+    bool there = true;
+    uint32_t instances = 0;
+};
+
+struct GuestInstance {
+    uint64_t id = 0;
+    uint32_t mesh = 0;
+    bool movable = false;
+    glm::dvec3 position{0};
+    glm::mat3 linear{1};
+    uint64_t moved = 0;  // version of the scene when it was set last
+};
+
+struct GuestLight {
+    gi::RsmLight light;  // but for its position
+    glm::dvec3 position{0};
+};
+
+struct GuestProbe {
+    uint64_t id = 0;
+    glm::dvec3 position{0};
+    glm::vec3 normal{0};
+};
+
+// Points on all surfaces, in the meshes' own coordinates; areas in m².
+struct GuestPoints {
+    uint64_t set = 0;  // which instances and meshes they are on
+    gi::SurfaceSamples samples;
+    std::vector<io::BouncePoint> bounces;
+};
+
+class GuestScene {
+  public:
+    explicit GuestScene(GuestContext& context) : context_(context) {}
+
+    // What was asked for, already found to be possible.
+    uint32_t addMaterials(std::vector<GuestMaterial> materials);
+    void updateMaterials(uint32_t first, std::vector<GuestMaterial> materials);
+    uint32_t addMeshes(std::vector<GuestMesh> meshes);
+    void removeMeshes(uint32_t first, uint32_t count);
+    void setInstance(const GuestInstance& instance);
+    void removeInstance(uint64_t id);
+    void setLights(std::vector<GuestLight> lights);
+    void setProbes(std::vector<GuestProbe> probes) { probes_ = std::move(probes); }
+
+    const std::vector<GuestMaterial>& materials() const { return materials_; }
+    const std::vector<GuestMesh>& meshes() const { return meshes_; }
+    const std::vector<GuestInstance>& instances() const { return instances_; }
+    const std::vector<GuestLight>& lights() const { return lights_; }
+    const std::vector<GuestProbe>& probes() const { return probes_; }
+    bool has(uint64_t instance) const { return rowOf_.contains(instance); }
+
+    GuestContext& context() const { return context_; }
+    // Numbers that change with what they are about; never 0.
+    uint64_t setVersion() const { return setVersion_; }      // which instances and meshes there are
+    uint64_t movedVersion() const { return movedVersion_; }  // where anything stands
+    uint64_t lightsVersion() const { return lightsVersion_; }
+    uint64_t drawnVersion() const { return drawnVersion_; }  // materials and meshes, as light maps show them
+
+    // Chosen anew if the set changed: some 100 ms for a large scene.
+    const GuestPoints& points();
+    // In the world; m.
+    struct DoubleBounds {
+        glm::dvec3 min{1e300}, max{-1e300};
+    };
+    DoubleBounds bounds() const;
+    static Bounds boundsOf(const GuestInstance& instance, const Bounds& local, glm::dvec3 origin);
+
+  private:
+    GuestContext& context_;
+    std::vector<GuestMaterial> materials_;
+    std::vector<GuestMesh> meshes_;
+    std::vector<GuestInstance> instances_;
+    std::unordered_map<uint64_t, size_t> rowOf_;
+    std::vector<GuestLight> lights_;
+    std::vector<GuestProbe> probes_;
+    uint64_t setVersion_ = 1, movedVersion_ = 1, lightsVersion_ = 1, drawnVersion_ = 1;
+    GuestPoints points_;
+};
+
+}  // namespace ag::guest

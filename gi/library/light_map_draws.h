@@ -1,0 +1,38 @@
+// A host's triangles drawn into reflective shadow maps, by a pass that records by itself.
+#pragma once
+
+#include "gi/library/scene_on_device.h"
+#include "gi/rsm.h"
+
+namespace ag::guest {
+
+class LightMapDraws {
+  public:
+    explicit LightMapDraws(GuestContext& context) : context_(context) {}
+    ~LightMapDraws();
+    LightMapDraws(const LightMapDraws&) = delete;
+    LightMapDraws& operator=(const LightMapDraws&) = delete;
+
+    // Declares the pass; `scene` and `device` live until the graph is executed.
+    void add(GraphScope scope, const GuestScene& scene, const SceneOnDevice& device, BufferHandle instances,
+             gi::RsmSet& rsm);
+
+  private:
+    struct Draw {
+        uint32_t row, mesh;
+    };
+    void listDraws(const GuestScene& scene, const SceneOnDevice& device, const glm::mat4& clipFromWorld);
+    void record(const PassRecording& to, const GuestScene& scene, const gi::RsmSet& rsm);
+    void drawFace(const PassRecording& to, const GuestScene& scene, const io::RsmFace& face,
+                  std::span<const Draw> draws);
+    void makeSets(const GuestScene& scene, const gpu::Pipeline& pipeline);
+
+    GuestContext& context_;
+    std::vector<Draw> draws_;
+    std::vector<size_t> firstOfFace_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::vector<VkDescriptorSet> sets_;  // by material
+    uint64_t setsOf_ = 0;
+};
+
+}  // namespace ag::guest

@@ -1,0 +1,221 @@
+#include "gi/library/scene_on_device.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "engine/core/hash.h"
+#include "shaders/scene/scene_io.h"
+
+namespace ag::guest {
+namespace {
+
+constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr double kOriginReach =
+    256;  // m, from the camera: floats are good to a fiftieth of a millimetre there
+
+io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 at, float perMetre) {
+    const glm::mat3 rows = glm::transpose(instance.linear * perMetre);
+    return {.worldFromLocal0 = {rows[0], at.x},
+            .worldFromLocal1 = {rows[1], at.y},
+            .worldFromLocal2 = {rows[2], at.z},
+            .ids = {material, instance.mesh, io::kNoFigure, 0}};
+}
+
+}  // namespace
+
+SceneOnDevice::~SceneOnDevice() {
+    for (auto* buffer : {&instances_, &samples_, &pointAreas_, &bouncePoints_})
+        gpu::retire(context_, std::move(*buffer));
+}
+
+bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
+    const bool other = scene_ != &scene;
+    if (other) {
+        scene_ = &scene;
+        ++scenes_;
+        setVersion_ = movedVersion_ = lightsVersion_ = pointsSet_ = 0;
+        originIsChosen_ = false;
+        units_ = {};
+        extent_ = 0;
+    }
+    if (camera_ != camera) ++cameras_;
+    camera_ = camera;
+    follow(camera);
+    const gi::RenderUnits before = units_;
+    chooseUnits(scene);
+    allAnew_ = allAnew_ || setVersion_ != scene.setVersion() || !(units_ == before);
+    takePoints(scene);
+    takeInstances(scene);
+    takeLights(scene);
+    return other || !(units_ == before);
+}
+
+// The origin moves rarely: all that is known in the world is lost then.
+void SceneOnDevice::follow(glm::dvec3 camera) {
+    if (originIsChosen_ && glm::distance(camera, origin_) < kOriginReach) return;
+    origin_ = camera;
+    originIsChosen_ = true;
+    allAnew_ = true;
+    ++origins_;
+}
+
+void SceneOnDevice::chooseUnits(const GuestScene& scene) {
+    const auto all = scene.bounds();
+    bounds_ = {};
+    if (scene.instances().empty()) return;
+    const Bounds metres{glm::vec3(all.min - origin_), glm::vec3(all.max - origin_)};
+    const float diagonal = glm::length(metres.max - metres.min);
+    float most = 0;
+    for (const GuestLight& l : scene.lights())
+        most = std::max(most, gi::irradianceOf(l.light.intensity, l.light.kind == LightKind::kDirectional,
+                                               l.light.range, diagonal));
+    units_ = gi::chooseUnits(metres, most, units_);
+    bounds_ = {metres.min / units_.length, metres.max / units_.length};
+    extent_ = gi::steadyExtent(bounds_, extent_);
+}
+
+void SceneOnDevice::stage(std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {
+    copies_.push_back({&to, offset, bytes_.size(), bytes.size()});
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+}
+
+template <class T>
+std::unique_ptr<gpu::Buffer> SceneOnDevice::make(const char* name, std::span<const T> items,
+                                                 VkFormat texelFormat) {
+    auto buffer = std::make_unique<gpu::Buffer>(
+        context_, gpu::BufferDesc{.name = name,
+                                  .sizeBytes = std::max<uint64_t>(items.size_bytes(), 64),
+                                  .texelFormat = texelFormat});
+    if (!items.empty()) stage(std::as_bytes(items), *buffer, 0);
+    return buffer;
+}
+
+void SceneOnDevice::takePoints(GuestScene& scene) {
+    const GuestPoints& points = scene.points();
+    const uint64_t set = combineHash(points.set, hashValue(units_.length));
+    if (pointsSet_ == set) return;
+    pointsSet_ = set;
+    const float area = 1 / (units_.length * units_.length);
+    std::vector<float> areas = points.samples.pointAreas;
+    for (float& a : areas)
+        a *= area;
+    std::vector<io::BouncePoint> bounces = points.bounces;
+    for (io::BouncePoint& b : bounces)
+        b.area *= area;
+    sampleCount_ = uint32_t(points.samples.samples.size());
+    stillCount_ = points.samples.stillCount;
+    bounceCount_ = uint32_t(bounces.size());
+    for (auto* buffer : {&samples_, &pointAreas_, &bouncePoints_})
+        gpu::retire(context_, std::move(*buffer));
+    samples_ = make("guest.samples", std::span<const io::SurfaceSample>(points.samples.samples), kVec4Texels);
+    pointAreas_ = make("guest.point_areas", std::span<const float>(areas), VK_FORMAT_R32_SFLOAT);
+    bouncePoints_ =
+        make("guest.bounce_points", std::span<const io::BouncePoint>(bounces), VK_FORMAT_UNDEFINED);
+}
+
+void SceneOnDevice::takeInstances(GuestScene& scene) {
+    const auto& instances = scene.instances();
+    const uint64_t bytes = std::max<uint64_t>(instances.size(), 1) * sizeof(io::Instance);
+    if (!instances_ || instances_->sizeBytes() < bytes) {
+        gpu::retire(context_, std::move(instances_));
+        instances_ = std::make_unique<gpu::Buffer>(context_, gpu::BufferDesc{.name = "guest.instances",
+                                                                             .sizeBytes = bytes + bytes / 2,
+                                                                             .texelFormat = kVec4Texels});
+        allAnew_ = true;
+    }
+    rowBounds_.resize(instances.size());
+    rowVersions_.resize(instances.size());
+    moved_.clear();
+    bool stillMoved = allAnew_;
+    size_t movedCount = 0;
+    const float perMetre = 1 / units_.length;
+    for (size_t row = 0; row < instances.size(); ++row) {
+        const GuestInstance& instance = instances[row];
+        if (!allAnew_ && instance.moved <= movedVersion_) continue;
+        ++movedCount;
+        stillMoved = stillMoved || !instance.movable;
+        const GuestMesh& mesh = scene.meshes()[instance.mesh];
+        const io::Instance packed = rowOf(instance, mesh.given.material, toOurs(instance.position), perMetre);
+        stage(std::as_bytes(std::span(&packed, 1)), *instances_, row * sizeof packed);
+        const Bounds b = GuestScene::boundsOf(instance, mesh.bounds, origin_);
+        rowBounds_[row] = {b.min * perMetre, b.max * perMetre};
+        rowVersions_[row] = combineHash(instance.moved, origins_);
+        if (movedCount <= gi::kMostMovedThings)
+            moved_.push_back({uint32_t(row), 0.5f * (rowBounds_[row].min + rowBounds_[row].max),
+                              0.5f * glm::length(rowBounds_[row].max - rowBounds_[row].min)});
+    }
+    if (allAnew_ || movedCount > gi::kMostMovedThings) moved_.clear();
+    if (stillMoved) ++stillVersion_;
+    allAnew_ = false;
+    setVersion_ = scene.setVersion();
+    movedVersion_ = scene.movedVersion();
+}
+
+void SceneOnDevice::takeLights(const GuestScene& scene) {
+    const float perMetre = 1 / units_.length, perWatt = 1 / units_.light;
+    lightsVersion_ = scene.lightsVersion();
+    lights_.clear();
+    for (const GuestLight& l : scene.lights()) {
+        gi::RsmLight light = l.light;
+        light.position = toOurs(l.position);
+        light.range *= perMetre;
+        light.intensity *= light.kind == LightKind::kDirectional ? perWatt : perWatt * perMetre * perMetre;
+        lights_.push_back(light);
+    }
+    probes_.clear();
+    for (const GuestProbe& p : scene.probes())
+        probes_.push_back({.position = toOurs(p.position), .normal = p.normal, .id = p.id});
+}
+
+void SceneOnDevice::upload(VkCommandBuffer commands) {
+    if (copies_.empty()) return;
+    auto staging = std::make_unique<gpu::Buffer>(
+        context_, gpu::BufferDesc{.name = "guest.staging", .sizeBytes = bytes_.size(), .hostVisible = true});
+    std::memcpy(staging->mapped(), bytes_.data(), bytes_.size());
+    const auto barrier = [&](VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
+                             VkAccessFlags2 access) {
+        const VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, from, written, to, access};
+        const VkDependencyInfo info{
+            .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &memory};
+        context_.vk().CmdPipelineBarrier2(commands, &info);
+    };
+    barrier(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_COPY_BIT,
+            VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    for (const Copy& copy : copies_) {
+        const VkBufferCopy region{copy.from, copy.offset, copy.sizeBytes};
+        context_.vk().CmdCopyBuffer(commands, staging->handle(), copy.to->handle(), 1, &region);
+    }
+    barrier(VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);
+    gpu::retire(context_, std::move(staging));
+    copies_.clear();
+    bytes_.clear();
+}
+
+gi::World SceneOnDevice::world() const {
+    return {.lights = lights_,
+            .bounds = bounds_,
+            .versions = {.scene = combineHash(scenes_, setVersion_),
+                         .instances = combineHash(combineHash(movedVersion_, setVersion_), origins_),
+                         .lights = lightsVersion_ + 1,
+                         .camera = cameras_ + 1,
+                         .origin = origins_},
+            .moved = moved_,
+            .extent = extent_};
+}
+
+gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
+    gi::Occluders o{.instances = scope.importBuffer("guest.instances", *instances_, 1),
+                    .sampleCount = sampleCount_,
+                    .stillSampleCount = stillCount_,
+                    .stillVersion = combineHash(combineHash(pointsSet_, stillVersion_), origins_),
+                    .extent = extent_};
+    if (sampleCount_ == 0) return o;
+    o.samples = scope.importBuffer("guest.samples", *samples_, pointsSet_);
+    o.pointAreas = scope.importBuffer("guest.point_areas", *pointAreas_, pointsSet_);
+    o.bouncePoints = scope.importBuffer("guest.bounce_points", *bouncePoints_, pointsSet_);
+    o.bouncePointCount = bounceCount_;
+    return o;
+}
+
+}  // namespace ag::guest

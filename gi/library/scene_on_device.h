@@ -1,0 +1,74 @@
+// A host's world in device memory, in the units and about the origin that one view renders it in.
+#pragma once
+
+#include "engine/frame/frame_graph.h"
+#include "engine/gpu/resources.h"
+#include "gi/library/guest_scene.h"
+#include "gi/units.h"
+
+namespace ag::guest {
+
+class SceneOnDevice {
+  public:
+    explicit SceneOnDevice(gpu::Context& context) : context_(context) {}
+    ~SceneOnDevice();
+    SceneOnDevice(const SceneOnDevice&) = delete;
+    SceneOnDevice& operator=(const SceneOnDevice&) = delete;
+
+    // Takes what changed since last time; nothing is recorded yet. True if all that was known of the light is
+    // lost: another scene, other units.
+    bool update(GuestScene& scene, glm::dvec3 camera);
+    // Records the copies of what was taken.
+    void upload(VkCommandBuffer commands);
+
+    gi::RenderUnits units() const { return units_; }
+    glm::vec3 toOurs(glm::dvec3 world) const { return glm::vec3((world - origin_) / double(units_.length)); }
+    // Of the frame: valid until the next update().
+    gi::World world() const;
+    gi::Occluders occluders(GraphScope scope) const;
+    std::span<const RenderProbe> probes() const { return probes_; }
+    // Of an instance, in our units.
+    const Bounds& boundsOf(size_t row) const { return rowBounds_[row]; }
+    const std::vector<uint64_t>& rowVersions() const { return rowVersions_; }
+    uint64_t setVersion() const { return setVersion_; }
+
+  private:
+    struct Copy {
+        const gpu::Buffer* to;
+        uint64_t offset = 0, from = 0, sizeBytes = 0;  // `from`: in bytes_
+    };
+    void follow(glm::dvec3 camera);
+    void chooseUnits(const GuestScene& scene);
+    void takeInstances(GuestScene& scene);
+    void takePoints(GuestScene& scene);
+    void takeLights(const GuestScene& scene);
+    void stage(std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset);
+    template <class T>
+    std::unique_ptr<gpu::Buffer> make(const char* name, std::span<const T> items, VkFormat texelFormat);
+    void noteStill(bool stillMoved, uint64_t set);
+
+    gpu::Context& context_;
+    const GuestScene* scene_ = nullptr;
+    uint64_t setVersion_ = 0, movedVersion_ = 0, lightsVersion_ = 0, stillVersion_ = 0;
+    glm::dvec3 origin_{0};
+    bool originIsChosen_ = false;
+    gi::RenderUnits units_;
+    uint64_t scenes_ = 0, origins_ = 1, cameras_ = 0;
+    glm::dvec3 camera_{0};
+    Bounds bounds_;
+    float extent_ = 0;
+    bool allAnew_ = true;  // every row: origin, units or set are others
+
+    std::unique_ptr<gpu::Buffer> instances_, samples_, pointAreas_, bouncePoints_;
+    uint32_t sampleCount_ = 0, stillCount_ = 0, bounceCount_ = 0;
+    uint64_t pointsSet_ = 0;
+    std::vector<Bounds> rowBounds_;
+    std::vector<uint64_t> rowVersions_;
+    std::vector<gi::RsmLight> lights_;
+    std::vector<RenderProbe> probes_;
+    std::vector<gi::MovedThing> moved_;
+    std::vector<Copy> copies_;
+    std::vector<std::byte> bytes_;
+};
+
+}  // namespace ag::guest

@@ -1,0 +1,69 @@
+// Shaders into a library: their bytes by the assembler's .incbin, and a table of what reflection says of
+// them, so that nothing is read or reflected at run time.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "engine/core/safe_file.h"
+#include "engine/gpu/shader_files.h"
+
+namespace {
+
+using namespace ag::gpu;
+
+std::string rowsOf(const ShaderModule& module, size_t index) {
+    std::string out = fmt::format("const Binding bindings{}[] = {{", index);
+    for (const ShaderBinding& b : module.bindings)
+        out += fmt::format("{{\"{}\", {}, {}, {}, {}, {}}}, ", b.name, int(b.kind), b.set, b.binding,
+                           int(b.reads), int(b.writes));
+    out += fmt::format("{{}}}};\nconst uint32_t constants{}[] = {{", index);
+    for (const uint32_t id : module.specConstantIds)
+        out += fmt::format("{}, ", id);
+    return out + "0};\n";
+}
+
+std::string entryOf(const ShaderModule& module, size_t index) {
+    return fmt::format(
+        "    {{\"{}\", {}, afterglow_shader{}, {}, bindings{}, {}, constants{}, {}, {}, {{{}, {}, {}}}}},\n",
+        module.path, int(module.stage), index, module.spirv.size(), index, module.bindings.size(), index,
+        module.specConstantIds.size(), module.pushSizeBytes, module.workgroupSize.x, module.workgroupSize.y,
+        module.workgroupSize.z);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    if (count < 5) {
+        std::cerr << "afterglow-embed TABLE.cpp BYTES.S FOLDER SHADER...\n";
+        return 2;
+    }
+    std::string rows, entries, externs, bytes = "    .section .rodata\n";
+    for (int i = 4; i < count; ++i) {
+        const auto module = loadShader(arguments[i]);
+        if (!module) {
+            std::cerr << module.error().message << '\n';
+            return 2;
+        }
+        const size_t index = size_t(i) - 4;
+        rows += rowsOf(*module, index);
+        entries += entryOf(*module, index);
+        externs += fmt::format("extern const uint32_t afterglow_shader{}[];\n", index);
+        bytes += fmt::format(
+            "    .balign 16\n    .globl afterglow_shader{0}\n    .hidden afterglow_shader{0}\n"
+            "afterglow_shader{0}:\n    .incbin \"{1}/{2}.spv\"\n",
+            index, arguments[3], arguments[i]);
+    }
+    bytes += "    .section .note.GNU-stack,\"\",%progbits\n";
+    const std::string table =
+        "// Made by tools/embed.\n#include \"gi/library/embedded_shaders.h\"\n\nextern \"C\" {\n" + externs +
+        "}\n\nnamespace ag::guest {\nnamespace {\n\n" + rows + "\nconst EmbeddedShader kTable[] = {\n" +
+        entries +
+        "};\n\n}  // namespace\n\nstd::span<const EmbeddedShader> embeddedShaders() {\n"
+        "    return kTable;\n}\n\n}  // namespace ag::guest\n";
+    for (const auto& [path, text] : {std::pair(arguments[1], table), std::pair(arguments[2], bytes)})
+        if (const ag::Status written = ag::writeFileSafely(path, text); !written) {
+            std::cerr << written.error().message << '\n';
+            return 2;
+        }
+    return 0;
+}
