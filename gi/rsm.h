@@ -2,7 +2,7 @@
 // one square face round its cone, the sun one over the scene's bounds, a point light all six faces of a cube
 // at half the resolution each; where lights together would have more than six faces of 512² texels, all are
 // halved. A texel becomes an emitter with its flux in W and its area in m² (units:
-// docs/techniques.md).
+// docs/techniques).
 #pragma once
 
 #include <array>

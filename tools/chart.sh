@@ -12,7 +12,7 @@ lamps=lamps:80,lamps:1024
 "$build/bin/afterglow" bench --scenes "$lamps" --techniques lights-reference,lightcluster,afterglow-lights \
   --no-flicker --no-path-tracing --plot docs/images/lamps_error_time.svg --markdown out/lamps_table.md "$@"
 {
-  printf '# Time against error\n\nWritten by `tools/chart.sh`. How it is measured: docs/techniques.md.\n\n'
+  printf '# Time against error\n\nWritten by `tools/chart.sh`. How it is measured: docs/techniques/measuring.md.\n\n'
   printf '![Chart of time against error](images/error_time.svg)\n\n'
   cat out/bench_table.md
   printf '\n# Many lamps\n\n![Chart of time against error](images/lamps_error_time.svg)\n\n'

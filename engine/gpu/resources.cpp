@@ -206,6 +206,8 @@ uint32_t texelSizeBytes(VkFormat format) {
         case VK_FORMAT_R8G8B8A8_UNORM:
         case VK_FORMAT_R8G8B8A8_SRGB:
         case VK_FORMAT_B8G8R8A8_UNORM:
+        case VK_FORMAT_R16G16_SNORM:
+        case VK_FORMAT_R16G16_UNORM:
         case VK_FORMAT_R32_SFLOAT:
         case VK_FORMAT_R32_UINT:
         case VK_FORMAT_D32_SFLOAT:

@@ -16,6 +16,7 @@ using namespace ag::guest;
 struct AgiContext_T {
     explicit AgiContext_T(const AgiContextInfo& info) : context(info) {}
     GuestContext context;
+    std::vector<AgiView> views;
     bool lost = false;  // the device is
 };
 
@@ -27,7 +28,10 @@ struct AgiScene_T {
 
 struct AgiView_T {
     AgiView_T(AgiContext context, const gi::BounceLightSettings& settings)
-        : owner(context), view(context->context, settings) {}
+        : owner(context), view(context->context, settings) {
+        context->views.push_back(this);
+    }
+    ~AgiView_T() { std::erase(owner->views, this); }
     AgiContext owner;
     GuestView view;
     std::vector<std::string> names, values;  // that agiGetOption handed out
@@ -197,6 +201,13 @@ void refuseBadFrame(const AgiFrame& f, uint64_t lastFrame) {
     refuseUnless(isRotation(f.viewFromWorld), "a frame's viewFromWorld is not a rotation");
     refuseUnless(isPerspective(f.clipFromView), "a frame's clipFromView is not a perspective");
     refuseBadImages(f);
+}
+
+// Nothing of the frame's command buffer will be executed: what its views know of the device is not so.
+void startAnewAfter(AgiContext context, AgiView failed, uint64_t frame) noexcept {
+    context->context.forgetFrame(frame);
+    for (AgiView view : context->views)
+        if (view == failed || view->view.last.frame == frame) (void)across([&] { view->view.startAnew(); });
 }
 
 std::string requirementsMissing(const gpu::DeviceInfo& info) {
@@ -388,6 +399,7 @@ AgiResult agiCreateView(AgiContext context, const AgiViewInfo* given, AgiView* v
         gi::BounceLightSettings settings;
         refuseUnless(gi::applyQuality(info.preset ? info.preset : "medium", settings),
                      "a preset is low, medium, high or ultra");
+        settings.laterBounces.enabled = true;  // what comes out is all of the bounced light
         *view = new AgiView_T(context, settings);
         (*view)->view.last.width = info.width;
         (*view)->view.last.height = info.height;
@@ -438,7 +450,7 @@ AgiResult agiPrepare(AgiView view, AgiScene scene) {
 
 AgiResult agiRecord(AgiView view, AgiScene scene, VkCommandBuffer commands, const AgiFrame* given) {
     if (!view) return across([] { refuseUnless(false, "view is null"); });
-    bool begun = false;
+    uint64_t begun = 0;
     const AgiResult result = acrossOn(view->owner, [&] {
         refuseUnless(scene && scene->owner == view->owner, "scene is null or another context's");
         refuseUnless(commands != VK_NULL_HANDLE, "commands are null");
@@ -446,14 +458,10 @@ AgiResult agiRecord(AgiView view, AgiScene scene, VkCommandBuffer commands, cons
         GuestContext& context = view->owner->context;
         refuseBadFrame(frame, context.lastFrame());
         context.beginFrame(frame.frame, frame.framesDone);
-        begun = true;
+        begun = frame.frame;
         view->view.record(scene->scene, commands, frame);
     });
-    if (result != AGI_OK && begun) {
-        const std::string sentence = lastError();  // of the failure, whatever comes of starting anew
-        (void)across([&] { view->view.startAnew(); });
-        (void)across([&] { refuseUnless(false, sentence.c_str()); });
-    }
+    if (result != AGI_OK && begun) startAnewAfter(view->owner, view, begun);
     return result;
 }
 

@@ -79,7 +79,7 @@ void GuestContext::makeSampler() {
 }
 
 void GuestContext::fillWhite(VkCommandBuffer commands) {
-    if (whiteIsFilled_) return;
+    if (whiteFrame_ != 0) return;
     const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     const VkClearColorValue white{{1, 1, 1, 1}};
     gpu::transitionImage(gpu_.vk(), commands, white_.handle(), all, VK_IMAGE_LAYOUT_UNDEFINED,
@@ -88,7 +88,11 @@ void GuestContext::fillWhite(VkCommandBuffer commands) {
                                  &all);
     gpu::transitionImage(gpu_.vk(), commands, white_.handle(), all, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    whiteIsFilled_ = true;
+    whiteFrame_ = lastFrame_;
+}
+
+void GuestContext::forgetFrame(uint64_t frame) {
+    if (whiteFrame_ == frame) whiteFrame_ = 0;
 }
 
 void GuestContext::beginFrame(uint64_t frame, uint64_t framesDone) {

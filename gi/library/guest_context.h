@@ -23,11 +23,12 @@ class GuestContext {
     VkImageView white() const { return white_.view(); }
     // Once, into the first command buffer of all.
     void fillWhite(VkCommandBuffer commands);
+    // What was recorded into the frame's command buffer will not be executed.
+    void forgetFrame(uint64_t frame);
 
     // Of a frame that is about to be recorded.
     void beginFrame(uint64_t frame, uint64_t framesDone);
     uint64_t lastFrame() const { return lastFrame_; }
-    uint32_t users = 0;  // scenes and views that are there
 
   private:
     void makeSampler();
@@ -36,7 +37,7 @@ class GuestContext {
     gpu::PipelineLibrary pipelines_;
     gpu::Image white_;
     VkSampler albedoSampler_ = VK_NULL_HANDLE;
-    bool whiteIsFilled_ = false;
+    uint64_t whiteFrame_ = 0;  // that fills it; 0: none yet
     uint64_t lastFrame_ = 0;
 };
 

@@ -228,10 +228,11 @@ void GuestView::record(GuestScene& scene, VkCommandBuffer commands, const AgiFra
 void GuestView::prepare(GuestScene& scene, const AgiFrame& f) {
     surfaces_->update(scene, glm::dvec3(f.cameraPosition[0], f.cameraPosition[1], f.cameraPosition[2]));
     noteCamera(f);
-    graph_->beginFrame({});
-    gi::BounceLightHistory unused = history_;
-    declare(*graph_, scene, f, Images(), unused);
-    graph_->preparePipelines();
+    FrameGraph plan(&context_.gpu(), &context_.pipelines());  // its own, so that no frame counts as drawn
+    plan.beginFrame({});
+    gi::BounceLightHistory none;
+    declare(plan, scene, f, Images(), none);
+    plan.preparePipelines();
 }
 
 float GuestView::settled() const {

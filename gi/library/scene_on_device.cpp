@@ -10,8 +10,8 @@ namespace ag::guest {
 namespace {
 
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr double kOriginReach =
-    256;  // m, from the camera: floats are good to a fiftieth of a millimetre there
+constexpr double kOriginReach = 256;  // m from the camera: floats are good to 0.02 mm there
+constexpr double kOriginStep = 16;    // m: the same origin wherever in a place the first camera stood
 
 io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 at, float perMetre) {
     const glm::mat3 rows = glm::transpose(instance.linear * perMetre);
@@ -53,7 +53,7 @@ bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
 // The origin moves rarely: all that is known in the world is lost then.
 void SceneOnDevice::follow(glm::dvec3 camera) {
     if (originIsChosen_ && glm::distance(camera, origin_) < kOriginReach) return;
-    origin_ = camera;
+    origin_ = kOriginStep * glm::round(camera / kOriginStep);
     originIsChosen_ = true;
     allAnew_ = true;
     ++origins_;

@@ -1,5 +1,5 @@
 // The papers' systems, each a list of passes of its own over those of gi/: baselines to measure ours against.
-// Light of the first bounce alone but where said otherwise. docs/techniques.md: sources, deviations, errors.
+// Light of the first bounce alone but where said otherwise. docs/techniques: sources, deviations, errors.
 #pragma once
 
 #include "gi/bounce_light.h"

@@ -310,8 +310,9 @@ typedef struct AgiFrame {
 } AgiFrame;
 
 /* Records the frame's indirect light into `commands`, which is in the recording state. After an error the
- * command buffer must not be submitted; out of memory and AGI_ERROR_INTERNAL also make the view start anew.
- * Without any light that bounces the results are black. */
+ * command buffer must not be submitted; record the frame again, with the same number, into another one.
+ * Unless it was AGI_ERROR_ARGUMENT, all views of that frame start anew. Without any light that bounces the
+ * results are black. */
 AGI_API AgiResult agiRecord(AgiView view, AgiScene scene, VkCommandBuffer commands, const AgiFrame* frame);
 
 /* ---- What happened ---- */
