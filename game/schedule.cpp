@@ -54,7 +54,7 @@ Schedule makeFrameSchedule() {
     // The renderer's view of it
     s.add("updateRootTransforms", updateRootTransforms);
     s.add("updateChildTransforms", updateChildTransforms);
-    s.add("poseFigures", poseFigures);
+    s.add("poseSkinnedMeshes", poseSkinnedMeshes);
     s.add("extractScene", extractScene);
     s.add("extractProbes", render::extractProbes);
     return s;

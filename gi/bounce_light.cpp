@@ -25,8 +25,8 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     addVisibility(scope, in, s.ismAtlas, f);
 
     // Gather on screen, at some of the pixels
-    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
-    f.bounce1 = addValShading(scope, thin, firstVals(f.vals, f.firstCount), f.isms, s.valShading,
+    const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
+    f.bounce1 = addValShading(scope, downsampled, firstVals(f.vals, f.firstCount), f.isms, s.valShading,
                               kFirstBounceShading, refresh.pixels);
     f.gloss = addValGloss(scope, in.surfaces, f.vals, f.isms, s.valShading, refresh.pixels);
 
@@ -34,11 +34,11 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     f.irradiance = f.bounce1;
     addLaterIrradiance(scope, f.laterLight, f.vals, f.firstCount, f.isms, s.laterBounces);
     if (f.bounce1.image && f.vals.count > f.firstCount)
-        f.irradiance = addLaterShading(scope, thin, f.bounce1, f.vals, f.firstCount, f.isms, s.valShading,
-                                       s.laterBounces.spacing);
+        f.irradiance = addLaterShading(scope, downsampled, f.bounce1, f.vals, f.firstCount, f.isms,
+                                       s.valShading, s.laterBounces.spacing);
 
     // To all pixels, and to the rules of a game
-    addToPixels(scope, in, thin, s, h, f);
+    addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
     return f;
 }
@@ -49,20 +49,20 @@ BounceLight addStochasticLight(GraphScope scope, const BounceLightInputs& in, co
     const Refresh refresh = chooseRefresh(in.world, in.surfaces.view, in.surfaces.size, s, h.refresh);
     const GraphScope lights = scope.held(!refresh.lights);
 
-    // Light maps, and clusters of their texels that share a shadow map
+    // RSMs, and clusters of their texels that share a shadow map
     f.viewPoints = addViewPoints(lights, in.surfaces);
     addAreaLights(lights, in, s, h, f);
     f.firstCount = f.vals.count;
     addVisibility(scope, in, s.ismAtlas, f);
 
     // Gather on screen, at some of the pixels
-    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
+    const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 =
-        addStochasticRsm(scope, in.world.versions, thin, f.rsm, {f.clusters, f.vals, f.isms}, s.stochasticRsm,
-                         h.stochasticRsm);
+        addStochasticRsm(scope, in.world.versions, downsampled, f.rsm, {f.clusters, f.vals, f.isms},
+                         s.stochasticRsm, h.stochasticRsm);
 
     // To all pixels, and to the rules of a game
-    addToPixels(scope, in, thin, s, h, f);
+    addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
     return f;
 }

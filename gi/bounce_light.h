@@ -53,7 +53,7 @@ struct BounceLight {
 BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                            BounceLightHistory& history);
 
-// The first bounce from a few samples of the light maps a pixel, seen through the same shadow maps, denoised.
+// The first bounce from a few samples of the RSMs a pixel, seen through the same shadow maps, denoised.
 BounceLight addStochasticLight(GraphScope scope, const BounceLightInputs& in,
                                const BounceLightSettings& settings, BounceLightHistory& history);
 

@@ -6,7 +6,7 @@ namespace ag::gi {
 namespace {
 
 uint32_t sharpBitsOf(const io::SurfaceSample& s) {
-    return std::bit_cast<uint32_t>(s.bendLocal);  // in its place: see FigureSample
+    return std::bit_cast<uint32_t>(s.bendLocal);  // in its place: see SkinnedSample
 }
 
 }  // namespace

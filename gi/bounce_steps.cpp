@@ -5,8 +5,8 @@
 
 namespace ag::gi {
 
-void addLightMaps(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
-                  BounceLightHistory& h, BounceLight& f) {
+void addRsms(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+             BounceLightHistory& h, BounceLight& f) {
     f.rsm = planRsm(scope, in.world, s.rsm, s.valClustering.count, f.laterLight, h.clusterShares);
     if (f.rsm.empty()) return;
     in.drawRsm(scope, f.rsm);
@@ -15,7 +15,7 @@ void addLightMaps(GraphScope scope, const BounceLightInputs& in, const BounceLig
 
 void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                    BounceLightHistory& h, BounceLight& f) {
-    addLightMaps(scope, in, s, h, f);
+    addRsms(scope, in, s, h, f);
     f.importance = addImportance(scope, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(scope, f.rsm, f.importance, s.valClustering, in.world.versions.camera,
                                   h.valClustering);
@@ -28,18 +28,19 @@ void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlas
     f.isms = addIsmAtlas(scope, f.surfacePoints, f.vals, s);
 }
 
-void addToPixels(GraphScope scope, const BounceLightInputs& in, Surfaces thin, const BounceLightSettings& s,
-                 BounceLightHistory& h, BounceLight& f) {
+void addToPixels(GraphScope scope, const BounceLightInputs& in, Surfaces downsampled,
+                 const BounceLightSettings& s, BounceLightHistory& h, BounceLight& f) {
     const bool goesOn = f.irradiance.image != f.bounce1.image;
     if (f.irradiance.image)
-        thin.motion = addThinImage(scope, "gbuffer.thin_motion", in.surfaces.motion, thin.spacing);
+        downsampled.motion =
+            addDownsampledImage(scope, "gbuffer.downsample_motion", in.surfaces.motion, downsampled.spacing);
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, in.world.versions.instances);
-    f.irradiance = addDenoiser(scope, thin, in.world.versions.origin, {f.irradiance, light, steps},
+    f.irradiance = addDenoiser(scope, downsampled, in.world.versions.origin, {f.irradiance, light, steps},
                                s.denoiser, h.denoiser);
-    f.irradiance = addUpsampling(scope, in.surfaces, thin, f.irradiance);
-    f.bounce1 =
-        goesOn ? addUpsampling(scope, in.surfaces, thin, f.bounce1, kFirstBounceUpsampling) : f.irradiance;
+    f.irradiance = addUpsampling(scope, in.surfaces, downsampled, f.irradiance);
+    f.bounce1 = goesOn ? addUpsampling(scope, in.surfaces, downsampled, f.bounce1, kFirstBounceUpsampling)
+                       : f.irradiance;
 }
 
 }  // namespace ag::gi

@@ -5,16 +5,16 @@
 
 namespace ag::gi {
 
-// Light maps, drawn by the host, with `f.laterLight` as one more; their texels.
-void addLightMaps(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
-                  BounceLightHistory& h, BounceLight& f);
+// RSMs, drawn by the host, with `f.laterLight` as one more; their texels.
+void addRsms(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+             BounceLightHistory& h, BounceLight& f);
 // The same, their texels clustered by what the view asks for, and an area light for each cluster.
 void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                    BounceLightHistory& h, BounceLight& f);
 // Points on surfaces, and what each light of `f.vals` sees of them.
 void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlasSettings& s, BounceLight& f);
-// The irradiance gathered at `thin` made steady and smooth, and brought to all pixels.
-void addToPixels(GraphScope scope, const BounceLightInputs& in, Surfaces thin, const BounceLightSettings& s,
-                 BounceLightHistory& h, BounceLight& f);
+// The irradiance gathered at `downsampled` made steady and smooth, and brought to all pixels.
+void addToPixels(GraphScope scope, const BounceLightInputs& in, Surfaces downsampled,
+                 const BounceLightSettings& s, BounceLightHistory& h, BounceLight& f);
 
 }  // namespace ag::gi

@@ -35,7 +35,7 @@ LaterLight addLaterLight(GraphScope scope, const Occluders& occluders, const Ver
     light.edges =
         scope.buffer("later_bounces.edges", {.sizeBytes = light.count * 2 * sizeof(io::SurfaceEdge)});
     PassBuilder emit =
-        scope.compute("later_bounces.emit", occluders.deformedPositions ? "later_bounces/emit_figures.comp"
+        scope.compute("later_bounces.emit", occluders.deformedPositions ? "later_bounces/emit_skinned.comp"
                                                                         : "later_bounces/emit.comp");
     emit.read("instances", occluders.instances)
         .read("points", occluders.bouncePoints)
@@ -98,10 +98,10 @@ Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irra
                            const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
                            const ValShadingSettings& shading, uint32_t spacing) {
     if (spacing == 1) return addValShading(scope, gbuffer, vals, isms, shading, kAllBouncesShading);
-    const Surfaces thinner = addThinned(scope, gbuffer, spacing, kLaterThinning);
+    const Surfaces downsampled = addDownsampled(scope, gbuffer, spacing, kLaterDownsampling);
     const Irradiance later =
-        addValShading(scope, thinner, laterVals(vals, firstLater), isms, shading, kLaterShading);
-    return addUpsampling(scope, gbuffer, thinner, later, kLaterUpsampling, bounce1);
+        addValShading(scope, downsampled, laterVals(vals, firstLater), isms, shading, kLaterShading);
+    return addUpsampling(scope, gbuffer, downsampled, later, kLaterUpsampling, bounce1);
 }
 
 }  // namespace ag::gi

@@ -1,5 +1,5 @@
 // Every bounce after the first: points spread over all surfaces reflect what fell on them a frame ago, as one
-// more light map beside those of the lights. Its texels are clustered, get shadow maps and light the screen
+// more RSM beside those of the lights. Its texels are clustered, get shadow maps and light the screen
 // like any other's, out of the same budget, and the points as well: the third bounce and all others follow
 // from frame to frame. After SSVP (Aranha et al.), whose second bounce is sampled from paraboloid maps of
 // clusters; here surfaces are sampled once, by area, so that flux is exact and nothing depends on the view.
@@ -40,7 +40,7 @@ struct LaterBouncesSettings {
     bool operator==(const LaterBouncesSettings&) const = default;
 };
 
-// The points' emission as texels of a light map, and where the light on them goes.
+// The points' emission as texels of an RSM, and where the light on them goes.
 struct LaterLight {
     BufferHandle texels;       // io::RsmTexel, tile by tile; invalid: no later bounces
     BufferHandle edges;        // io::SurfaceEdge, two a point: where its surface ends

@@ -1,6 +1,6 @@
 // Irradiance at points of the game, for rules and for things that are lit as a whole: bounced light from the
-// same area lights and shadow maps as on screen, direct light from the lights that bounce (those with a light
-// map, by its depth; others do not count). Read back without a stall: what is known is kFramesInFlight frames
+// same area lights and shadow maps as on screen, direct light from the lights that bounce (those with an
+// RSM, by its depth; others do not count). Read back without a stall: what is known is kFramesInFlight frames
 // old.
 #pragma once
 

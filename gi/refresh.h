@@ -29,7 +29,7 @@ struct RefreshHistory {
 };
 
 struct Refresh {
-    bool lights = true;  // light maps, what the view asks of clusters, clusters
+    bool lights = true;  // RSMs, what the view asks of clusters, clusters
     PixelShare pixels;
 };
 

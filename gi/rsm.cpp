@@ -54,7 +54,7 @@ RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings
     const RsmLayout layout = layoutRsm(world, settings, clusterBudget, shares, later.side, later.share);
     if (layout.mapCount == 0 || world.bounds.empty()) return rsm;
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
-    rsm.lightMapCount = layout.mapCount - (later.side > 0);
+    rsm.lightRsmCount = layout.mapCount - (later.side > 0);
     rsm.lightFaceCount = layout.faceCount - (later.side > 0);
     rsm.mapInfo = layout.maps;
     rsm.faceInfo = layout.faces;

@@ -21,7 +21,7 @@ struct RsmSettings {
     static constexpr auto fields() {
         return std::tuple{
             SettingField{"resolution", &RsmSettings::resolution, 0, 1024, "texels",
-                         "side of a light map, rounded down to a power of two, less with many lights; "
+                         "side of an RSM, rounded down to a power of two, less with many lights; "
                          "0: as each light says"},
             SettingField{"sun_margin", &RsmSettings::sunMargin, 0, 1, "",
                          "part of the scene's width added round a sun's map"}};
@@ -42,10 +42,10 @@ struct RsmSet {
     uint64_t inputsVersion = 0;  // changes when the texels do
     std::array<io::RsmMap, io::kMaxRsmMaps> mapInfo{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faceInfo{};
-    uint32_t lightMapCount = 0, lightFaceCount = 0;  // the first ones; one of surfaces may follow
+    uint32_t lightRsmCount = 0, lightFaceCount = 0;  // the first ones; one of surfaces may follow
     // Of the clusters, the first that is of surfaces.
     uint32_t firstLater() const {
-        return lightMapCount < atlas.mapCount ? mapInfo[lightMapCount].firstCluster : ~0u;
+        return lightRsmCount < atlas.mapCount ? mapInfo[lightRsmCount].firstCluster : ~0u;
     }
     bool empty() const { return atlas.mapCount == 0; }
 };

@@ -186,7 +186,7 @@ float emittedFlux(const RsmLight& light, const Bounds& sceneBounds) {
 
 namespace {
 
-void addLightMap(RsmLayout& layout, const RsmLight& light, const Bounds& bounds, const RsmSettings& settings,
+void addLightRsm(RsmLayout& layout, const RsmLight& light, const Bounds& bounds, const RsmSettings& settings,
                  uint32_t halvings) {
     io::RsmMap& map = layout.maps[layout.mapCount] = mapOf(light);
     map.firstFace = layout.faceCount;
@@ -220,7 +220,7 @@ RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t cl
         if (dark && steady.flux == 0) continue;
         sharers[shares.count] = {steady.flux, dark ? kNoMap : layout.mapCount};
         shares.lights[shares.count++] = steady;
-        if (!dark) addLightMap(layout, light, world.bounds, settings, halvings);
+        if (!dark) addLightRsm(layout, light, world.bounds, settings, halvings);
     }
     if (layout.mapCount == 0) return layout;
     uint32_t sharing = shares.count;

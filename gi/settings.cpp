@@ -6,7 +6,7 @@
 namespace ag::gi {
 namespace {
 
-// Lights, points a shadow map is made of, texels of light maps, and how many pixels are gathered.
+// Lights, points a shadow map is made of, texels of RSMs, and how many pixels are gathered.
 void setLow(BounceLightSettings& s) {
     s.rsm.resolution = 256;
     s.valClustering.count = 64;

@@ -134,18 +134,18 @@ Irradiance addStochasticRsm(GraphScope scope, const Versions& versions, const Su
                     .settings = settings};
 
     if (!settings.interpolate) {
-        for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
+        for (uint32_t m = 0; m < rsm.lightRsmCount; ++m)
             addGather(scope, kGatherNames[m], in, m, result.image, 1, false, m > 0)
                 .dispatchThreads(gbuffer.size.x * gbuffer.size.y);
         return result;
     }
     const glm::uvec2 coarseSize = (gbuffer.size + kCoarseStep - 1u) / kCoarseStep;
     const ImageHandle coarse = scope.image("stochastic_rsm.coarse", {.format = format, .size = coarseSize});
-    for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
+    for (uint32_t m = 0; m < rsm.lightRsmCount; ++m)
         addGather(scope, kGatherNames[m], in, m, coarse, kCoarseStep, false, m > 0)
             .dispatchThreads(coarseSize.x * coarseSize.y);
     addInterpolation(scope, in, coarse, result.image);
-    for (uint32_t m = 0; m < rsm.lightMapCount; ++m)
+    for (uint32_t m = 0; m < rsm.lightRsmCount; ++m)
         addGather(scope, kListedNames[m], in, m, result.image, 1, true, true)
             .dispatchIndirect(in.list.groups);
     return result;

@@ -1,4 +1,4 @@
-// First-bounce irradiance from samples of the light maps about each pixel's projection:
+// First-bounce irradiance from samples of the RSMs about each pixel's projection:
 // reflective shadow maps as Dachsbacher & Stamminger (2005) gather them, with one fixed pattern for all
 // pixels and, if asked for, their interpolation in screen space; or few samples, others in each pixel and
 // frame (improved reflective shadow maps), for the denoiser.
@@ -17,7 +17,7 @@
 namespace ag::gi {
 
 struct StochasticRsmSettings {
-    uint32_t samples = 400;    // of each light map, a pixel
+    uint32_t samples = 400;    // of each RSM, a pixel
     float radius = 0.3f;       // of the disk they lie in, in widths of the map: light beyond it is lost
     bool interpolate = false;  // gather every fourth pixel both ways and blend where surfaces are alike
     bool random = false;       // others in each pixel and frame
@@ -28,7 +28,7 @@ struct StochasticRsmSettings {
     static constexpr auto fields() {
         return std::tuple{
             SettingField{"samples", &StochasticRsmSettings::samples, 1, 4096, "samples",
-                         "of each light map, a pixel"},
+                         "of each RSM, a pixel"},
             SettingField{"radius", &StochasticRsmSettings::radius, 0.001, 2, "map widths",
                          "of the disk about the pixel's projection; light beyond it is lost"},
             SettingField{"interpolate", &StochasticRsmSettings::interpolate, 0, 0, "",

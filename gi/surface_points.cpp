@@ -36,7 +36,7 @@ SurfacePoints addSurfacePoints(GraphScope scope, const Occluders& o, uint64_t in
     p.points = scope.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
                                                       .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     PassBuilder place =
-        scope.compute("surface_points.place", o.deformedPositions ? "surface_points/place_figure_points.comp"
+        scope.compute("surface_points.place", o.deformedPositions ? "surface_points/place_skinned_points.comp"
                                                                   : "surface_points/place_points.comp");
     place.read("instances", o.instances)
         .read("samples", o.samples)

@@ -27,7 +27,7 @@ struct SurfacePoints {
 // `instancesVersion`: changes when any instance may have moved.
 SurfacePoints addSurfacePoints(GraphScope scope, const Occluders& occluders, uint64_t instancesVersion);
 
-// The bindings of a shader with AG_FIGURES; none if nothing is bent by joints.
+// The bindings of a shader with AG_SKINNED; none if nothing is bent by joints.
 void readDeformed(PassBuilder& pass, const Occluders& occluders);
 
 }  // namespace ag::gi

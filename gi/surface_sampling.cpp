@@ -225,7 +225,7 @@ void followJoints(const SampledScene& scene, const CurveTriangle& t, glm::vec3 w
     const SampledInstance& instance = scene.instances[t.instance];
     const uint32_t* index = &scene.meshes[instance.mesh].indices[3 * t.triangle];
     const uint32_t first = instance.firstDeformed;
-    const io::FigureSample on{
+    const io::SkinnedSample on{
         weights, t.instance, {first + index[0], first + index[1], first + index[2], sharp}};
     std::memcpy(&sample, &on, sizeof on);
 }

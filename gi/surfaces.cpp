@@ -7,19 +7,19 @@ namespace ag::gi {
 namespace {
 
 // Of pixels c spacing + spacing / 2: their centres are those of an image of `size` / spacing pixels.
-RenderCamera thinned(const RenderCamera& camera, glm::uvec2 size, uint32_t spacing) {
-    const glm::vec2 all(size), thin(glm::max(size / spacing, 1u) * spacing);
+RenderCamera downsampled(const RenderCamera& camera, glm::uvec2 size, uint32_t spacing) {
+    const glm::vec2 all(size), downsampled(glm::max(size / spacing, 1u) * spacing);
     const float aside =
         spacing % 2 == 0 ? 0.5f : 0.0f;  // pixels, of the chosen ones from the squares' middles
-    const glm::vec2 scale = thin / all, shift = scale + 2 * aside / all - 1.0f;
-    glm::mat4 allFromThin(1), thinFromAll(1);
+    const glm::vec2 scale = downsampled / all, shift = scale + 2 * aside / all - 1.0f;
+    glm::mat4 fullFromDownsampled(1), downsampledFromFull(1);
     for (int i = 0; i < 2; ++i) {
-        allFromThin[i][i] = scale[i], allFromThin[3][i] = shift[i];
-        thinFromAll[i][i] = 1 / scale[i], thinFromAll[3][i] = -shift[i] / scale[i];
+        fullFromDownsampled[i][i] = scale[i], fullFromDownsampled[3][i] = shift[i];
+        downsampledFromFull[i][i] = 1 / scale[i], downsampledFromFull[3][i] = -shift[i] / scale[i];
     }
     RenderCamera out = camera;
-    out.clipFromWorld = thinFromAll * camera.clipFromWorld;
-    out.worldFromClip = camera.worldFromClip * allFromThin;
+    out.clipFromWorld = downsampledFromFull * camera.clipFromWorld;
+    out.worldFromClip = camera.worldFromClip * fullFromDownsampled;
     return out;
 }
 
@@ -36,36 +36,38 @@ BufferHandle addCamera(GraphScope scope, std::string_view name, const RenderCame
     return buffer;
 }
 
-Surfaces addThinned(GraphScope scope, const Surfaces& all, uint32_t spacing, const ThinningNames& names) {
+Surfaces addDownsampled(GraphScope scope, const Surfaces& all, uint32_t spacing,
+                        const DownsamplingNames& names) {
     if (spacing == 1) return all;
     const glm::uvec2 size = glm::max(all.size / spacing, 1u);
     Surfaces g{
         .depth = scope.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
-        .normal = addThinImage(scope, names.normal, all.normal, spacing),
+        .normal = addDownsampledImage(scope, names.normal, all.normal, spacing),
         .size = size,
         .bent = all.bent,
         .spacing = all.spacing * spacing,
-        .view = thinned(all.view, all.size, spacing),
+        .view = downsampled(all.view, all.size, spacing),
     };
     g.camera = addCamera(scope, names.camera, g.view, size);
-    scope.compute(names.depth, "gbuffer/thin_depth.comp")
+    scope.compute(names.depth, "gbuffer/downsample_depth.comp")
         .sample("all", all.depth)
-        .write("thin", g.depth)
+        .write("downsampled", g.depth)
         .push(int32_t(spacing))
         .dispatchThreads(size.x, size.y);
     return g;
 }
 
-ImageHandle addThinImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing) {
+ImageHandle addDownsampledImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing) {
     if (!all || spacing == 1) return all;
     const glm::uvec2 size = glm::max(scope.info(all).size / spacing, 1u);
-    const ImageHandle thin = scope.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size});
-    scope.compute(name, "gbuffer/thin_image.comp")
+    const ImageHandle downsampled =
+        scope.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size});
+    scope.compute(name, "gbuffer/downsample_image.comp")
         .sample("all", all)
-        .write("thin", thin)
+        .write("downsampled", downsampled)
         .push(int32_t(spacing))
         .dispatchThreads(size.x, size.y);
-    return thin;
+    return downsampled;
 }
 
 BufferHandle addViewPoints(GraphScope scope, const Surfaces& surfaces) {

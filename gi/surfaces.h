@@ -9,21 +9,22 @@ namespace ag::gi {
 BufferHandle addCamera(GraphScope scope, std::string_view name, const RenderCamera& camera, glm::uvec2 size);
 
 // Passes and resources; literals, because the graph keeps views of them.
-struct ThinningNames {
+struct DownsamplingNames {
     std::string_view depth, normal, camera;
 };
-constexpr ThinningNames kThinning = {"gbuffer.thin_depth", "gbuffer.thin_normal", "gbuffer.thin_camera"};
-constexpr ThinningNames kLaterThinning = {"gbuffer.thin_depth_later", "gbuffer.thin_normal_later",
-                                          "gbuffer.thin_camera_later"};
+constexpr DownsamplingNames kDownsampling = {"gbuffer.downsample_depth", "gbuffer.downsample_normal",
+                                             "gbuffer.downsample_camera"};
+constexpr DownsamplingNames kLaterDownsampling = {
+    "gbuffer.downsample_depth_later", "gbuffer.downsample_normal_later", "gbuffer.downsample_camera_later"};
 
 // Every spacing-th pixel of every spacing-th row, as if the camera had no others: from the middle of each
 // square of the image, what is left over at its right and lower border goes without. Depth and normal only;
 // itself with a spacing of 1.
-Surfaces addThinned(GraphScope scope, const Surfaces& all, uint32_t spacing,
-                    const ThinningNames& names = kThinning);
+Surfaces addDownsampled(GraphScope scope, const Surfaces& all, uint32_t spacing,
+                        const DownsamplingNames& names = kDownsampling);
 
 // The same of an image, rgba16f.
-ImageHandle addThinImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing);
+ImageHandle addDownsampledImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing);
 
 // io::kViewPointCount surface points that stand for the view: io::ViewPoint, also a texel buffer of vec4.
 BufferHandle addViewPoints(GraphScope scope, const Surfaces& surfaces);

@@ -5,9 +5,9 @@
 
 namespace ag::gi {
 
-Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& thin,
+Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                          const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
-    const uint32_t spacing = thin.spacing / all.spacing;
+    const uint32_t spacing = downsampled.spacing / all.spacing;
     if (!gathered.image || spacing == 1) return gathered;
     const io::PixelRays rays = pixelRays(all.view, all.size);
     const io::UpsamplingPush push{.rays = rays,
@@ -21,8 +21,8 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
         PassBuilder pass = scope.compute(name, shader);
         pass.sample("normalMap", all.normal)
             .sample("depthMap", all.depth)
-            .sample("cellNormals", thin.normal)
-            .sample("cellDepths", thin.depth)
+            .sample("cellNormals", downsampled.normal)
+            .sample("cellDepths", downsampled.depth)
             .sample("light", gathered.image)
             .sample("toward", gathered.toward ? gathered.toward : gathered.image)
             .sample("base", base.image ? base.image : gathered.image)

@@ -30,9 +30,9 @@ constexpr UpsamplingNames kLaterUpsampling = {"upsampling.near_later",
                                               {"upsampling.lacking_later", "upsampling.none_lacking_later",
                                                "upsampling.groups_later", "upsampling.no_groups_later"}};
 
-// What was gathered at the pixels of `thin` = addThinned(`all`); comes back as it is if those are all. Added
-// to `base`, if there is one, whose direction stands for both.
-Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& thin,
+// What was gathered at the pixels of `downsampled` = addDownsampled(`all`); comes back as it is if those are
+// all. Added to `base`, if there is one, whose direction stands for both.
+Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                          const Irradiance& gathered, const UpsamplingNames& names = kUpsampling,
                          const Irradiance& base = {});
 

@@ -18,7 +18,7 @@ struct ValClusteringSettings {
     float chromaWeight = 5;      // w_flux of RSMC eq. 1
     float planeWeight = 12;      // of the distance from the cluster's plane, 1/m²
     bool adaptive = true;        // split clusters with much error, drop those with little (ACRSM 4.8)
-    uint32_t settleFrames = 32;  // steps taken after the light maps last changed; then clusters rest
+    uint32_t settleFrames = 32;  // steps taken after the RSMs last changed; then clusters rest
 
     static constexpr auto fields() {
         return std::tuple{SettingField{"count", &ValClusteringSettings::count, 16, 1024, "clusters",
@@ -34,7 +34,7 @@ struct ValClusteringSettings {
                           SettingField{"adaptive", &ValClusteringSettings::adaptive, 0, 0, "",
                                        "split clusters with much error, drop those with little"},
                           SettingField{"settle_frames", &ValClusteringSettings::settleFrames, 0, 1000,
-                                       "frames", "clustering steps after the light maps last changed"}};
+                                       "frames", "clustering steps after the RSMs last changed"}};
     }
 
     bool operator==(const ValClusteringSettings&) const = default;

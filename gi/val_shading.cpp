@@ -19,10 +19,10 @@ constexpr AnewNames kPixelsAnew = {"val_shading.list",
                                    "val_shading.digests",
                                    "",
                                    {"val_shading.anew", "val_shading.groups", "val_shading.none"}};
-constexpr AnewNames kCoatsAnew = {"val_gloss.list_anew",
-                                  "val_gloss.digests",
-                                  "val_gloss.no_digests",
-                                  {"val_gloss.anew", "val_gloss.anew_groups", "val_gloss.none_anew"}};
+constexpr AnewNames kGlossyAnew = {"val_gloss.list_anew",
+                                   "val_gloss.digests",
+                                   "val_gloss.no_digests",
+                                   {"val_gloss.anew", "val_gloss.anew_groups", "val_gloss.none_anew"}};
 constexpr WorkListNames kGlossyGroups = {"val_gloss.glossy", "val_gloss.groups", "val_gloss.none"};
 
 // A tile's parts are whole squares of 2 x 2 blocks, and whole subgroups of up to 16 blocks. Where pixels are
@@ -110,12 +110,12 @@ uint32_t groupsOf(const Gather& g) {
     return (g.blocks + 63) / 64;
 }
 
-// Of all workgroups those that are gathered anew, or of those that have a coat.
+// Of all workgroups those that are gathered anew, or of those that have a specular lobe.
 WorkList addGroupsAnew(const Gather& g, const PixelShare& share, const AnewNames& names,
                        const WorkList* glossy) {
     const HistoryBuffer digests =
         g.scope.historyBuffer(names.digests, {.sizeBytes = groupsOf(g) * sizeof(glm::uvec2)});
-    if (glossy) g.scope.fill(names.noDigests, digests.current, 0);  // of those without a coat
+    if (glossy) g.scope.fill(names.noDigests, digests.current, 0);  // of those without a specular lobe
     const WorkList anew = addWorkList(g.scope, names.list, groupsOf(g), {0, 1, 1});
     PassBuilder pass = g.scope.compute(names.pass, "val_shading/list_groups.comp");
     pass.sample("normalMap", g.gbuffer.normal)
@@ -136,12 +136,12 @@ WorkList addGroupsAnew(const Gather& g, const PixelShare& share, const AnewNames
     return anew;
 }
 
-// Workgroups that have a pixel with a coat.
-WorkList addGlossyGroups(const Gather& g, ImageHandle coat) {
+// Workgroups that have a pixel with a specular lobe.
+WorkList addGlossyGroups(const Gather& g, ImageHandle gloss) {
     const WorkList glossy = addWorkList(g.scope, kGlossyGroups, groupsOf(g), {0, 1, 1});
     g.scope.compute("val_gloss.list", "val_shading/list_gloss.comp")
         .sample("reflectanceMap", g.gbuffer.reflectance)
-        .readWrite("coat", coat)
+        .readWrite("gloss", gloss)
         .write("glossyGroups", glossy.items)
         .readWrite("groups", glossy.groups)
         .push(g.push)
@@ -150,12 +150,12 @@ WorkList addGlossyGroups(const Gather& g, ImageHandle coat) {
 }
 
 void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps,
-              const WorkList& groups, ImageHandle coat) {
+              const WorkList& groups, ImageHandle gloss) {
     addGather(g, name, "val_shading/gather_gloss.comp", shape, taps)
         .sample("albedoMap", g.gbuffer.albedo)
         .sample("reflectanceMap", g.gbuffer.reflectance)
         .read("listed", groups.items)
-        .readWrite("coat", coat)
+        .readWrite("gloss", gloss)
         .spec(5, list)
         .dispatchIndirect(groups.groups);
 }
@@ -211,12 +211,12 @@ ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const Vals& v
     const bool lightsHaveArea = settings.farShape != ValShape::kPoint;
     if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};
     const Gather g = addTiles(scope, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
-    const ImageHandle coat = scope.image("val_gloss.coat", scope.info(gbuffer.reflectance));
-    const WorkList glossy = addGlossyGroups(g, coat);
-    const WorkList anew = share.some ? addGroupsAnew(g, share, kCoatsAnew, &glossy) : glossy;
-    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, anew, coat);
-    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, anew, coat);
-    return coat;
+    const ImageHandle gloss = scope.image("val_gloss.gloss", scope.info(gbuffer.reflectance));
+    const WorkList glossy = addGlossyGroups(g, gloss);
+    const WorkList anew = share.some ? addGroupsAnew(g, share, kGlossyAnew, &glossy) : glossy;
+    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, anew, gloss);
+    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, anew, gloss);
+    return gloss;
 }
 
 }  // namespace ag::gi

@@ -99,7 +99,7 @@ Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Vals& 
                          const ValShadingNames& names = kFirstBounceShading, const PixelShare& share = {});
 
 // What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels of the
-// G-buffer; those without a coat cost nothing. Invalid: no gloss.
+// G-buffer; those without a specular lobe cost nothing. Invalid: no gloss.
 ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
                         const ValShadingSettings& settings, const PixelShare& share = {});
 

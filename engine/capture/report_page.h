@@ -31,7 +31,7 @@ i.key.system { background: #5aa86b } i.key.wait { background: #eadcb8 } i.key.fo
 #slider img.over { position: absolute; inset: 0; height: 100% }
 #slider b { position: absolute; top: 0; bottom: 0; width: 2px; background: #fff }
 #pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(220px, 1fr)); gap: 10px }
-figure { margin: 0 } figure img { width: 100%; background: #000 } figcaption { font-size: 12px }
+skinnedMesh { margin: 0 } skinnedMesh img { width: 100%; background: #000 } figcaption { font-size: 12px }
 )css";
 
 inline constexpr const char* kReportScript = R"js(
@@ -141,10 +141,10 @@ function cut() {
 }
 capture.pictures.forEach((p, i) => {
   for (const id of ['left', 'right']) make('option', $(id), p.name).value = i;
-  const figure = make('figure', $('pictures')), img = make('img', figure);
+  const skinnedMesh = make('skinnedMesh', $('pictures')), img = make('img', skinnedMesh);
   img.src = p.data;
   img.alt = p.name;
-  make('figcaption', figure, p.pass ? `${p.name}, by ${p.pass}` : p.name);
+  make('figcaption', skinnedMesh, p.pass ? `${p.name}, by ${p.pass}` : p.name);
 });
 const index = name => capture.pictures.findIndex(p => p.name === name);
 $('left').value = Math.max(index('composite.display'), 0);

@@ -30,7 +30,7 @@ WorldSource::WorldSource(const SceneAsset& asset, const RenderScene& asked, glm:
     schedule_.add("walkCamera", walkCamera);
     schedule_.add("updateRootTransforms", updateRootTransforms);
     schedule_.add("updateChildTransforms", updateChildTransforms);
-    schedule_.add("poseFigures", poseFigures);
+    schedule_.add("poseSkinnedMeshes", poseSkinnedMeshes);
     schedule_.add("extractScene", extractScene);
 }
 

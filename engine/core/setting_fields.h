@@ -6,7 +6,7 @@
 //
 //       static constexpr auto fields() {
 //           return std::tuple{SettingField{"resolution", &RsmSettings::resolution, 0, 1024, "texels", "side
-//           of a light map"}};
+//           of an RSM"}};
 //       }
 //   };
 #pragma once

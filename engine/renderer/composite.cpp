@@ -20,7 +20,7 @@ RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const gi::I
         .sample("directMap", orAlbedo(direct.image))
         .sample("indirectMap", orAlbedo(bounce.irradiance.image))
         .sample("emissiveMap", orAlbedo(gbuffer.emissive))
-        .sample("coatMap", orAlbedo(bounce.gloss))
+        .sample("specularMap", orAlbedo(bounce.gloss))
         .sample("depthMap", surfaces.depth)
         .spec(0, bool(direct.image))
         .spec(1, bool(bounce.irradiance.image))

@@ -21,16 +21,16 @@ DrawBucket bucketOf(const Material& material, const RenderInstance& instance) {
             .alphaMask = material.alphaMode == AlphaMode::kMask,
             .doubleSided = material.doubleSided,
             .normalMap = material.normalLayer >= 0,
-            .deformed = instance.figure != kNoFigure,
+            .deformed = instance.skinnedMesh != kNoSkinnedMesh,
             .mirrored = isMirrored(instance)};
 }
 
 // Of what an instance draws and where that stands.
 uint64_t shapeHash(const RenderScene& scene, const RenderInstance& instance) {
     const uint64_t hash = hashValue(instance.worldFromLocal, instance.primitive);
-    if (instance.figure == kNoFigure) return hash;
-    const RenderFigure& figure = scene.figures[instance.figure];
-    return combineHash(combineHash(hash, figure.poseVersion), figure.firstDeformed);
+    if (instance.skinnedMesh == kNoSkinnedMesh) return hash;
+    const RenderSkinnedMesh& skinnedMesh = scene.skinnedMeshes[instance.skinnedMesh];
+    return combineHash(combineHash(hash, skinnedMesh.poseVersion), skinnedMesh.firstDeformed);
 }
 
 // Of a reversed-depth clip matrix; with an infinite far plane nothing is beyond it.
@@ -49,10 +49,10 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
     bucketCapacity_.clear();
     instanceBucket_.assign(scene.instances.size(), kNoBucket);
     instancePrimitive_.resize(scene.instances.size());
-    instanceFigure_.resize(scene.instances.size());
+    instanceSkinnedMesh_.resize(scene.instances.size());
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         instancePrimitive_[i] = scene.instances[i].primitive;
-        instanceFigure_[i] = scene.instances[i].figure;
+        instanceSkinnedMesh_[i] = scene.instances[i].skinnedMesh;
         const Material& material =
             geometry.materials[geometry.primitives[scene.instances[i].primitive].material];
         if (material.alphaMode == AlphaMode::kBlend) continue;
@@ -108,7 +108,7 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
     if (instancesVersion_ != scene.instancesVersion && !regroup)
         for (size_t i = 0; i < scene.instances.size() && !regroup; ++i)
             regroup = instancePrimitive_[i] != scene.instances[i].primitive ||
-                      instanceFigure_[i] != scene.instances[i].figure;
+                      instanceSkinnedMesh_[i] != scene.instances[i].skinnedMesh;
     if (regroup) rebuildBuckets(scene);
     const bool all = regroup || scene.instancesVersion != instancesVersion_ + 1;
     if ((regroup || instancesVersion_ != scene.instancesVersion) && !refreshBounds(scene, all)) {

@@ -22,7 +22,7 @@ struct DrawBucket {
     bool alphaMask = false;
     bool doubleSided = false;
     bool normalMap = false;
-    bool deformed = false;  // of figures: their own vertices
+    bool deformed = false;  // of skinned meshes: their own vertices
     bool mirrored = false;  // of instances whose transform turns triangles over
 
     bool operator==(const DrawBucket&) const = default;
@@ -100,7 +100,7 @@ class DrawLists {
     std::vector<uint32_t> bucketCapacity_;  // instances in each bucket
     std::vector<uint32_t> bucketFirst_;     // first command of each bucket within a view's region
     std::vector<uint32_t> instanceBucket_;  // ~0: drawn by no opaque bucket (blended)
-    std::vector<uint32_t> instancePrimitive_, instanceFigure_;
+    std::vector<uint32_t> instancePrimitive_, instanceSkinnedMesh_;
     InstanceBounds bounds_;
     std::vector<uint64_t> changed_;  // a bit an instance whose bounds were set anew
     std::vector<uint64_t> transformHash_;

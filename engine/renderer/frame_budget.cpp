@@ -74,7 +74,7 @@ std::vector<QualityStep> makeSteps() {
     std::vector<QualityStep> steps;
     for (size_t i = 0; i < kRows.size(); ++i) {
         steps.push_back(stepOf(kRows[i]));
-        // Light maps have no size half way.
+        // RSMs have no size half way.
         if (i + 1 < kRows.size() && kRows[i].mapResolution == kRows[i + 1].mapResolution)
             steps.push_back(between(kRows[i], kRows[i + 1]));
     }

@@ -20,7 +20,7 @@ namespace ag::render {
 struct QualityStep {
     std::string name;
     float scale = 1;             // of a window's sides that is rendered
-    uint32_t mapResolution = 0;  // texels along a light map; 0: as each light says
+    uint32_t mapResolution = 0;  // texels along an RSM; 0: as each light says
     uint32_t valCount = 128;
     uint32_t ismTile = 64, pointsPerMap = 1536;
     uint32_t spacing = 2;  // pixels from one that is gathered to the next

@@ -49,14 +49,14 @@ ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfac
     const ViewDraws& moved = scene.draws->pick(scene.slots.moved, all, scene.moved);
     if (moved.instanceCount == 0) return {};
     const ImageHandle motion = scope.image("gbuffer.motion", scope.info(surfaces.normal));
-    const char* const vertexShader = scene.skin ? "gbuffer/motion_figures.vert" : "gbuffer/motion.vert";
+    const char* const vertexShader = scene.skin ? "gbuffer/motion_skinned.vert" : "gbuffer/motion.vert";
     PassBuilder pass =
         scope.raster("gbuffer.motion", vertexShader, "gbuffer/motion.frag", gpu::VertexLayout::kPositions);
     pass.colorClear(motion, glm::vec4(0)).depthEqual(surfaces.depth).geometry(scene.geometry);
     pass.read("instances", scene.instances).read("previousInstances", scene.previousInstances);
     if (scene.skin)
         pass.read("previousJoints", scene.skin.previousJoints)
-            .read("figures", scene.skin.figures)
+            .read("skinnedMeshes", scene.skin.skinnedMeshes)
             .read("skin", scene.skin.skin)
             .read("modelled", scene.skin.positions);
     drawView(pass, scene, moved, clipFromWorld, {}, DrawFilter::kShapes, Viewer::kLight);

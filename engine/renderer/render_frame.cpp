@@ -8,7 +8,7 @@ namespace ag::render {
 
 RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSettings& s, RenderHistory& h) {
     RenderFrame f;
-    // Figures as they are bent now
+    // Skinned meshes as they are bent now
     addSkinning(scope, scene);
 
     // What the camera sees

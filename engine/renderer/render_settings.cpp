@@ -155,7 +155,7 @@ void setAfterglowLights(RenderSettings& s) {
 struct Preset {
     std::string_view name;
     void (*apply)(RenderSettings&);
-    uint32_t mapResolution = 0;  // texels along a light map's side; 0: as each light says
+    uint32_t mapResolution = 0;  // texels along an RSM's side; 0: as each light says
     bool waits = true;           // with what may be late; not where a published system is compared with
 };
 

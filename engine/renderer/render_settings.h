@@ -20,8 +20,8 @@ namespace ag::render {
 // How indirect light is made: ours, or a paper's (gi/published).
 enum class Technique : uint32_t {
     kNone,        // no indirect light, and nothing that only it needs
-    kAreaLights,  // clusters of light-map texels as area lights: gi/bounce_light.cpp
-    kStochastic,  // samples of the light maps: gi/bounce_light.cpp
+    kAreaLights,  // clusters of RSM texels as area lights: gi/bounce_light.cpp
+    kStochastic,  // samples of the RSMs: gi/bounce_light.cpp
     kRsmBrute,
     kRsm400,
     kIrsm,
@@ -44,7 +44,7 @@ struct RenderSettings {
     bool operator==(const RenderSettings&) const = default;
 };
 
-// Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² light map),
+// Named sets of settings: "none" (direct light only), "rsm-brute" (every texel of a 128² RSM),
 // "rsm-400" (Dachsbacher & Stamminger 2005), "irsm" (few samples and a denoiser, as published), "stochastic"
 // (that, ours), "ism" (Ritschel et al. 2008), "ssvp" (two bounces, as published), "rsmc" (RSM clustering) and
 // "acrsm" (with adaption and shadows) as published, "afterglow" (the default), "afterglow-bounces" (with

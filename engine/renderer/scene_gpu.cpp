@@ -19,11 +19,11 @@ constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounc
 
 io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
     const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
-    return {
-        .worldFromLocal0 = rows[0],
-        .worldFromLocal1 = rows[1],
-        .worldFromLocal2 = rows[2],
-        .ids = {geometry.primitives[instance.primitive].material, instance.primitive, instance.figure, 0}};
+    return {.worldFromLocal0 = rows[0],
+            .worldFromLocal1 = rows[1],
+            .worldFromLocal2 = rows[2],
+            .ids = {geometry.primitives[instance.primitive].material, instance.primitive,
+                    instance.skinnedMesh, 0}};
 }
 
 io::Material materialRow(const Material& m, RenderUnits units) {
@@ -65,9 +65,10 @@ std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, Vk
 uint64_t instanceSet(const RenderScene& scene) {
     uint64_t hash = scene.geometry->version;
     for (const RenderInstance& instance : scene.instances)
-        hash = combineHash(combineHash(hash, instance.primitive * 2 + instance.movable), instance.figure);
-    for (const RenderFigure& figure : scene.figures)
-        hash = combineHash(combineHash(hash, figure.firstDeformed), figure.firstVertex);
+        hash =
+            combineHash(combineHash(hash, instance.primitive * 2 + instance.movable), instance.skinnedMesh);
+    for (const RenderSkinnedMesh& skinnedMesh : scene.skinnedMeshes)
+        hash = combineHash(combineHash(hash, skinnedMesh.firstDeformed), skinnedMesh.firstVertex);
     return hash;
 }
 
@@ -196,13 +197,13 @@ void SceneGpu::noteMovements(const RenderScene& scene) {
 }
 
 ViewSlots viewSlots(const RenderScene& scene) {
-    uint32_t lightMaps = 0, cascades = 0;
+    uint32_t rsms = 0, cascades = 0;
     for (const RenderLight& light : scene.lights) {
-        if (light.bounces) lightMaps += light.kind == LightKind::kPoint ? 6 : 1;
+        if (light.bounces) rsms += light.kind == LightKind::kPoint ? 6 : 1;
         if (light.kind == LightKind::kDirectional) cascades += io::kMaxCascades;
     }
-    ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .firstLightMap = 3};
-    s.firstCascade = s.firstLightMap + lightMaps;
+    ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .firstRsm = 3};
+    s.firstCascade = s.firstRsm + rsms;
     s.firstLamp = s.firstCascade + cascades;
     s.count = s.firstLamp + 6 * mostClustersNeeded(scene, kMostLampClusters);
     return s;

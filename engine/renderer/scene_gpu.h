@@ -22,10 +22,10 @@ namespace ag::render {
 // is culled for them lasts.
 struct ViewSlots {
     uint32_t camera = 0, moved = 0, everything = 0;
-    uint32_t firstLightMap = 0, firstCascade = 0, firstLamp = 0;  // a row each
+    uint32_t firstRsm = 0, firstCascade = 0, firstLamp = 0;  // a row each
     uint32_t count = 0;
 };
-// For each light at most a cube of light maps and one of shadow views.
+// For each light at most a cube of RSMs and one of shadow views.
 ViewSlots viewSlots(const RenderScene& scene);
 
 // Handles of this frame's scene, and what the techniques need to declare draws.

@@ -74,7 +74,7 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
         instances.push_back({.worldFromLocal = instance.worldFromLocal,
                              .mesh = instance.primitive,
                              .movable = instance.movable});
-        if (instance.figure == kNoFigure) continue;
+        if (instance.skinnedMesh == kNoSkinnedMesh) continue;
         instances.back().deformed =
             gi::Strided<glm::vec3>::of(verticesOf(scene, deformed, instance).positions);
         instances.back().firstDeformed = uint32_t(firstVertexOf(scene, instance));
@@ -86,7 +86,7 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
 
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
     const GeometryArrays& g = *scene.geometry;
-    const DeformedVertices deformed = deformFigures(scene);
+    const DeformedVertices deformed = deformSkinnedMeshes(scene);
     const std::vector<gi::SampledMesh> meshes = meshesOf(g);
     const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
     const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
@@ -98,7 +98,7 @@ gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
                                                 uint32_t count) {
     const GeometryArrays& g = *scene.geometry;
-    const DeformedVertices deformed = deformFigures(scene);
+    const DeformedVertices deformed = deformSkinnedMeshes(scene);
     const auto albedo = [&](uint32_t instance, glm::vec2 uv) {
         return albedoAbout(g, g.materials[g.primitives[scene.instances[instance].primitive].material], uv);
     };

@@ -10,10 +10,10 @@ namespace ag::render {
 namespace {
 
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
-static_assert(io::kSkinGroup == kFigureAlignment && sizeof(io::SkinnedVertex) == sizeof(SkinVertex) &&
+static_assert(io::kSkinGroup == kSkinnedMeshAlignment && sizeof(io::SkinnedVertex) == sizeof(SkinVertex) &&
               sizeof(io::VertexRow) == sizeof(VertexAttributes));
 
-io::SkinFigure rowOf(const RenderFigure& f) {
+io::SkinRow rowOf(const RenderSkinnedMesh& f) {
     return {f.firstVertex, f.vertexCount, f.firstDeformed, f.firstJoint};
 }
 
@@ -22,7 +22,7 @@ uint32_t groupsOf(uint32_t vertices) {
 }
 
 uint32_t deformedCount(const RenderScene& scene) {
-    const RenderFigure& last = scene.figures.back();
+    const RenderSkinnedMesh& last = scene.skinnedMeshes.back();
     return last.firstDeformed + groupsOf(last.vertexCount) * io::kSkinGroup;
 }
 
@@ -33,9 +33,9 @@ std::unique_ptr<gpu::Buffer> jointBuffer(gpu::Device& device, const char* name, 
 }
 
 uint64_t hashTable(const RenderScene& scene) {
-    uint64_t hash = combineHash(scene.geometry->version, scene.figures.size());
-    for (const RenderFigure& figure : scene.figures)
-        hash = hashValue(rowOf(figure), combineHash(hash, figure.jointCount));
+    uint64_t hash = combineHash(scene.geometry->version, scene.skinnedMeshes.size());
+    for (const RenderSkinnedMesh& skinnedMesh : scene.skinnedMeshes)
+        hash = hashValue(rowOf(skinnedMesh), combineHash(hash, skinnedMesh.jointCount));
     return hash | 1;
 }
 
@@ -43,36 +43,36 @@ uint64_t hashTable(const RenderScene& scene) {
 
 void SkinGpu::load(const GeometryArrays& geometry) {
     tableVersion_ = 0;
-    skin_.reset(), figures_.reset(), groups_.reset(), joints_.reset(), previousJoints_.reset();
+    skin_.reset(), skinnedMeshes_.reset(), groups_.reset(), joints_.reset(), previousJoints_.reset();
     geometryVersion_ = geometry.version;
     if (!geometry.skin.empty()) skin_ = gpu::loadBuffer(device_, {.name = "skinning.skin"}, geometry.skin);
 }
 
-// Blocking: figures come and go with all instances.
+// Blocking: skinned meshes come and go with all instances.
 void SkinGpu::makeBuffers(const RenderScene& scene) {
-    std::vector<io::SkinFigure> rows;
+    std::vector<io::SkinRow> rows;
     std::vector<uint32_t> groups(deformedCount(scene) / io::kSkinGroup);
-    for (const RenderFigure& figure : scene.figures) {
-        const auto first = groups.begin() + figure.firstDeformed / io::kSkinGroup;
-        std::fill_n(first, groupsOf(figure.vertexCount), uint32_t(rows.size()));
-        rows.push_back(rowOf(figure));
+    for (const RenderSkinnedMesh& skinnedMesh : scene.skinnedMeshes) {
+        const auto first = groups.begin() + skinnedMesh.firstDeformed / io::kSkinGroup;
+        std::fill_n(first, groupsOf(skinnedMesh.vertexCount), uint32_t(rows.size()));
+        rows.push_back(rowOf(skinnedMesh));
     }
-    for (auto* old : {&figures_, &groups_, &joints_, &previousJoints_})
+    for (auto* old : {&skinnedMeshes_, &groups_, &joints_, &previousJoints_})
         gpu::retire(device_, std::move(*old));
-    figures_ = gpu::loadBuffer(device_, {.name = "skinning.figures"}, rows);
+    skinnedMeshes_ = gpu::loadBuffer(device_, {.name = "skinning.rows"}, rows);
     groups_ = gpu::loadBuffer(device_, {.name = "skinning.groups"}, groups);
     joints_ = jointBuffer(device_, "skinning.joints", scene.joints.size());
     previousJoints_ = jointBuffer(device_, "skinning.previous_joints", scene.joints.size());
-    uploadedPoses_.assign(scene.figures.size(), 0);
+    uploadedPoses_.assign(scene.skinnedMeshes.size(), 0);
 }
 
 SkinView SkinGpu::import(GraphScope scope, const RenderScene& scene, const gpu::Buffer& positions,
                          const gpu::Buffer& attributes) {
-    if (scene.figures.empty() || scene.joints.empty() || deformedCount(scene) == 0) return {};
+    if (scene.skinnedMeshes.empty() || scene.joints.empty() || deformedCount(scene) == 0) return {};
     const uint64_t table = hashTable(scene);
     if (std::exchange(tableVersion_, table) != table) makeBuffers(scene);
     const uint64_t vertices = deformedCount(scene);
-    SkinView view{.figures = scope.importBuffer("skinning.figures", *figures_, table),
+    SkinView view{.skinnedMeshes = scope.importBuffer("skinning.rows", *skinnedMeshes_, table),
                   .groups = scope.importBuffer("skinning.groups", *groups_, table),
                   .joints = scope.importBuffer("skinning.joints", *joints_, 1),
                   .previousJoints = scope.importBuffer("skinning.previous_joints", *previousJoints_, 1),
@@ -89,14 +89,14 @@ SkinView SkinGpu::import(GraphScope scope, const RenderScene& scene, const gpu::
 std::vector<VkBufferCopy> SkinGpu::copiesToPrevious(const RenderScene& scene,
                                                     std::span<const RenderScene::Range> rows) const {
     std::vector<VkBufferCopy> copies;
-    uint32_t before = kNoFigure;  // a figure's rows lie side by side
+    uint32_t before = kNoSkinnedMesh;  // a skinned mesh's rows lie side by side
     for (const RenderScene::Range& range : rows)
         for (uint32_t row = range.begin; row < range.end; ++row) {
-            const uint32_t index = scene.instances[row].figure;
-            if (index == kNoFigure || std::exchange(before, index) == index) continue;
-            const RenderFigure& figure = scene.figures[index];
-            const uint64_t offset = figure.firstJoint * sizeof(glm::mat3x4),
-                           size = figure.jointCount * sizeof(glm::mat3x4);
+            const uint32_t index = scene.instances[row].skinnedMesh;
+            if (index == kNoSkinnedMesh || std::exchange(before, index) == index) continue;
+            const RenderSkinnedMesh& skinnedMesh = scene.skinnedMeshes[index];
+            const uint64_t offset = skinnedMesh.firstJoint * sizeof(glm::mat3x4),
+                           size = skinnedMesh.jointCount * sizeof(glm::mat3x4);
             if (!copies.empty() && copies.back().srcOffset + copies.back().size == offset)
                 copies.back().size += size;
             else
@@ -107,17 +107,17 @@ std::vector<VkBufferCopy> SkinGpu::copiesToPrevious(const RenderScene& scene,
 
 void SkinGpu::upload(const RenderScene& scene, Stage stage) {
     if (tableVersion_ == 0) return;
-    const auto changed = [&](size_t i) { return uploadedPoses_[i] != scene.figures[i].poseVersion; };
-    for (size_t i = 0; i < scene.figures.size();) {
+    const auto changed = [&](size_t i) { return uploadedPoses_[i] != scene.skinnedMeshes[i].poseVersion; };
+    for (size_t i = 0; i < scene.skinnedMeshes.size();) {
         if (!changed(i)) {
             ++i;
             continue;
         }
-        const uint32_t first = scene.figures[i].firstJoint;
+        const uint32_t first = scene.skinnedMeshes[i].firstJoint;
         uint32_t end = first;
-        for (; i < scene.figures.size() && changed(i); ++i) {
-            end = scene.figures[i].firstJoint + scene.figures[i].jointCount;
-            uploadedPoses_[i] = scene.figures[i].poseVersion;
+        for (; i < scene.skinnedMeshes.size() && changed(i); ++i) {
+            end = scene.skinnedMeshes[i].firstJoint + scene.skinnedMeshes[i].jointCount;
+            uploadedPoses_[i] = scene.skinnedMeshes[i].poseVersion;
         }
         stage(std::as_bytes(std::span(scene.joints).subspan(first, end - first)), *joints_,
               first * sizeof(glm::mat3x4));
@@ -127,7 +127,7 @@ void SkinGpu::upload(const RenderScene& scene, Stage stage) {
 uint64_t SkinGpu::deviceBytes() const {
     uint64_t bytes = 0;
     for (const auto* buffer :
-         {skin_.get(), figures_.get(), groups_.get(), joints_.get(), previousJoints_.get()})
+         {skin_.get(), skinnedMeshes_.get(), groups_.get(), joints_.get(), previousJoints_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes;
 }
@@ -137,7 +137,7 @@ void addSkinning(GraphScope scope, const SceneView& scene) {
     if (!s) return;
     PassBuilder pass = scope.compute("skinning.deform", "skinning/deform.comp");
     pass.read("groups", s.groups)
-        .read("figures", s.figures)
+        .read("skinnedMeshes", s.skinnedMeshes)
         .read("joints", s.joints)
         .read("skin", s.skin)
         .read("positions", s.positions)
@@ -145,13 +145,14 @@ void addSkinning(GraphScope scope, const SceneView& scene) {
         .parts("deformedPositions", s.deformedPositions)
         .parts("deformedAttributes", s.deformedAttributes)
         .push(uint32_t(0));
-    for (const RenderFigure& figure : scene.scene->figures) {
-        const uint64_t key = hashValue(rowOf(figure), combineHash(scene.loadedVersion, figure.poseVersion));
-        pass.part(figure.firstDeformed / io::kSkinGroup, groupsOf(figure.vertexCount), key);
+    for (const RenderSkinnedMesh& skinnedMesh : scene.scene->skinnedMeshes) {
+        const uint64_t key =
+            hashValue(rowOf(skinnedMesh), combineHash(scene.loadedVersion, skinnedMesh.poseVersion));
+        pass.part(skinnedMesh.firstDeformed / io::kSkinGroup, groupsOf(skinnedMesh.vertexCount), key);
     }
 }
 
-void readFigures(PassBuilder& pass, const SkinView& skin) {
+void readSkinnedMeshes(PassBuilder& pass, const SkinView& skin) {
     if (!skin) return;
     pass.read("deformedPositions", skin.deformedPositions)
         .read("deformedAttributes", skin.deformedAttributes);

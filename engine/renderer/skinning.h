@@ -1,6 +1,6 @@
-// Figures' own vertices: linear-blend skinning by one compute pass, which deforms only figures whose joints
-// moved since they were deformed last. Rasterisation draws them in place of their mesh's, so that shadow
-// maps, light maps and the camera know of nothing; points on surfaces read them too.
+// Skinned meshes' own vertices: linear-blend skinning by one compute pass, which deforms only skinned meshes
+// whose joints moved since they were deformed last. Rasterisation draws them in place of their mesh's, so
+// that shadow maps, RSMs and the camera know of nothing; points on surfaces read them too.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@ namespace ag::render {
 
 struct SceneView;
 
-// Handles of this frame; none where the scene has no figures.
+// Handles of this frame; none where the scene has no skinned meshes.
 struct SkinView {
-    BufferHandle figures;                // io::SkinFigure
-    BufferHandle groups;                 // uint: the figure of each group of kSkinGroup deformed vertices
-    BufferHandle joints;                 // three vec4 each; versions are the figures'
-    BufferHandle previousJoints;         // of figures in SceneView::moved, as they were a frame ago
-    BufferHandle skin;                   // io::SkinnedVertex a vertex of the geometry
+    BufferHandle skinnedMeshes;   // io::SkinRow
+    BufferHandle groups;          // uint: the skinned mesh of each group of kSkinGroup deformed vertices
+    BufferHandle joints;          // three vec4 each; versions are the skinned meshes'
+    BufferHandle previousJoints;  // of skinned meshes in SceneView::moved, as they were a frame ago
+    BufferHandle skin;            // io::SkinnedVertex a vertex of the geometry
     BufferHandle positions, attributes;  // of the geometry
     BufferHandle deformedPositions, deformedAttributes;
-    explicit operator bool() const { return bool(figures); }
+    explicit operator bool() const { return bool(skinnedMeshes); }
 };
 
 // Device memory behind it.
@@ -52,13 +52,13 @@ class SkinGpu {
 
     gpu::Device& device_;
     uint64_t geometryVersion_ = 0;
-    uint64_t tableVersion_ = 0;  // of who the figures are; 0: none
-    std::unique_ptr<gpu::Buffer> skin_, figures_, groups_, joints_, previousJoints_;
-    std::vector<uint64_t> uploadedPoses_;  // by figure
+    uint64_t tableVersion_ = 0;  // of who the skinned meshes are; 0: none
+    std::unique_ptr<gpu::Buffer> skin_, skinnedMeshes_, groups_, joints_, previousJoints_;
+    std::vector<uint64_t> uploadedPoses_;  // by skinned mesh
 };
 
 void addSkinning(GraphScope scope, const SceneView& scene);
-// The bindings of a shader with AG_FIGURES; none if there are none.
-void readFigures(PassBuilder& pass, const SkinView& skin);
+// The bindings of a shader with AG_SKINNED; none if there are none.
+void readSkinnedMeshes(PassBuilder& pass, const SkinView& skin);
 
 }  // namespace ag::render

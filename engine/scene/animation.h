@@ -13,7 +13,8 @@ void applyChannel(const SceneChannel& channel, float seconds, NodeTransform& tra
 // Along the shorter arc at even speed, within 1e-5 radians; both unit.
 glm::quat slerpQuat(glm::quat a, glm::quat b, float t);
 
-// The asset as it stands at a time of one of its animations: nodes are moved, figures will be posed so.
+// The asset as it stands at a time of one of its animations: nodes are moved, skinned meshes will be posed
+// so.
 void poseAsset(SceneAsset& asset, uint32_t clip, float seconds);
 
 // `seconds` further on by `step`, within the animation: round again, or held at its ends.

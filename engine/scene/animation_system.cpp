@@ -7,22 +7,23 @@
 namespace ag {
 namespace {
 
-const SceneAnimation* animationOf(const FigureLibrary& library, const AnimationPlayer& player) {
+const SceneAnimation* animationOf(const SkinnedMeshLibrary& library, const AnimationPlayer& player) {
     const auto& all = library.asset->animations;
     return player.clip >= 0 && size_t(player.clip) < all.size() ? &all[size_t(player.clip)] : nullptr;
 }
 
-std::vector<PosedFigure> figuresOf(FigureRows& rows) {
-    std::vector<PosedFigure> figures;
-    rows.each([&](Entity entity, const Figure& figure, const AnimationPlayer& player, const MeshInstance&) {
-        figures.push_back({entity, figure.model, player.clip, player.seconds});
+std::vector<PosedSkinnedMesh> skinnedMeshesOf(SkinnedRows& rows) {
+    std::vector<PosedSkinnedMesh> skinnedMeshes;
+    rows.each([&](Entity entity, const SkinnedMesh& skinnedMesh, const AnimationPlayer& player,
+                  const MeshInstance&) {
+        skinnedMeshes.push_back({entity, skinnedMesh.model, player.clip, player.seconds});
     });
-    return figures;
+    return skinnedMeshes;
 }
 
 }  // namespace
 
-void advancePlayers(View<AnimationPlayer> players, const FigureLibrary& library, float step,
+void advancePlayers(View<AnimationPlayer> players, const SkinnedMeshLibrary& library, float step,
                     JobRunner& runner) {
     players.parallel(runner, [&](AnimationPlayer& player) {
         const SceneAnimation* animation = animationOf(library, player);
@@ -33,7 +34,7 @@ void advancePlayers(View<AnimationPlayer> players, const FigureLibrary& library,
     });
 }
 
-void animateNodes(AnimatedNodes nodes, Res<const FigureLibrary> library, JobRunner& runner) {
+void animateNodes(AnimatedNodes nodes, Res<const SkinnedMeshLibrary> library, JobRunner& runner) {
     nodes.parallel(runner, [&](LocalTransform& local, const AnimationPlayer& player) {
         const SceneAnimation* animation = animationOf(*library, player);
         if (!animation) return false;
@@ -47,32 +48,32 @@ void animateNodes(AnimatedNodes nodes, Res<const FigureLibrary> library, JobRunn
     });
 }
 
-void poseFigures(FigureRows rows, Res<const FigureLibrary> library, Res<ExtractState> state,
-                 Res<RenderScene> scene, JobRunner& runner) {
-    constexpr uint32_t kGrain = 8;  // figures
-    std::vector<PosedFigure> figures = figuresOf(rows);
-    const bool same = std::ranges::equal(figures, state->figures, [](const auto& a, const auto& b) {
-        return a.entity == b.entity && a.model == b.model;
-    });
+void poseSkinnedMeshes(SkinnedRows rows, Res<const SkinnedMeshLibrary> library, Res<ExtractState> state,
+                       Res<RenderScene> scene, JobRunner& runner) {
+    constexpr uint32_t kGrain = 8;  // skinned meshes
+    std::vector<PosedSkinnedMesh> skinnedMeshes = skinnedMeshesOf(rows);
+    const bool same = std::ranges::equal(
+        skinnedMeshes, state->skinnedMeshes,
+        [](const auto& a, const auto& b) { return a.entity == b.entity && a.model == b.model; });
     if (!same) {
-        scene->figures.clear();
+        scene->skinnedMeshes.clear();
         scene->joints.clear();
-        for (const PosedFigure& figure : figures)
-            addFigure(library->models[figure.model], *scene);
-        state->figuresReplaced = true;
+        for (const PosedSkinnedMesh& skinnedMesh : skinnedMeshes)
+            addSkinnedMesh(library->models[skinnedMesh.model], *scene);
+        state->skinnedMeshesReplaced = true;
     }
-    state->poseChanged.assign(figures.size(), 0);
-    runner.parallelFor(uint32_t(figures.size()), kGrain, [&](uint32_t begin, uint32_t end) {
+    state->poseChanged.assign(skinnedMeshes.size(), 0);
+    runner.parallelFor(uint32_t(skinnedMeshes.size()), kGrain, [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
-            if (same && figures[i] == state->figures[i]) continue;
-            const RenderFigure& row = scene->figures[i];
-            const FigureModel& model = library->models[figures[i].model];
-            poseFigure(*library, figures[i].model, figures[i].clip, figures[i].seconds,
-                       std::span(scene->joints).subspan(row.firstJoint, row.jointCount));
+            if (same && skinnedMeshes[i] == state->skinnedMeshes[i]) continue;
+            const RenderSkinnedMesh& row = scene->skinnedMeshes[i];
+            const SkinnedModel& model = library->models[skinnedMeshes[i].model];
+            poseSkinnedMesh(*library, skinnedMeshes[i].model, skinnedMeshes[i].clip, skinnedMeshes[i].seconds,
+                            std::span(scene->joints).subspan(row.firstJoint, row.jointCount));
             state->poseChanged[i] = finishPose(model, *scene, i);
         }
     });
-    state->figures = std::move(figures);
+    state->skinnedMeshes = std::move(skinnedMeshes);
 }
 
 }  // namespace ag

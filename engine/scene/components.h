@@ -31,13 +31,13 @@ struct MeshInstance {
 };
 
 // A mesh bent by joints, beside a MeshInstance that is movable and an AnimationPlayer.
-struct Figure {
-    uint32_t model = 0;  // of the FigureLibrary
+struct SkinnedMesh {
+    uint32_t model = 0;  // of the SkinnedMeshLibrary
 };
 
-// Plays an animation of the asset: on a figure for its joints, elsewhere for the entity's own node.
+// Plays an animation of the asset: on a skinned mesh for its joints, elsewhere for the entity's own node.
 struct AnimationPlayer {
-    int32_t clip = 0;   // the animation; -1: none, a figure is at rest
+    int32_t clip = 0;   // the animation; -1: none, a skinned mesh is at rest
     float seconds = 0;  // since its start
     float speed = 1;    // times its own; 0: holds
     uint32_t loops = 1;

@@ -9,11 +9,11 @@ io::SkinMatrix rowsOf(const glm::mat3x4& joint) {
     return {joint[0], joint[1], joint[2]};
 }
 
-void deform(const RenderScene& scene, const RenderFigure& figure, DeformedVertices& out) {
+void deform(const RenderScene& scene, const RenderSkinnedMesh& skinnedMesh, DeformedVertices& out) {
     const GeometryArrays& g = *scene.geometry;
-    const glm::mat3x4* joints = scene.joints.data() + figure.firstJoint;
-    for (uint32_t i = 0; i < figure.vertexCount; ++i) {
-        const uint32_t from = figure.firstVertex + i, to = figure.firstDeformed + i;
+    const glm::mat3x4* joints = scene.joints.data() + skinnedMesh.firstJoint;
+    for (uint32_t i = 0; i < skinnedMesh.vertexCount; ++i) {
+        const uint32_t from = skinnedMesh.firstVertex + i, to = skinnedMesh.firstDeformed + i;
         const SkinVertex& s = g.skin[from];
         const io::SkinMatrix m =
             io::blendJoints(rowsOf(joints[s.joints.x]), rowsOf(joints[s.joints.y]),
@@ -27,21 +27,21 @@ void deform(const RenderScene& scene, const RenderFigure& figure, DeformedVertic
 
 }  // namespace
 
-DeformedVertices deformFigures(const RenderScene& scene) {
+DeformedVertices deformSkinnedMeshes(const RenderScene& scene) {
     DeformedVertices out;
-    if (scene.figures.empty()) return out;
-    const RenderFigure& last = scene.figures.back();
+    if (scene.skinnedMeshes.empty()) return out;
+    const RenderSkinnedMesh& last = scene.skinnedMeshes.back();
     out.positions.resize(last.firstDeformed + last.vertexCount);
     out.attributes.resize(out.positions.size());
-    for (const RenderFigure& figure : scene.figures)
-        deform(scene, figure, out);
+    for (const RenderSkinnedMesh& skinnedMesh : scene.skinnedMeshes)
+        deform(scene, skinnedMesh, out);
     return out;
 }
 
 VertexPointers verticesOf(const RenderScene& scene, const DeformedVertices& deformed,
                           const RenderInstance& instance) {
     const std::ptrdiff_t first = firstVertexOf(scene, instance);
-    if (instance.figure != kNoFigure)
+    if (instance.skinnedMesh != kNoSkinnedMesh)
         return {deformed.positions.data() + first, deformed.attributes.data() + first};
     return {scene.geometry->positions.data() + first, scene.geometry->attributes.data() + first};
 }

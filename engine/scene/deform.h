@@ -1,16 +1,16 @@
-// Figures' vertices on the CPU, by the functions the device runs: for the reference, for choosing points on
-// surfaces, for tests.
+// Skinned meshes' vertices on the CPU, by the functions the device runs: for the reference, for choosing
+// points on surfaces, for tests.
 #pragma once
 
 #include "engine/scene/render_scene.h"
 
 namespace ag {
 
-struct DeformedVertices {  // of all figures, as RenderFigure::firstDeformed counts them
+struct DeformedVertices {  // of all skinned meshes, as RenderSkinnedMesh::firstDeformed counts them
     std::vector<glm::vec3> positions;
     std::vector<VertexAttributes> attributes;
 };
-DeformedVertices deformFigures(const RenderScene& scene);
+DeformedVertices deformSkinnedMeshes(const RenderScene& scene);
 
 struct VertexPointers {  // by the primitive's indices
     const glm::vec3* positions;

@@ -19,7 +19,7 @@ void describeSceneComponents() {
     describe<MeshInstance>({field("firstPrimitive", &MeshInstance::firstPrimitive),
                             field("primitiveCount", &MeshInstance::primitiveCount),
                             field("movable", &MeshInstance::movable)});
-    describe<Figure>({field("model", &Figure::model)});
+    describe<SkinnedMesh>({field("model", &SkinnedMesh::model)});
     describe<AnimationPlayer>(
         {field("clip", &AnimationPlayer::clip), field("seconds", &AnimationPlayer::seconds, "s"),
          field("speed", &AnimationPlayer::speed), field("loops", &AnimationPlayer::loops)});

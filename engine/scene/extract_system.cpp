@@ -76,22 +76,22 @@ void writeRows(const RowRun& run, std::span<const WorldTransform> worlds,
     flush();
 }
 
-// Gives the rows of figures their own vertices and bounds, and marks those whose joints moved.
-void placeFigures(FigureRows& figures, bool all, ExtractState& state, RenderScene& scene) {
-    if (figures.count() != state.figures.size()) return;  // nobody poses them
-    uint32_t figure = 0;
-    figures.chunks([&](const RowRun& run, std::span<const Figure>, std::span<const AnimationPlayer>,
-                       std::span<const MeshInstance> meshes) {
+// Gives the rows of skinned meshes their own vertices and bounds, and marks those whose joints moved.
+void placeSkinnedMeshes(SkinnedRows& skinnedMeshes, bool all, ExtractState& state, RenderScene& scene) {
+    if (skinnedMeshes.count() != state.skinnedMeshes.size()) return;  // nobody poses them
+    uint32_t skinnedMesh = 0;
+    skinnedMeshes.chunks([&](const RowRun& run, std::span<const SkinnedMesh>,
+                             std::span<const AnimationPlayer>, std::span<const MeshInstance> meshes) {
         const uint32_t first =
             state.rows.firstEntity[run.chunk->archetype->index][run.chunk->ordinal] + run.first;
-        for (size_t i = 0; i < meshes.size(); ++i, ++figure)
+        for (size_t i = 0; i < meshes.size(); ++i, ++skinnedMesh)
             for (uint32_t row = state.rows.firstRow[first + i]; row < state.rows.firstRow[first + i + 1];
                  ++row) {
                 RenderInstance& instance = scene.instances[row];
-                instance.figure = figure;
+                instance.skinnedMesh = skinnedMesh;
                 const uint64_t bit = uint64_t(1) << (row % 64);
-                if (!all && !state.poseChanged[figure] && !(state.changed[row / 64] & bit)) continue;
-                state.bounds.set(row, instance, scene.figures[figure].boundsLocal);
+                if (!all && !state.poseChanged[skinnedMesh] && !(state.changed[row / 64] & bit)) continue;
+                state.bounds.set(row, instance, scene.skinnedMeshes[skinnedMesh].boundsLocal);
                 state.changed[row / 64] |= bit;
             }
     });
@@ -114,8 +114,9 @@ void toRanges(std::span<const uint64_t> words, std::vector<RenderScene::Range>& 
 
 // Rows in storage order. If the entities are the ones of before, only rows that differ are written; and if
 // none came, went or got another mesh, only those that moved are looked at.
-void extractInstances(InstanceView& instances, MovedInstances& moved, FigureRows& figures, bool renumber,
-                      bool replaced, ExtractState& state, RenderScene& scene, JobRunner& runner) {
+void extractInstances(InstanceView& instances, MovedInstances& moved, SkinnedRows& skinnedMeshes,
+                      bool renumber, bool replaced, ExtractState& state, RenderScene& scene,
+                      JobRunner& runner) {
     const bool same = (!renumber || numberRows(instances, state)) && !replaced;
     const uint32_t count = state.rows.firstRow.empty() ? 0 : state.rows.firstRow.back();
     if (!same) {
@@ -131,7 +132,7 @@ void extractInstances(InstanceView& instances, MovedInstances& moved, FigureRows
         instances.parallelChunks(runner, write);
     else
         moved.parallelChunks(runner, write);
-    if (!state.figures.empty()) placeFigures(figures, !same, state, scene);
+    if (!state.skinnedMeshes.empty()) placeSkinnedMeshes(skinnedMeshes, !same, state, scene);
     scene.allInstancesChanged = !same;
     if (same) toRanges(state.changed, scene.changedInstances);
     if (same && scene.changedInstances.empty()) return;
@@ -177,16 +178,16 @@ void extractLights(LightRows& lights, Lookup<const BounceLight>& bounces, Lookup
 
 }  // namespace
 
-void extractScene(InstanceView instances, MovedInstances moved, ChangedMeshes meshes, FigureRows figures,
-                  LightRows lights, Lookup<const BounceLight> bounces, Lookup<const Name> names,
-                  Res<const ActiveCamera> camera, Res<ExtractState> state, Res<RenderScene> scene,
-                  JobRunner& runner) {
+void extractScene(InstanceView instances, MovedInstances moved, ChangedMeshes meshes,
+                  SkinnedRows skinnedMeshes, LightRows lights, Lookup<const BounceLight> bounces,
+                  Lookup<const Name> names, Res<const ActiveCamera> camera, Res<ExtractState> state,
+                  Res<RenderScene> scene, JobRunner& runner) {
     scene->changedInstances.clear();
     scene->allInstancesChanged = false;
-    const bool others = std::exchange(state->figuresReplaced, false),
+    const bool others = std::exchange(state->skinnedMeshesReplaced, false),
                replaced = followCamera(*scene, *state, camera->pose.position) || others;
     const bool renumber = !meshes.empty() || instances.count() != state->rows.entities.size();
-    extractInstances(instances, moved, figures, renumber, replaced, *state, *scene, runner);
+    extractInstances(instances, moved, skinnedMeshes, renumber, replaced, *state, *scene, runner);
     extractLights(lights, bounces, names, *state, *scene);
     setCamera(*scene, camera->pose, camera->size);
 }

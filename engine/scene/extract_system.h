@@ -23,12 +23,12 @@ struct InstanceRows {
     std::vector<uint32_t> firstRow;  // of each entity, and the end of the last
 };
 
-struct PosedFigure {  // as it was posed last
+struct PosedSkinnedMesh {  // as it was posed last
     Entity entity;
     uint32_t model = 0;
     int32_t clip = -1;
     float seconds = 0;
-    bool operator==(const PosedFigure&) const = default;
+    bool operator==(const PosedSkinnedMesh&) const = default;
 };
 
 struct ExtractState {  // resource: what was seen at the last look
@@ -37,21 +37,21 @@ struct ExtractState {  // resource: what was seen at the last look
     InstanceBounds bounds;
     bool placed = false;                  // the origin was chosen
     std::unordered_set<uint64_t> warned;  // bits of lights that something is wrong with
-    // By poseFigures, in storage order
-    std::vector<PosedFigure> figures;
-    std::vector<uint8_t> poseChanged;  // 1: the figure's joints moved since the last look
-    bool figuresReplaced = false;      // others came or went
+    // By poseSkinnedMeshes, in storage order
+    std::vector<PosedSkinnedMesh> skinnedMeshes;
+    std::vector<uint8_t> poseChanged;    // 1: the skinned mesh's joints moved since the last look
+    bool skinnedMeshesReplaced = false;  // others came or went
 };
 
 using InstanceView = View<const WorldTransform, const MeshInstance>;
 using MovedInstances = View<Taken<const WorldTransform>, const MeshInstance>;
 using ChangedMeshes = View<Changed<const MeshInstance>, With<WorldTransform>>;
-using FigureRows = View<const Figure, const AnimationPlayer, const MeshInstance>;
+using SkinnedRows = View<const SkinnedMesh, const AnimationPlayer, const MeshInstance>;
 using LightRows = View<const WorldTransform, const PunctualLight>;
 
-void extractScene(InstanceView instances, MovedInstances moved, ChangedMeshes meshes, FigureRows figures,
-                  LightRows lights, Lookup<const BounceLight> bounces, Lookup<const Name> names,
-                  Res<const ActiveCamera> camera, Res<ExtractState> state, Res<RenderScene> scene,
-                  JobRunner& runner);
+void extractScene(InstanceView instances, MovedInstances moved, ChangedMeshes meshes,
+                  SkinnedRows skinnedMeshes, LightRows lights, Lookup<const BounceLight> bounces,
+                  Lookup<const Name> names, Res<const ActiveCamera> camera, Res<ExtractState> state,
+                  Res<RenderScene> scene, JobRunner& runner);
 
 }  // namespace ag

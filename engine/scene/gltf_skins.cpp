@@ -73,7 +73,7 @@ SkinVertex strongestFour(const Influences& in, size_t vertex) {
 // What a mesh asks of a skin that bends it.
 struct MeshNeeds {
     uint32_t joints = 0;    // at least so many
-    uint64_t vertices = 0;  // a figure has
+    uint64_t vertices = 0;  // a skinned mesh has
     bool whole = true;      // every vertex has a weight
 };
 
@@ -96,7 +96,7 @@ MeshNeeds needsOf(const GeometryArrays& g, const SceneMesh& mesh) {
 }
 
 // Every node that shows a mesh bent by a skin, against both.
-Fault checkFigures(const SceneAsset& asset, const ImportLimits& limits) {
+Fault checkSkinnedMeshes(const SceneAsset& asset, const ImportLimits& limits) {
     std::vector<std::optional<MeshNeeds>> needs(asset.meshes.size());
     uint64_t vertices = 0, joints = 0;
     for (const SceneNode& node : asset.nodes) {
@@ -115,7 +115,7 @@ Fault checkFigures(const SceneAsset& asset, const ImportLimits& limits) {
         vertices += mesh->vertices;
         joints += skin.joints.size();
         if (vertices > limits.vertices || joints > limits.joints)
-            return "its figures together have more vertices or joints than the limit";
+            return "its skinnedMeshes together have more vertices or joints than the limit";
     }
     return std::nullopt;
 }
@@ -178,7 +178,7 @@ Fault importSkins(const tinygltf::Model& model, std::span<const int32_t> newInde
         }
         asset.skins.push_back(std::move(skin));
     }
-    return checkFigures(asset, limits);
+    return checkSkinnedMeshes(asset, limits);
 }
 
 }  // namespace ag::gltf

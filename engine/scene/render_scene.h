@@ -25,7 +25,7 @@ struct VertexAttributes {  // 36 bytes: gpu::VertexLayout::kPositionsAndAttribut
     glm::vec2 uv{0};
 };
 
-// By how much which joints of a figure move a vertex.
+// By how much which joints of a skinned mesh move a vertex.
 struct SkinVertex {
     glm::u16vec4 joints{0};
     glm::vec4 weights{0};  // none negative, 1 together
@@ -85,23 +85,25 @@ struct GeometryArrays {  // fixed once loaded
     uint64_t version = 1;
 };
 
-constexpr uint32_t kNoFigure = ~0u;
+constexpr uint32_t kNoSkinnedMesh = ~0u;
 
 // One drawn primitive. The row's index is its slot on the GPU.
 struct RenderInstance {
     glm::mat4x3 worldFromLocal{1};  // relative to the origin
     uint32_t primitive = 0;
     bool movable = false;  // others may move too, but then what was kept of all that stands still is lost
-    uint32_t figure = kNoFigure;  // of RenderScene::figures: its vertices are that one's own; then movable
+    uint32_t skinnedMesh =
+        kNoSkinnedMesh;  // of RenderScene::skinnedMeshes: its vertices are that one's own; then movable
 };
 
-// Each figure's vertices begin at a multiple of this, so that a group of the device has those of one only.
-constexpr uint32_t kFigureAlignment = 64;
+// Each skinned mesh's vertices begin at a multiple of this, so that a group of the device has those of one
+// only.
+constexpr uint32_t kSkinnedMeshAlignment = 64;
 
 // A mesh bent by joints: it has a deformed copy of the mesh's vertices, in the frame of its instances.
-struct RenderFigure {
+struct RenderSkinnedMesh {
     uint32_t firstVertex = 0, vertexCount = 0;  // of GeometryArrays: the mesh as it was modelled
-    uint32_t firstDeformed = 0;                 // of all figures' vertices end to end
+    uint32_t firstDeformed = 0;                 // of all skinned meshes' vertices end to end
     uint32_t firstJoint = 0, jointCount = 0;    // of RenderScene::joints
     Bounds boundsLocal;                         // of the mesh as it is bent
     uint64_t poseVersion = 1;                   // equal numbers mean equal joints
@@ -128,8 +130,9 @@ struct RenderScene {
     const GeometryArrays* geometry = nullptr;
     glm::dvec3 originWorld{0};  // m
     std::vector<RenderInstance> instances;
-    std::vector<RenderFigure> figures;  // who they are changes with all instances
-    std::vector<glm::mat3x4> joints;    // rows of 3x4 matrices: a figure's frame from its mesh as modelled
+    std::vector<RenderSkinnedMesh> skinnedMeshes;  // who they are changes with all instances
+    std::vector<glm::mat3x4>
+        joints;  // rows of 3x4 matrices: a skinned mesh's frame from its mesh as modelled
     std::vector<RenderLight> lights;
     std::vector<RenderProbe> probes;
     RenderCamera camera;
@@ -146,21 +149,21 @@ struct RenderScene {
     struct Range {
         uint32_t begin = 0, end = 0;
     };
-    std::vector<Range> changedInstances;  // those of a figure also when its joints moved
+    std::vector<Range> changedInstances;  // those of a skinned mesh also when its joints moved
     bool allInstancesChanged = true;
 };
 
 inline const Bounds& boundsLocal(const RenderScene& scene, const RenderInstance& instance) {
-    return instance.figure == kNoFigure ? scene.geometry->primitives[instance.primitive].boundsLocal
-                                        : scene.figures[instance.figure].boundsLocal;
+    return instance.skinnedMesh == kNoSkinnedMesh ? scene.geometry->primitives[instance.primitive].boundsLocal
+                                                  : scene.skinnedMeshes[instance.skinnedMesh].boundsLocal;
 }
 
-// The vertex that the primitive's index 0 means: of the geometry, or of all figures' deformed ones.
+// The vertex that the primitive's index 0 means: of the geometry, or of all skinned meshes' deformed ones.
 inline int32_t firstVertexOf(const RenderScene& scene, const RenderInstance& instance) {
     const int32_t offset = scene.geometry->primitives[instance.primitive].vertexOffset;
-    if (instance.figure == kNoFigure) return offset;
-    const RenderFigure& figure = scene.figures[instance.figure];
-    return offset - int32_t(figure.firstVertex) + int32_t(figure.firstDeformed);
+    if (instance.skinnedMesh == kNoSkinnedMesh) return offset;
+    const RenderSkinnedMesh& skinnedMesh = scene.skinnedMeshes[instance.skinnedMesh];
+    return offset - int32_t(skinnedMesh.firstVertex) + int32_t(skinnedMesh.firstDeformed);
 }
 
 }  // namespace ag

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/scene/components.h"
-#include "engine/scene/figure.h"
 #include "engine/scene/mover.h"
+#include "engine/scene/skinned_mesh.h"
 #include "engine/scene/transform_system.h"
 
 namespace ag {
@@ -40,16 +40,16 @@ AnimationPlayer playerOf(const NodeExtras& extras) {
     return {extras.clip, extras.clipStart, extras.clipSpeed, extras.clipLoops};
 }
 
-// A figure stands in the frame its joints hang from, whatever node shows it: it is an entity of its own.
-// Returns its depth.
-uint32_t addFigure(World& world, const SceneAsset& asset, const FigureLibrary& library, size_t node,
-                   std::vector<Entity>& entities) {
+// A skinned mesh stands in the frame its joints hang from, whatever node shows it: it is an entity of its
+// own. Returns its depth.
+uint32_t addSkinnedMesh(World& world, const SceneAsset& asset, const SkinnedMeshLibrary& library, size_t node,
+                        std::vector<Entity>& entities) {
     const auto model = uint32_t(library.modelOfNode[node]);
     const SceneMesh& mesh = asset.meshes[library.models[model].mesh];
     const Entity entity = world.create(LocalTransform{.node = uint32_t(node)}, WorldTransform{},
                                        makeName(asset.nodes[node].name),
                                        MeshInstance{mesh.firstPrimitive, mesh.primitiveCount, 1},
-                                       Figure{model}, playerOf(asset.nodes[node].extras));
+                                       SkinnedMesh{model}, playerOf(asset.nodes[node].extras));
     entities.push_back(entity);
     const int32_t frame = library.models[model].frame;
     if (frame < 0) return 0;
@@ -60,10 +60,10 @@ uint32_t addFigure(World& world, const SceneAsset& asset, const FigureLibrary& l
 }
 
 // Nodes that an animation moves and from which something hangs that is seen. Joints alone are not seen:
-// figures know where they are.
-std::vector<size_t> movingNodes(const SceneAsset& asset, const FigureLibrary& library) {
+// skinned meshes know where they are.
+std::vector<size_t> movingNodes(const SceneAsset& asset, const SkinnedMeshLibrary& library) {
     std::vector<bool> seen(asset.nodes.size(), false);
-    for (const FigureModel& model : library.models)
+    for (const SkinnedModel& model : library.models)
         if (model.frame >= 0) seen[size_t(model.frame)] = true;
     for (size_t i = asset.nodes.size(); i-- > 0;) {
         const SceneNode& n = asset.nodes[i];
@@ -81,7 +81,7 @@ std::vector<size_t> movingNodes(const SceneAsset& asset, const FigureLibrary& li
 }
 
 // They and what hangs from them is movable.
-void addPlayers(World& world, const SceneAsset& asset, const FigureLibrary& library,
+void addPlayers(World& world, const SceneAsset& asset, const SkinnedMeshLibrary& library,
                 const std::vector<Entity>& entities) {
     std::vector<bool> moved(asset.nodes.size(), false);
     for (const size_t node : movingNodes(asset, library)) {
@@ -101,7 +101,7 @@ void addPlayers(World& world, const SceneAsset& asset, const FigureLibrary& libr
 std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
     std::vector<Entity> entities;
     uint32_t deepest = 0;
-    const FigureLibrary& library = world.setResource<FigureLibrary>(makeFigureLibrary(asset));
+    const SkinnedMeshLibrary& library = world.setResource<SkinnedMeshLibrary>(makeSkinnedMeshLibrary(asset));
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
         const LocalTransform local{node.local.translation, node.local.rotation, node.local.scale,
@@ -127,7 +127,7 @@ std::vector<Entity> spawnScene(World& world, const SceneAsset& asset) {
         addMover(world, asset.nodes[i], entities[i]);
     for (size_t i = 0; i < asset.nodes.size(); ++i)
         if (library.modelOfNode[i] >= 0)
-            deepest = std::max(deepest, addFigure(world, asset, library, i, entities));
+            deepest = std::max(deepest, addSkinnedMesh(world, asset, library, i, entities));
     addPlayers(world, asset, library, entities);
     for (size_t node : strongestLights(asset))
         world.add(entities[node], BounceLight{});

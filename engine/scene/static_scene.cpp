@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/projection.h"
-#include "engine/scene/figure.h"
+#include "engine/scene/skinned_mesh.h"
 
 namespace ag {
 namespace {
@@ -42,14 +42,14 @@ RenderLight lightOf(const SceneLight& light, const WorldPlacement& place, const 
 }
 
 // As it is when its animation starts.
-uint32_t placeFigure(const FigureLibrary& library, uint32_t model, const SceneNode& node,
-                     RenderScene& scene) {
-    const uint32_t figure = addFigure(library.models[model], scene);
-    const RenderFigure& row = scene.figures[figure];
-    poseFigure(library, model, node.extras.clip, node.extras.clipStart,
-               std::span(scene.joints).subspan(row.firstJoint, row.jointCount));
-    finishPose(library.models[model], scene, figure);
-    return figure;
+uint32_t placeSkinnedMesh(const SkinnedMeshLibrary& library, uint32_t model, const SceneNode& node,
+                          RenderScene& scene) {
+    const uint32_t skinnedMesh = addSkinnedMesh(library.models[model], scene);
+    const RenderSkinnedMesh& row = scene.skinnedMeshes[skinnedMesh];
+    poseSkinnedMesh(library, model, node.extras.clip, node.extras.clipStart,
+                    std::span(scene.joints).subspan(row.firstJoint, row.jointCount));
+    finishPose(library.models[model], scene, skinnedMesh);
+    return skinnedMesh;
 }
 
 float strength(const RenderLight& light) {
@@ -151,7 +151,7 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
     RenderScene scene;
     scene.geometry = &asset.geometry;
     const std::vector<WorldPlacement> places = placeNodes(asset);
-    const FigureLibrary library = makeFigureLibrary(asset);
+    const SkinnedMeshLibrary library = makeSkinnedMeshLibrary(asset);
     scene.originWorld = originWorld;
     for (size_t i = 0; i < asset.nodes.size(); ++i) {
         const SceneNode& node = asset.nodes[i];
@@ -163,14 +163,15 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
         }
         if (node.mesh < 0) continue;
         const int32_t model = library.modelOfNode[i];
-        const uint32_t figure = model < 0 ? kNoFigure : placeFigure(library, uint32_t(model), node, scene);
+        const uint32_t skinnedMesh =
+            model < 0 ? kNoSkinnedMesh : placeSkinnedMesh(library, uint32_t(model), node, scene);
         const int32_t frame = model < 0 ? int32_t(i) : library.models[size_t(model)].frame;
         const WorldPlacement place = frame < 0 ? WorldPlacement{} : places[size_t(frame)];
         const SceneMesh& mesh = asset.meshes[size_t(node.mesh)];
         const glm::mat3& m = place.linear;
         const glm::mat4x3 world(m[0], m[1], m[2], glm::vec3(place.translation - scene.originWorld));
         for (uint32_t p = mesh.firstPrimitive; p < mesh.firstPrimitive + mesh.primitiveCount; ++p) {
-            scene.instances.push_back({world, p, model >= 0, figure});
+            scene.instances.push_back({world, p, model >= 0, skinnedMesh});
             scene.bounds.add(boundsOf(boundsLocal(scene, scene.instances.back()), world));
         }
     }

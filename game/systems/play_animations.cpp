@@ -2,8 +2,8 @@
 
 namespace ag::game {
 
-void playAnimations(View<AnimationPlayer> players, Res<const FigureLibrary> library, Res<const GameTime> time,
-                    JobRunner& runner) {
+void playAnimations(View<AnimationPlayer> players, Res<const SkinnedMeshLibrary> library,
+                    Res<const GameTime> time, JobRunner& runner) {
     advancePlayers(players, *library, float(time->step), runner);
 }
 

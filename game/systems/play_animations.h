@@ -6,7 +6,7 @@
 
 namespace ag::game {
 
-void playAnimations(View<AnimationPlayer> players, Res<const FigureLibrary> library, Res<const GameTime> time,
-                    JobRunner& runner);
+void playAnimations(View<AnimationPlayer> players, Res<const SkinnedMeshLibrary> library,
+                    Res<const GameTime> time, JobRunner& runner);
 
 }  // namespace ag::game

@@ -84,7 +84,7 @@ class GuestScene {
     uint64_t setVersion() const { return setVersion_; }      // which instances and meshes there are
     uint64_t movedVersion() const { return movedVersion_; }  // where anything stands
     uint64_t lightsVersion() const { return lightsVersion_; }
-    uint64_t drawnVersion() const { return drawnVersion_; }  // materials and meshes, as light maps show them
+    uint64_t drawnVersion() const { return drawnVersion_; }  // materials and meshes, as RSMs show them
 
     // Chosen anew if the set changed: some 100 ms for a large scene.
     const GuestPoints& points();

@@ -100,7 +100,7 @@ void GuestView::startAnew() {
     history_ = {};
     hostFrames_ = {};
     surfaces_ = std::make_unique<SceneOnDevice>(context_.gpu());
-    lightMaps_ = std::make_unique<LightMapDraws>(context_);
+    rsms_ = std::make_unique<RsmDraws>(context_);
     graph_ = std::make_unique<FrameGraph>(&context_.gpu(), &context_.pipelines());
 }
 
@@ -178,7 +178,7 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
     world.versions.camera = cameraVersion_;
     const gi::Occluders occluders = surfaces_->occluders(scope);
     const auto draw = [&](GraphScope at, gi::RsmSet& rsm) {
-        lightMaps_->add(at, scene, *surfaces_, occluders.instances, rsm);
+        rsms_->add(at, scene, *surfaces_, occluders.instances, rsm);
     };
     const float unit = surfaces_->units().light;
     const gi::BounceLight light = gi::addBounceLight(

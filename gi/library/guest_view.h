@@ -6,7 +6,7 @@
 
 #include "engine/core/settings.h"
 #include "gi/bounce_light.h"
-#include "gi/library/light_map_draws.h"
+#include "gi/library/rsm_draws.h"
 #include "gi/library/scene_on_device.h"
 
 namespace ag::guest {
@@ -46,7 +46,7 @@ class GuestView {
     std::unique_ptr<FrameGraph> graph_;
     gi::BounceLightHistory history_;
     std::unique_ptr<SceneOnDevice> surfaces_;
-    std::unique_ptr<LightMapDraws> lightMaps_;
+    std::unique_ptr<RsmDraws> rsms_;
     RenderCamera camera_;
     uint64_t cameraVersion_ = 1;
     uint32_t virtualLights_ = 0;

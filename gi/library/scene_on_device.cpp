@@ -18,7 +18,7 @@ io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 a
     return {.worldFromLocal0 = {rows[0], at.x},
             .worldFromLocal1 = {rows[1], at.y},
             .worldFromLocal2 = {rows[2], at.z},
-            .ids = {material, instance.mesh, io::kNoFigure, 0}};
+            .ids = {material, instance.mesh, io::kNoSkinnedMesh, 0}};
 }
 
 }  // namespace

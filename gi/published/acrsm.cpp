@@ -11,10 +11,10 @@ BounceLight addAcrsm(GraphScope scope, const BounceLightInputs& in, const Bounce
     addAreaLights(scope, in, s, h, f);
     f.firstCount = f.vals.count;
     addVisibility(scope, in, s.ismAtlas, f);
-    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 = addValShading(scope, thin, f.vals, f.isms, s.valShading);
+    const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
+    f.irradiance = f.bounce1 = addValShading(scope, downsampled, f.vals, f.isms, s.valShading);
     f.gloss = addValGloss(scope, in.surfaces, f.vals, f.isms, s.valShading);
-    addToPixels(scope, in, thin, s, h, f);
+    addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
     return f;
 }

@@ -9,14 +9,14 @@ BounceLight addIsm(GraphScope scope, const BounceLightInputs& in, const BounceLi
                    BounceLightHistory& h) {
     BounceLight f;
     f.viewPoints = addViewPoints(scope, in.surfaces);
-    addLightMaps(scope, in, s, h, f);
+    addRsms(scope, in, s, h, f);
     f.importance = addImportance(scope, f.rsm, f.viewPoints, s.importance);
     f.vals = addVplSampling(scope, f.rsm, f.importance, s.valClustering.count);
     f.firstCount = f.vals.count;
     addVisibility(scope, in, s.ismAtlas, f);
-    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 = addValShading(scope, thin, f.vals, f.isms, s.valShading);
-    addToPixels(scope, in, thin, s, h, f);
+    const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
+    f.irradiance = f.bounce1 = addValShading(scope, downsampled, f.vals, f.isms, s.valShading);
+    addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
     return f;
 }

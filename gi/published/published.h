@@ -7,17 +7,17 @@
 
 namespace ag::gi {
 
-// Every texel of a light map as a point emitter, without visibility.
+// Every texel of an RSM as a point emitter, without visibility.
 BounceLight addRsmBrute(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                         BounceLightHistory& history);
-// Reflective shadow maps: some hundred fixed samples of the light maps a pixel (Dachsbacher & Stamminger
+// Reflective shadow maps: some hundred fixed samples of the RSMs a pixel (Dachsbacher & Stamminger
 // 2005).
 BounceLight addRsm400(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                       BounceLightHistory& history);
 // Improved reflective shadow maps: few samples, others in each pixel and frame, and a denoiser.
 BounceLight addIrsm(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                     BounceLightHistory& history);
-// Imperfect shadow maps: point lights sampled from the light maps (Keller 1997, Ritschel et al. 2008).
+// Imperfect shadow maps: point lights sampled from the RSMs (Keller 1997, Ritschel et al. 2008).
 BounceLight addIsm(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                    BounceLightHistory& history);
 // Reflective shadow map clustering, without visibility (Prutkin, Kaplanyan, Dachsbacher 2012).

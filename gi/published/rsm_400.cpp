@@ -7,11 +7,11 @@ namespace ag::gi {
 BounceLight addRsm400(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                       BounceLightHistory& h) {
     BounceLight f;
-    addLightMaps(scope, in, s, h, f);
-    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
+    addRsms(scope, in, s, h, f);
+    const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 =
-        addStochasticRsm(scope, in.world.versions, thin, f.rsm, {}, s.stochasticRsm, h.stochasticRsm);
-    addToPixels(scope, in, thin, s, h, f);
+        addStochasticRsm(scope, in.world.versions, downsampled, f.rsm, {}, s.stochasticRsm, h.stochasticRsm);
+    addToPixels(scope, in, downsampled, s, h, f);
     h.probes.clear();
     return f;
 }

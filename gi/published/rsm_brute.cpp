@@ -8,10 +8,10 @@ namespace ag::gi {
 BounceLight addRsmBrute(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                         BounceLightHistory& h) {
     BounceLight f;
-    addLightMaps(scope, in, s, h, f);
-    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 = addTexelShading(scope, thin, f.rsm);
-    addToPixels(scope, in, thin, s, h, f);
+    addRsms(scope, in, s, h, f);
+    const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
+    f.irradiance = f.bounce1 = addTexelShading(scope, downsampled, f.rsm);
+    addToPixels(scope, in, downsampled, s, h, f);
     h.probes.clear();
     return f;
 }

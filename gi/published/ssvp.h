@@ -50,7 +50,7 @@ struct Paraboloids {
 };
 using DrawParaboloids = FunctionRef<void(GraphScope, const Paraboloids&)>;
 
-// `firstCount` lights of the first bounce, as the light maps share them.
+// `firstCount` lights of the first bounce, as the RSMs share them.
 Ssvp addSsvp(GraphScope scope, const RsmSet& rsm, uint32_t firstCount, const SsvpSettings& settings,
              DrawParaboloids draw);
 

@@ -8,16 +8,16 @@ namespace ag::gi {
 BounceLight addSsvpLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                          const SsvpSettings& ssvp, DrawParaboloids draw, BounceLightHistory& h) {
     BounceLight f;
-    addLightMaps(scope, in, s, h, f);
+    addRsms(scope, in, s, h, f);
     const Ssvp propagated = addSsvp(scope, f.rsm, s.valClustering.count, ssvp, draw);
     f.vals = propagated.vals, f.firstCount = propagated.firstCount;
     if (s.ismAtlas.enabled) f.isms = propagated.maps;
-    const Surfaces thin = addThinned(scope, in.surfaces, s.spacing);
+    const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 =
-        addValShading(scope, thin, firstVals(f.vals, f.firstCount), f.isms, s.valShading);
+        addValShading(scope, downsampled, firstVals(f.vals, f.firstCount), f.isms, s.valShading);
     if (f.bounce1.image && f.vals.count > f.firstCount)
-        f.irradiance = addValShading(scope, thin, f.vals, f.isms, s.valShading, kAllBouncesShading);
-    addToPixels(scope, in, thin, s, h, f);
+        f.irradiance = addValShading(scope, downsampled, f.vals, f.isms, s.valShading, kAllBouncesShading);
+    addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
     return f;
 }

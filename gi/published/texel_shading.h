@@ -1,4 +1,4 @@
-// Irradiance from every texel of the light maps as a point emitter (Dachsbacher & Stamminger 2005 without
+// Irradiance from every texel of the RSMs as a point emitter (Dachsbacher & Stamminger 2005 without
 // their sampling): slow, and exact but for visibility as the maps grow.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Virtual point lights as instant radiosity has them (Keller 1997; Dachsbacher & Stamminger 2006): light-map
+// Virtual point lights as instant radiosity has them (Keller 1997; Dachsbacher & Stamminger 2006): RSM
 // texels chosen by importance, the same ones while nothing moves. The classic beside our area lights.
 #pragma once
 

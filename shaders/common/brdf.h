@@ -1,5 +1,5 @@
 // The glTF 2.0 metallic-roughness surface (specification, appendix B) with KHR_materials_specular: a Lambert
-// base under a GGX coat. metallic 0 and specular 0 is exactly Lambert.
+// base under a GGX specular lobe. metallic 0 and specular 0 is exactly Lambert.
 #ifndef AG_BRDF_H
 #define AG_BRDF_H
 

@@ -1,20 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Outgoing radiance: albedo / pi times irradiance, what a coat of gloss adds to that, and what surfaces emit.
+// Outgoing radiance: albedo / pi times irradiance, what a specular lobe adds to that, and what surfaces emit.
 #include "common/portable.h"
 
 layout(constant_id = 0) const bool kDirect = true;    // compiled out where nothing lights the scene
 layout(constant_id = 1) const bool kIndirect = true;
 layout(constant_id = 2) const bool kEmissive = false;
-layout(constant_id = 3) const bool kCoat = false;
+layout(constant_id = 3) const bool kSpecular = false;
 
 layout(set = 0, binding = 0) uniform sampler2D albedoMap;
 layout(set = 0, binding = 1) uniform sampler2D directMap;
 layout(set = 0, binding = 2) uniform sampler2D indirectMap;
 layout(set = 0, binding = 3) uniform sampler2D emissiveMap;
 layout(set = 0, binding = 4) uniform sampler2D depthMap;
-layout(set = 0, binding = 5) uniform sampler2D coatMap;
+layout(set = 0, binding = 5) uniform sampler2D specularMap;
 
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 radiance;  // W/(m² sr)
@@ -25,7 +25,7 @@ void main() {
     if (kDirect) irradiance += texelFetch(directMap, pixel, 0).rgb;
     if (kIndirect) irradiance += texelFetch(indirectMap, pixel, 0).rgb;
     vec3 result = texelFetch(albedoMap, pixel, 0).rgb * irradiance * kInvPi;
-    if (kCoat) result = max(result + texelFetch(coatMap, pixel, 0).rgb, vec3(0.0));
+    if (kSpecular) result = max(result + texelFetch(specularMap, pixel, 0).rgb, vec3(0.0));
     if (kEmissive) result += texelFetch(emissiveMap, pixel, 0).rgb;
     radiance = texelFetch(depthMap, pixel, 0).x > 0.0 ? vec4(min(result, vec3(kMostHalf)), 1.0) : vec4(0.0);
 }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Importance of each block over the light maps, black where nothing is lit.
+// Importance of each block over the RSMs, black where nothing is lit.
 #include "common/false_color.h"
 #include "importance/pyramid.glsl"
 #include "rsm/rsm_io.h"

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The light maps as radiosity, flux over area, in W/m².
+// The RSMs as radiosity, flux over area, in W/m².
 #include "rsm/rsm.glsl"
 
 layout(push_constant, scalar) uniform Push { RsmAtlas atlas; float light; } push;  // light: its unit, W/m²

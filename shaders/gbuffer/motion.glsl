@@ -1,17 +1,17 @@
 // What moved, where gbuffer/fill.vert put it, and the way back to where it was a frame ago.
 #define AG_SCENE_INSTANCES
 #include "scene/scene.glsl"
-#ifdef AG_FIGURES
+#ifdef AG_SKINNED
 #include "skinning/skin.glsl"
 
 layout(set = 0, binding = 2) uniform samplerBuffer previousJoints;
-layout(set = 0, binding = 3, scalar) readonly buffer Figures { SkinFigure items[]; } figures;
+layout(set = 0, binding = 3, scalar) readonly buffer SkinnedMeshes { SkinRow items[]; } skinnedMeshes;
 layout(set = 0, binding = 4, scalar) readonly buffer Skin { SkinnedVertex items[]; } skin;
 layout(set = 0, binding = 5, scalar) readonly buffer Positions { vec3 items[]; } modelled;
 
-// Where the figure's vertex was a frame ago, in its frame.
-vec3 bentBefore(uint figure) {
-    SkinFigure f = figures.items[figure];
+// Where the skinned mesh's vertex was a frame ago, in its frame.
+vec3 bentBefore(uint skinnedMesh) {
+    SkinRow f = skinnedMeshes.items[skinnedMesh];
     uint vertex = uint(gl_VertexIndex) - f.firstDeformed + f.firstVertex;
     SkinnedVertex s = skin.items[vertex];
     return skinPoint(AG_SKIN(previousJoints, f.firstJoint, s), modelled.items[vertex]);
@@ -29,8 +29,8 @@ void main() {
     InstanceTransform t = fetchInstance(gl_InstanceIndex);
     vec3 now = transformPoint(t, position);
     vec4 p = vec4(position, 1.0);
-#ifdef AG_FIGURES
-    if (t.figure != kNoFigure) p.xyz = bentBefore(t.figure);
+#ifdef AG_SKINNED
+    if (t.skinnedMesh != kNoSkinnedMesh) p.xyz = bentBefore(t.skinnedMesh);
 #endif
     vec3 before = vec3(dot(texelFetch(previousInstances, gl_InstanceIndex * 4 + 0), p),
                        dot(texelFetch(previousInstances, gl_InstanceIndex * 4 + 1), p),

@@ -13,7 +13,7 @@ struct ReadSurfacesPush {
     float farthest;                 // the host's depth of where nothing is
 };
 
-struct LightMapPush {
+struct GuestRsmPush {
     mat4 clipFromWorld;
     vec3 albedo;
     float alphaCutoff;  // 0: none

@@ -1,11 +1,11 @@
-// What the points reflect of the light that fell on them a frame ago: emitters like a light map's texels.
+// What the points reflect of the light that fell on them a frame ago: emitters like an RSM's texels.
 #define AG_SCENE_INSTANCES
 #include "later_bounces/later_bounces_io.h"
 #include "rsm/rsm_io.h"
 #include "scene/scene.glsl"
 #include "surface_points/place_edge.glsl"
-#ifdef AG_FIGURES
-#include "surface_points/figure_sample.glsl"
+#ifdef AG_SKINNED
+#include "surface_points/skinned_sample.glsl"
 #endif
 
 layout(local_size_x = 64) in;
@@ -15,12 +15,12 @@ layout(set = 0, binding = 1, scalar) readonly buffer Points { BouncePoint items[
 layout(set = 0, binding = 2) uniform samplerBuffer irradiance;  // W/m²
 layout(set = 0, binding = 3, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 4, scalar) writeonly buffer Edges { SurfaceEdge items[]; } edges;  // two a point
-#ifdef AG_FIGURES
+#ifdef AG_SKINNED
 layout(set = 0, binding = 5, scalar) readonly buffer Positions { vec3 items[]; } deformedPositions;
 layout(set = 0, binding = 6, scalar) readonly buffer Attributes { VertexRow items[]; } deformedAttributes;
 
-// The point as its figure is bent now.
-void followFigure(inout BouncePoint p) {
+// The point as its skinned mesh is bent now.
+void followSkinnedMesh(inout BouncePoint p) {
     uvec4 corners = uvec4(floatBitsToUint(p.normalLocal), floatBitsToUint(p.edgesLocal[0].inward.x));
     SurfaceSample s = AG_DEFORMED_SAMPLE(deformedPositions, deformedAttributes, p.instance, p.positionLocal, corners);
     p.positionLocal = s.positionLocal;
@@ -34,8 +34,8 @@ void main() {
     if (i >= push.p.count) return;
     BouncePoint p = points.items[i];
     InstanceTransform t = fetchInstance(int(p.instance));
-#ifdef AG_FIGURES
-    if (t.figure != kNoFigure) followFigure(p);
+#ifdef AG_SKINNED
+    if (t.skinnedMesh != kNoSkinnedMesh) followSkinnedMesh(p);
 #endif
     vec3 e = push.p.known == 1 ? texelFetch(irradiance, int(i)).rgb : vec3(0.0);
     vec3 flux = min(p.albedo, vec3(kMostAlbedo)) * e * p.area;

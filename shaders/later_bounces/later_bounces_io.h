@@ -9,8 +9,8 @@
 namespace ag::io {
 #endif
 
-// Of a figure's instance: positionLocal and normalLocal hold a FigureSample's weights and corners' x, y, z,
-// edgesLocal[0].inward.x its corners.w, all of them bits.
+// Of a skinned mesh's instance: positionLocal and normalLocal hold a SkinnedSample's weights and corners' x,
+// y, z, edgesLocal[0].inward.x its corners.w, all of them bits.
 struct BouncePoint {  // moves with its instance
     vec3 positionLocal;
     uint instance;

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 // The light at a probe: bounced, from the area lights the screen is lit by, through their shadow maps; and direct, from
-// the lights that have light maps, by these maps' depth. One subgroup a probe; its lanes share out the lights.
+// the lights that have RSMs, by these maps' depth. One subgroup a probe; its lanes share out the lights.
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 1) const int kVisibilityTaps = 0;
 

@@ -24,7 +24,7 @@ struct ProbeRow {  // 2 vec4
 
 struct ProbePush {
     uint valCount;
-    uint faceCount;    // of the light maps
+    uint faceCount;    // of the RSMs
     uint ismTileSize;  // texels
 };
 

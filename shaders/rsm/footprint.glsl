@@ -1,4 +1,4 @@
-// What a light-map texel covers of its surface. Needs buffers `texels`, `faces` and `maps`.
+// What an RSM texel covers of its surface. Needs buffers `texels`, `faces` and `maps`.
 #ifndef AG_FOOTPRINT_GLSL
 #define AG_FOOTPRINT_GLSL
 

@@ -13,7 +13,7 @@ layout(set = 0, binding = 0) uniform samplerBuffer instances;
 
 struct InstanceTransform {
     vec4 row0, row1, row2;
-    uint material, figure;
+    uint material, skinnedMesh;
 };
 
 InstanceTransform fetchInstance(int slot) {
@@ -23,7 +23,7 @@ InstanceTransform fetchInstance(int slot) {
     t.row2 = texelFetch(instances, slot * 4 + 2);
     vec4 ids = texelFetch(instances, slot * 4 + 3);
     t.material = floatBitsToUint(ids.x);
-    t.figure = floatBitsToUint(ids.z);
+    t.skinnedMesh = floatBitsToUint(ids.z);
     return t;
 }
 
@@ -120,7 +120,7 @@ SurfaceMaterial fetchMaterial(uint index, vec2 uv) {
     return m;
 }
 
-// Of a light map's texel. A single-sided surface blocks light from both sides and reflects it from the front alone,
+// Of an RSM's texel. A single-sided surface blocks light from both sides and reflects it from the front alone,
 // where a camera sees it.
 vec3 bounceAlbedo(uint material, SurfaceMaterial m) {
     return gl_FrontFacing || isDoubleSided(material) ? diffuseAlbedo(m.baseColor.rgb, m.metallic) : vec3(0.0);

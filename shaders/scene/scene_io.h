@@ -21,10 +21,10 @@ struct Instance {          // 4 vec4
     vec4 worldFromLocal0;  // rows of the 3x4 matrix
     vec4 worldFromLocal1;
     vec4 worldFromLocal2;
-    uvec4 ids;  // x: material, y: primitive, z: figure or kNoFigure
+    uvec4 ids;  // x: material, y: primitive, z: skinned mesh or kNoSkinnedMesh
 };
 
-const uint kNoFigure = 0xffffffffu;
+const uint kNoSkinnedMesh = 0xffffffffu;
 
 struct Material {       // 6 vec4
     vec4 baseColor;     // linear factor

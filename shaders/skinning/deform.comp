@@ -1,14 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// A figure's own vertices: those of its mesh, moved by its joints.
+// A skinned mesh's own vertices: those of its mesh, moved by its joints.
 #include "skinning/skin.glsl"
 
 layout(local_size_x = 64) in;  // kSkinGroup
 layout(push_constant, scalar) uniform Push { uint firstGroup; } push;
 
-layout(set = 0, binding = 0, scalar) readonly buffer Groups { uint items[]; } groups;  // the figure of each
-layout(set = 0, binding = 1, scalar) readonly buffer Figures { SkinFigure items[]; } figures;
+layout(set = 0, binding = 0, scalar) readonly buffer Groups { uint items[]; } groups;  // the skinned mesh of each
+layout(set = 0, binding = 1, scalar) readonly buffer SkinnedMeshes { SkinRow items[]; } skinnedMeshes;
 layout(set = 0, binding = 2) uniform samplerBuffer joints;
 layout(set = 0, binding = 3, scalar) readonly buffer Skin { SkinnedVertex items[]; } skin;
 layout(set = 0, binding = 4, scalar) readonly buffer Positions { vec3 items[]; } positions;
@@ -18,12 +18,12 @@ layout(set = 0, binding = 7, scalar) writeonly buffer DeformedAttributes { Verte
 
 void main() {
     uint group = push.firstGroup + gl_WorkGroupID.x;
-    SkinFigure figure = figures.items[groups.items[group]];
-    uint to = group * kSkinGroup + gl_LocalInvocationID.x, i = to - figure.firstDeformed;
-    if (i >= figure.vertexCount) return;
-    uint from = figure.firstVertex + i;
+    SkinRow skinnedMesh = skinnedMeshes.items[groups.items[group]];
+    uint to = group * kSkinGroup + gl_LocalInvocationID.x, i = to - skinnedMesh.firstDeformed;
+    if (i >= skinnedMesh.vertexCount) return;
+    uint from = skinnedMesh.firstVertex + i;
     SkinnedVertex vertex = skin.items[from];
-    SkinMatrix m = AG_SKIN(joints, figure.firstJoint, vertex);
+    SkinMatrix m = AG_SKIN(joints, skinnedMesh.firstJoint, vertex);
     VertexRow row = attributes.items[from];
     row.normal = skinNormal(m, row.normal);
     row.tangent.xyz = skinDirection(m, row.tangent.xyz);

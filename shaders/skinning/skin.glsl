@@ -1,4 +1,4 @@
-// The matrix that moves a vertex of a figure, from joints in a texel buffer of three vec4 each.
+// The matrix that moves a vertex of a skinned mesh, from joints in a texel buffer of three vec4 each.
 #ifndef AG_SKIN_GLSL
 #define AG_SKIN_GLSL
 

@@ -1,4 +1,4 @@
-// Figures as the GPU sees them. Scalar layout.
+// Skinned meshes as the GPU sees them. Scalar layout.
 #ifndef AG_SKINNING_IO_H
 #define AG_SKINNING_IO_H
 
@@ -8,17 +8,17 @@
 namespace ag::io {
 #endif
 
-const uint kSkinGroup = 64;  // vertices a group deforms, all of one figure
+const uint kSkinGroup = 64;  // vertices a group deforms, all of one skinned mesh
 
-struct SkinFigure {
+struct SkinRow {
     uint firstVertex;  // of the mesh as it was modelled
     uint vertexCount;
-    uint firstDeformed;  // of the figure's own, a multiple of kSkinGroup
+    uint firstDeformed;  // of the skinned mesh's own, a multiple of kSkinGroup
     uint firstJoint;
 };
 
 struct SkinnedVertex {  // who moves it
-    uvec2 joints;       // of the figure's, two in 16 bits each
+    uvec2 joints;       // of the skinned mesh's, two in 16 bits each
     vec4 weights;
 };
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// First-bounce lights: light-map texels under a Hammersley set, the same one every frame, each with its share of the
+// First-bounce lights: RSM texels under a Hammersley set, the same one every frame, each with its share of the
 // map's texels (SSVP section III-A).
 #include "common/sampling.h"
 #include "rsm/rsm.glsl"

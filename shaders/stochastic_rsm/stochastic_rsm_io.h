@@ -1,4 +1,4 @@
-// First-bounce irradiance from samples of a light map about each pixel's projection.
+// First-bounce irradiance from samples of an RSM about each pixel's projection.
 #ifndef AG_STOCHASTIC_RSM_IO_H
 #define AG_STOCHASTIC_RSM_IO_H
 

@@ -2,8 +2,8 @@
 #define AG_SCENE_INSTANCES
 #include "scene/scene.glsl"
 #include "surface_points/place_edge.glsl"
-#ifdef AG_FIGURES
-#include "surface_points/figure_sample.glsl"
+#ifdef AG_SKINNED
+#include "surface_points/skinned_sample.glsl"
 #endif
 
 layout(local_size_x = 64) in;
@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push { PointPush p; } push;
 layout(set = 0, binding = 1) uniform samplerBuffer samples;
 layout(set = 0, binding = 5) uniform samplerBuffer areas;
 layout(set = 0, binding = 2, scalar) writeonly buffer Points { SurfacePoint items[]; } points;
-#ifdef AG_FIGURES
+#ifdef AG_SKINNED
 layout(set = 0, binding = 3, scalar) readonly buffer Positions { vec3 items[]; } deformedPositions;
 layout(set = 0, binding = 4, scalar) readonly buffer Attributes { VertexRow items[]; } deformedAttributes;
 #endif
@@ -33,8 +33,8 @@ void main() {
     if (i >= push.p.pointCount) return;
     SurfaceSample s = fetchSample(int(i));
     InstanceTransform t = fetchInstance(int(s.instance));
-#ifdef AG_FIGURES
-    if (t.figure != kNoFigure)
+#ifdef AG_SKINNED
+    if (t.skinnedMesh != kNoSkinnedMesh)
         s = AG_DEFORMED_SAMPLE(deformedPositions, deformedAttributes, s.instance, s.positionLocal,
                                floatBitsToUint(vec4(s.normalLocal, s.bendLocal)));
 #endif

@@ -21,11 +21,12 @@ struct SurfaceSample {  // 4 vec4: where on which instance, moving with it
     SurfaceEdge edgesLocal[2];
 };
 
-// In the place of the first half of a SurfaceSample whose instance is a figure's.
-struct FigureSample {
+// In the place of the first half of a SurfaceSample whose instance is a skinned mesh's.
+struct SkinnedSample {
     vec3 weights;  // of the triangle's corners
     uint instance;
-    uvec4 corners;  // x, y, z: of all figures' deformed vertices; w: bit i: the edge from corner i is sharp
+    uvec4 corners;  // x, y, z: of all skinned meshes' deformed vertices; w: bit i: the edge from corner i is
+                    // sharp
 };
 const uint kSharpCutOut = 8u;  // among corners.w: an alpha-masked surface is cut out at the point
 

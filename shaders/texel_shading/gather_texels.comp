@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// First-bounce irradiance: every pixel meets every light-map texel as a point emitter. Four pixels an invocation share
+// First-bounce irradiance: every pixel meets every RSM texel as a point emitter. Four pixels an invocation share
 // the loads.
 #include "common/form_factors.h"
 #include "common/lane_loop.glsl"

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // What gloss adds to the light of one of a tile's lists, at every pixel: where neighbours share light they do not share
-// what it is reflected by. Only workgroups that were listed as having a pixel with a coat.
+// what it is reflected by. Only workgroups that were listed as having a pixel with a specular lobe.
 #define AG_GLOSSY
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 2) const uint kInterleave = 1;
@@ -13,12 +13,12 @@ layout(constant_id = 5) const uint kList = 0;
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 8) uniform sampler2D albedoMap;
 layout(set = 0, binding = 9) uniform sampler2D reflectanceMap;
-layout(set = 0, binding = 10, rgba16f) uniform image2D coat;
+layout(set = 0, binding = 10, rgba16f) uniform image2D gloss;
 layout(set = 0, binding = 11) uniform usamplerBuffer listed;
 
 struct GlossyPixel {
     Receiver receiver;
-    Coat coat;
+    Specular specular;
     bool glossy;
     vec3 radiance;  // sum, W/(m² sr)
 };
@@ -29,7 +29,7 @@ GlossyPixel glossyPixelAt(ivec2 pixel) {
     vec3 x = worldFromPixel(camera.camera.worldFromClip, camera.camera.size, pixel, depth);
     GlossyPixel g;
     g.receiver = Receiver(x, normalAndRoughness.xyz, kList == kNearList ? widthOf(pixel, depth) : 0.0, vec3(0.0), vec3(0.0));
-    g.coat = coatOf(normalize(camera.camera.position - x), normalAndRoughness.w, reflectance, texelFetch(albedoMap, pixel, 0).rgb);
+    g.specular = specularOf(normalize(camera.camera.position - x), normalAndRoughness.w, reflectance, texelFetch(albedoMap, pixel, 0).rgb);
     g.glossy = depth > 0.0 && any(greaterThan(reflectance, vec4(0.0)));
     g.radiance = vec3(0.0);
     return g;
@@ -38,7 +38,7 @@ GlossyPixel glossyPixelAt(ivec2 pixel) {
 void addGloss(AreaLight l, inout GlossyPixel g) {
     Receiver r = g.receiver;
     vec3 e = irradianceFrom(l, r.position, r.normal, r.width, push.p.ismTileSize);
-    g.radiance += coatRadiance(g.coat, r.position, r.normal, l, e);
+    g.radiance += specularRadiance(g.specular, r.position, r.normal, l, e);
 }
 
 void addGlossToAll(AreaLight l, inout GlossyPixel g[kPixels]) {
@@ -60,7 +60,7 @@ void main() {
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
         if (block.spare || any(greaterThanEqual(pixel, size))) continue;
-        vec3 radiance = g[p].radiance + (kList == kNearList ? vec3(0.0) : imageLoad(coat, pixel).rgb);  // near ones come first
-        imageStore(coat, pixel, vec4(g[p].glossy ? min(radiance, vec3(kMostHalf)) : vec3(0.0), 1.0));
+        vec3 radiance = g[p].radiance + (kList == kNearList ? vec3(0.0) : imageLoad(gloss, pixel).rgb);  // near ones come first
+        imageStore(gloss, pixel, vec4(g[p].glossy ? min(radiance, vec3(kMostHalf)) : vec3(0.0), 1.0));
     }
 }

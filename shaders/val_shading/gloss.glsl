@@ -1,4 +1,4 @@
-// What the coat of a material adds to the Lambert part where area lights shine on it: a light is a bell about its centre's
+// What the specular lobe of a material adds to the Lambert part where area lights shine on it: a light is a bell about its centre's
 // direction, as wide as its rectangle is seen in the plane of incidence and across it. The bell widens the lobe of half
 // vectors, so that no light makes a spike and lights side by side make one surface (after virtual spherical Gaussian
 // lights, Tokuyoshi 2015). Half vectors turn by half as much as directions, and across the plane by 1 / v·h times that.
@@ -13,7 +13,7 @@ const float kLeastRoughness = 0.15;
 // is half as high at sqrt(sqrt(2) - 1) of its width.
 const float kBell = 1.81;
 
-struct Coat {
+struct Specular {
     vec3 toViewer;
     float alpha2;
     vec3 f0;
@@ -22,9 +22,9 @@ struct Coat {
 };
 
 // reflectance: head on, and at grazing angles.
-Coat coatOf(vec3 toViewer, float roughness, vec4 reflectance, vec3 albedo) {
+Specular specularOf(vec3 toViewer, float roughness, vec4 reflectance, vec3 albedo) {
     float root = max(roughness, kLeastRoughness), alpha = root * root;
-    return Coat(toViewer, alpha * alpha, reflectance.rgb, reflectance.w, albedo * kInvPi);
+    return Specular(toViewer, alpha * alpha, reflectance.rgb, reflectance.w, albedo * kInvPi);
 }
 
 // Squared angle the light is wide along a unit vector across its direction.
@@ -36,9 +36,9 @@ float angularVariance(AreaLight l, vec3 along, float inverseDistance2) {
 // 1 / (n·x + sqrt(...)) of Smith's masking, which is what is left of it in the BRDF.
 float maskingOver(float cosine, float alpha2) { return 1.0 / (cosine + sqrt(alpha2 + (1.0 - alpha2) * cosine * cosine)); }
 
-// Radiance toward the viewer, from the irradiance e that the light sends; less than nothing where the coat keeps light
+// Radiance toward the viewer, from the irradiance e that the light sends; less than nothing where the specular lobe keeps light
 // from what is under it.
-vec3 coatRadiance(Coat c, vec3 x, vec3 n, AreaLight l, vec3 e) {
+vec3 specularRadiance(Specular c, vec3 x, vec3 n, AreaLight l, vec3 e) {
     vec3 d = l.place.xyz - x;
     float inverse2 = 1.0 / max(dot(d, d), 1e-12);
     vec3 toLight = d * sqrt(inverse2), h = normalize(c.toViewer + toLight);

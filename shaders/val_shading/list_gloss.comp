@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Lists the workgroups of gather_gloss.comp that have a pixel with a coat, in any order; the others' is black.
+// Lists the workgroups of gather_gloss.comp that have a pixel with a specular lobe, in any order; the others' is black.
 #include "val_shading/screen_tiles.glsl"
 
 layout(local_size_x = 64) in;  // as gather_gloss.comp
 layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
 layout(set = 0, binding = 0) uniform sampler2D reflectanceMap;
-layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D coat;
+layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D gloss;
 layout(set = 0, binding = 2, scalar) writeonly buffer Glossy { uint items[]; } glossyGroups;
 layout(set = 0, binding = 3, scalar) buffer Groups { uvec3 count; } groups;
 
@@ -33,6 +33,6 @@ void main() {
     for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
         if (block.spare || any(greaterThanEqual(pixel, size))) continue;
-        imageStore(coat, pixel, vec4(0.0));
+        imageStore(gloss, pixel, vec4(0.0));
     }
 }

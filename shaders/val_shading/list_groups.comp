@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Lists the workgroups of a gathering whose pixels are gathered anew: those that are due, and those any of whose surfaces is
-// another than when they were gathered last. In any order. Of the groups of gather_gloss.comp only those that have a coat.
+// another than when they were gathered last. In any order. Of the groups of gather_gloss.comp only those that have a specular lobe.
 #include "common/sampling.h"
 #include "val_shading/screen_tiles.glsl"
 
 layout(local_size_x = 64) in;  // as the gathering
 layout(push_constant, scalar) uniform Push { ValSharePush p; } push;
-layout(constant_id = 0) const bool kCoats = false;  // of the groups listed, with all that a coat is
+layout(constant_id = 0) const bool kGlossy = false;  // of the groups listed, with all that a specular lobe is
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2) uniform sampler2D albedoMap;
@@ -34,9 +34,9 @@ uvec2 halves(vec4 v) { return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw)); }
 
 void addPixel(uint place, ivec2 pixel) {
     vec4 normal = texelFetch(normalMap, pixel, 0);  // and roughness
-    if (!kCoats) normal.w = 0.0;
+    if (!kGlossy) normal.w = 0.0;
     addToDigest(place * 2, uvec4(floatBitsToUint(texelFetch(depthMap, pixel, 0).x), halves(normal), 0u));
-    if (kCoats) addToDigest(place * 2 + 1, uvec4(halves(texelFetch(albedoMap, pixel, 0)), halves(texelFetch(reflectanceMap, pixel, 0))));
+    if (kGlossy) addToDigest(place * 2 + 1, uvec4(halves(texelFetch(albedoMap, pixel, 0)), halves(texelFetch(reflectanceMap, pixel, 0))));
 }
 
 // Of every count-th tile the index-th ones: no two next to each other, in no row or column.
@@ -48,7 +48,7 @@ bool isDue(uint tile) {
 void main() {
     if (gl_LocalInvocationIndex == 0) digest = uvec2(0);
     barrier();
-    uint group = kCoats ? texelFetch(glossyGroups, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
+    uint group = kGlossy ? texelFetch(glossyGroups, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
     TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.gather.tileSize, push.p.gather.tiles, 1);
     ivec2 size = textureSize(depthMap, 0);
     for (int p = 0; p < kPixels; ++p) {

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Virtual point lights (Keller 1997; Ritschel et al. 2008): light-map texels under Halton points warped by importance,
+// Virtual point lights (Keller 1997; Ritschel et al. 2008): RSM texels under Halton points warped by importance,
 // each with its block's flux over the block's chance, so that the mean of the lights' total is that of the map.
 #include "common/sampling.h"
 #include "rsm/rsm.glsl"

@@ -17,14 +17,15 @@
 namespace ag::capture {
 namespace {
 
-// From the sources of light and renderer: the names given where a pass is added. Views for debugging are no part of
-// the frame.
+// From the sources of light and renderer: the names given where a pass is added. Views for debugging are no
+// part of the frame.
 std::set<std::string> passesOfTheSource() {
     static const std::regex kAdded(
         R"re((?:compute|fullscreen|raster|fill|upload|copyImage)\(\s*"(\w+\.\w+)")re");
     std::set<std::string> names;
     for (const char* folder : {"/gi", "/gi/published", "/engine/renderer"})
-        for (const auto& file : std::filesystem::directory_iterator(std::string(AFTERGLOW_SOURCE_DIR) + folder)) {
+        for (const auto& file :
+             std::filesystem::directory_iterator(std::string(AFTERGLOW_SOURCE_DIR) + folder)) {
             if (file.path().extension() != ".cpp" || file.path().stem() == "debug_view") continue;
             const std::string text = *readFile(file.path());
             for (std::sregex_iterator i(text.begin(), text.end(), kAdded), end; i != end; ++i)
@@ -46,7 +47,7 @@ struct Case {
 void moveLast(RenderScene& scene) {
     const uint32_t last = uint32_t(scene.instances.size()) - 1;
     scene.instances[last].worldFromLocal[3].x += 0.01f;
-    if (!scene.figures.empty()) ++scene.figures.back().poseVersion;
+    if (!scene.skinnedMeshes.empty()) ++scene.skinnedMeshes.back().poseVersion;
     scene.changedInstances = {{last, last + 1}};
     scene.allInstancesChanged = scene.instancesVersion == 1;
     ++scene.instancesVersion;

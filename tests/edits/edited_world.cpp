@@ -22,13 +22,13 @@ constexpr size_t kMostThings = 28, kMostLights = 7;
 SceneAsset variedHall() {
     scenegen::SceneBuilder b(*scenegen::buildScene("hall", 0));
     const scenegen::PillarShape shape{.joints = 3, .rings = 8, .sides = 8};
-    const uint32_t figure = b.model("figure", scenegen::pillarParts(shape, 2, 1), glm::vec3(0));
-    b.attach(figure, b.place("under a figure", {1, 0.2f, 1}));
-    const auto mesh = uint32_t(b.node(figure).mesh);
+    const uint32_t skinnedMesh = b.model("skinned mesh", scenegen::pillarParts(shape, 2, 1), glm::vec3(0));
+    b.attach(skinnedMesh, b.place("under a skinned mesh", {1, 0.2f, 1}));
+    const auto mesh = uint32_t(b.node(skinnedMesh).mesh);
     SceneAsset asset = b.finish();
     scenegen::addChains(asset, mesh, shape, 1);
-    asset.nodes[figure].extras.clipSpeed = 0;
-    asset.nodes[figure].extras.clipLoops = false;  // comes to rest by itself
+    asset.nodes[skinnedMesh].extras.clipSpeed = 0;
+    asset.nodes[skinnedMesh].extras.clipLoops = false;  // comes to rest by itself
     std::vector<Material>& materials = asset.geometry.materials;
     materials[0].alphaMode = AlphaMode::kMask;
     materials[1].doubleSided = true;
@@ -66,7 +66,7 @@ EditedWorld::EditedWorld(uint32_t seed) : random_(seed), asset_(variedHall()), s
     }
     for (const Entity thing : things_) {
         meshes_.push_back(*world_.get<MeshInstance>(thing));
-        if (world_.has<Figure>(thing)) figureMesh_ = meshes_.back();
+        if (world_.has<SkinnedMesh>(thing)) skinnedMeshMesh_ = meshes_.back();
     }
     spawnLight(LightKind::kDirectional);
     for (const glm::dvec3 place : {glm::dvec3(-2, 1, 0), glm::dvec3(3, 1, 2)})
@@ -75,12 +75,11 @@ EditedWorld::EditedWorld(uint32_t seed) : random_(seed), asset_(variedHall()), s
     world_.setResource<ActiveCamera>(cameraOf(asset_, 0), size_);
     world_.setResource<RenderScene>().geometry = &asset_.geometry;
     schedule_.add("playAnimations",
-                  [](View<AnimationPlayer> players, Res<const FigureLibrary> library, JobRunner& runner) {
-                      advancePlayers(players, *library, 1.0f / 30, runner);
-                  });
+                  [](View<AnimationPlayer> players, Res<const SkinnedMeshLibrary> library,
+                     JobRunner& runner) { advancePlayers(players, *library, 1.0f / 30, runner); });
     schedule_.add("updateRootTransforms", updateRootTransforms);
     schedule_.add("updateChildTransforms", updateChildTransforms);
-    schedule_.add("poseFigures", poseFigures);
+    schedule_.add("poseSkinnedMeshes", poseSkinnedMeshes);
     schedule_.add("extractScene", extractScene);
     schedule_.add("extractProbes", render::extractProbes);
 }
@@ -102,7 +101,7 @@ std::string EditedWorld::edit() {
         Kind{5, &EditedWorld::addThing},     Kind{5, &EditedWorld::removeThing},
         Kind{14, &EditedWorld::switchLight}, Kind{9, &EditedWorld::moveLight},
         Kind{4, &EditedWorld::addLight},     Kind{4, &EditedWorld::removeLight},
-        Kind{14, &EditedWorld::moveCamera},  Kind{6, &EditedWorld::poseFigure},
+        Kind{14, &EditedWorld::moveCamera},  Kind{6, &EditedWorld::poseSkinnedMesh},
         Kind{3, &EditedWorld::resize},       Kind{9, &EditedWorld::changeSetting},
         Kind{3, &EditedWorld::resetSettings}};
     if (walkFrames_ > 0) return walk();
@@ -157,23 +156,23 @@ std::string EditedWorld::removeThing() {
     return fmt::format("removed thing {}", pick);
 }
 
-// Starts, stops, takes another pose or its rest; now and then another figure comes.
-std::string EditedWorld::poseFigure() {
-    std::vector<Entity> figures;
+// Starts, stops, takes another pose or its rest; now and then another skinned mesh comes.
+std::string EditedWorld::poseSkinnedMesh() {
+    std::vector<Entity> skinnedMeshes;
     for (const Entity thing : things_)
-        if (world_.has<Figure>(thing)) figures.push_back(thing);
-    if (figures.empty() || (figures.size() < 3 && below(5) == 0)) {
+        if (world_.has<SkinnedMesh>(thing)) skinnedMeshes.push_back(thing);
+    if (skinnedMeshes.empty() || (skinnedMeshes.size() < 3 && below(5) == 0)) {
         things_.push_back(world_.create(LocalTransform{.translation = glm::dvec3(inside()), .node = 0},
-                                        WorldTransform{}, figureMesh_, Figure{},
+                                        WorldTransform{}, skinnedMeshMesh_, SkinnedMesh{},
                                         AnimationPlayer{.seconds = between(0, 1), .speed = 0, .loops = 0}));
-        return "added a figure";
+        return "added a skinned mesh";
     }
-    const uint32_t pick = below(figures.size()), what = below(4);
-    AnimationPlayer& player = *world_.write<AnimationPlayer>(figures[pick]);
+    const uint32_t pick = below(skinnedMeshes.size()), what = below(4);
+    AnimationPlayer& player = *world_.write<AnimationPlayer>(skinnedMeshes[pick]);
     if (what < 2) player.speed = player.speed == 0 ? between(-1, 2) : 0;
     if (what == 2) player.seconds = between(0, 1);
     if (what == 3) player.clip = player.clip < 0 ? 0 : -1;
-    return fmt::format("posed figure {} ({})", pick, what);
+    return fmt::format("posed skinned mesh {} ({})", pick, what);
 }
 
 // Off and on again, or something about it that does not move it.

@@ -34,7 +34,7 @@ class EditedWorld {
     std::string walk();
     std::string addThing();
     std::string removeThing();
-    std::string poseFigure();
+    std::string poseSkinnedMesh();
     std::string switchLight();
     std::string moveLight();
     std::string addLight();
@@ -54,9 +54,9 @@ class EditedWorld {
     World world_;
     Schedule schedule_;
     JobRunner runner_{1};
-    std::vector<Entity> things_, lights_;  // figures are things too
+    std::vector<Entity> things_, lights_;  // skinned meshes are things too
     std::vector<MeshInstance> meshes_;     // that a new thing may have
-    MeshInstance figureMesh_;
+    MeshInstance skinnedMeshMesh_;
     uint32_t walker_ = 0, walkFrames_ = 0;  // of the things, how long it walks on
     glm::uvec2 size_{48, 32};
     render::RenderSettings settings_;

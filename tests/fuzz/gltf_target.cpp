@@ -28,8 +28,8 @@ void checkAsset(const ag::SceneAsset& asset) {
     for (ag::SceneNode& node : moved.nodes)
         node.extras.clipStart = 0.37f;
     for (const ag::RenderScene& posed : {scene, ag::staticScene(moved)}) {
-        const ag::DeformedVertices bent = ag::deformFigures(posed);
-        for (const ag::RenderFigure& f : posed.figures)
+        const ag::DeformedVertices bent = ag::deformSkinnedMeshes(posed);
+        for (const ag::RenderSkinnedMesh& f : posed.skinnedMeshes)
             for (uint32_t v = 0; v < f.vertexCount; ++v)
                 require(std::isfinite(glm::length(glm::dvec3(bent.positions[f.firstDeformed + v]))));
     }

@@ -101,7 +101,7 @@ uint64_t texelsOf(const RsmLayout& layout) {
     return texels;
 }
 
-TEST(LightMapSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
+TEST(RsmSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
     Lit scene = threeLamps();
     ClusterShares shares;
     EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), 3u * 512 * 512);
@@ -111,7 +111,7 @@ TEST(LightMapSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
     EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), (6u + 1 + 4) * 256 * 256);
 }
 
-TEST(LightMapSizes, OfManyLightsAreHalvedAndDarkOnesCount) {
+TEST(RsmSizes, OfManyLightsAreHalvedAndDarkOnesCount) {
     Lit scene = threeLamps();
     for (uint64_t id = 4; id <= 8; ++id)
         scene.lights.push_back({.kind = LightKind::kPoint, .intensity = glm::vec3(1), .id = id});

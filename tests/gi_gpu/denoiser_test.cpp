@@ -43,7 +43,7 @@ double meanOverFrames(Bench& b, int frames) {
 TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
     Bench b(*scenegen::buildScene("cornell", 0), {163, 97});
     b.settings.technique = Technique::kNone;
-    b.settings.bounce.spacing = 1;  // it is thinned below
+    b.settings.bounce.spacing = 1;  // it is downsampled below
     DenoiserSettings s{.enabled = true};
     CameraPose pose = cameraOf(b.asset, 0);
     for (const uint32_t spacing : {1u, 2u, 3u})
@@ -55,17 +55,17 @@ TEST(Denoiser, KeepsWhatIsConstantOnASurfaceHoweverTheCameraMoves) {
                 pose.position.x += spacing == 2 ? -0.02 : 0.02;
                 setCamera(b.scene, pose, b.size);
                 ImageHandle normal, out;
-                b.renderer.render(b.scene, b.size, b.settings, b.options,
-                                  [&](GraphScope scope, const SceneView& view, const RenderFrame& f) {
-                                      normal = f.gbuffer.surfaces.normal;
-                                      const Surfaces thin = addThinned(scope, f.gbuffer.surfaces, spacing);
-                                      const Irradiance steady =
-                                          addDenoiser(scope, thin, view.scene->originVersion,
-                                                      {{thin.normal}, 1, frame}, s, history);
-                                      out = addUpsampling(scope, f.gbuffer.surfaces, thin, steady).image;
-                                      scope.output(normal);
-                                      scope.output(out);
-                                  });
+                b.renderer.render(
+                    b.scene, b.size, b.settings, b.options,
+                    [&](GraphScope scope, const SceneView& view, const RenderFrame& f) {
+                        normal = f.gbuffer.surfaces.normal;
+                        const Surfaces downsampled = addDownsampled(scope, f.gbuffer.surfaces, spacing);
+                        const Irradiance steady = addDenoiser(scope, downsampled, view.scene->originVersion,
+                                                              {{downsampled.normal}, 1, frame}, s, history);
+                        out = addUpsampling(scope, f.gbuffer.surfaces, downsampled, steady).image;
+                        scope.output(normal);
+                        scope.output(out);
+                    });
                 normals = readImage(b.renderer, normal);
                 result = readImage(b.renderer, out);
             }
@@ -88,15 +88,16 @@ TEST(Upsampling, IsWhatAllPixelsWouldHave) {
     for (const uint32_t spacing : {2u, 3u}) {
         ImageHandle all, spread;
         for (int frame = 0; frame < 8; ++frame)  // clusters settle
-            b.renderer.render(b.scene, b.size, b.settings, b.options,
-                              [&](GraphScope scope, const SceneView&, const RenderFrame& f) {
-                                  all = f.bounce.bounce1.image;
-                                  const Surfaces thin = addThinned(scope, f.gbuffer.surfaces, spacing);
-                                  const Irradiance taken{addThinImage(scope, "test.thin", all, spacing)};
-                                  spread = addUpsampling(scope, f.gbuffer.surfaces, thin, taken).image;
-                                  scope.output(all);
-                                  scope.output(spread);
-                              });
+            b.renderer.render(
+                b.scene, b.size, b.settings, b.options,
+                [&](GraphScope scope, const SceneView&, const RenderFrame& f) {
+                    all = f.bounce.bounce1.image;
+                    const Surfaces downsampled = addDownsampled(scope, f.gbuffer.surfaces, spacing);
+                    const Irradiance taken{addDownsampledImage(scope, "test.downsampled", all, spacing)};
+                    spread = addUpsampling(scope, f.gbuffer.surfaces, downsampled, taken).image;
+                    scope.output(all);
+                    scope.output(spread);
+                });
         expectAlike(readImage(b.renderer, spread), readImage(b.renderer, all), spacing);
     }
 }

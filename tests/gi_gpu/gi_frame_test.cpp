@@ -322,7 +322,7 @@ TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
     checkClusters(few);
 }
 
-// Sampled point lights carry the light maps' flux: each as much as its chance leaves it.
+// Sampled point lights carry the RSMs' flux: each as much as its chance leaves it.
 // m: the root of the flux-weighted mean square distance of texels from their clusters' planes.
 double thicknessOfClusters(const SceneAsset& asset, float planeWeight) {
     Bench b(asset);
@@ -415,7 +415,7 @@ TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
 // A box that moves is splatted over what stands still, whose maps are kept; the result is what splatting all
 // of it gives.
 TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
-    // Above the lamp, so that the light map and its clusters stay as they are.
+    // Above the lamp, so that the RSM and its clusters stay as they are.
     const auto bench = [](bool keep) {
         scenegen::SceneBuilder room("room");
         const uint32_t white = room.material("white", glm::vec3(0.7f));
@@ -642,7 +642,7 @@ bool anyStartsWith(const std::vector<std::string>& names, std::string_view prefi
     return std::ranges::any_of(names, [&](const std::string& n) { return n.starts_with(prefix); });
 }
 
-TEST(Frame, CameraAloneLeavesTheLightMapsAlone) {
+TEST(Frame, CameraAloneLeavesTheRsmsAlone) {
     for (const float viewWeight : {0.0f, 0.7f}) {
         const auto ran = runByTheCamera(viewWeight);
         EXPECT_TRUE(anyStartsWith(ran, "gbuffer.fill"));
@@ -709,7 +709,7 @@ void moveLast(Bench& b, glm::vec3 by) {
 }
 
 // What a thing is out of sight and out of reach of runs nothing but what indirect light may meet it with.
-TEST(Frame, AThingOutOfSightLeavesViewAndLightMapsAlone) {
+TEST(Frame, AThingOutOfSightLeavesViewAndRsmsAlone) {
     auto b = restingHall();
     CameraPose away = cameraOf(b->asset, 0);
     away.forward = {1, 0, 0.2f};
@@ -755,7 +755,7 @@ TEST(Frame, AFlickeringLampLeavesTheOthersClustersAlone) {
             b.scene.lights[0].intensity = bright * (flickers ? flame : 1);
             ++b.scene.lightsVersion;
             b.frame();
-            // Light maps come and go: their memory is used again, which the validation layer takes for a
+            // RSMs come and go: their memory is used again, which the validation layer takes for a
             // hazard as it does not follow timeline semaphores.
             b.renderer.waitIdle();
         }
@@ -779,7 +779,7 @@ TEST(Frame, WithoutLightThereIsNoGlobalIllumination) {
             << pass.name;
 }
 
-// Materials are Lambert in the one and have coats in the other.
+// Materials are Lambert in the one and have gloss in the other.
 TEST(Glossy, RunsOnlyWhereAMaterialIs) {
     for (const char* name : {"cornell", "glossy"}) {
         Bench b(*scenegen::buildScene(name, 0), {64, 36});

@@ -1,12 +1,12 @@
-// Figures on the device: the vertices are those of the CPU, only what moved is deformed, and what reads
-// surfaces follows.
+// Skinned meshes on the device: the vertices are those of the CPU, only what moved is deformed, and what
+// reads surfaces follows.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/renderer/scene_surfaces.h"
 #include "engine/scene/deform.h"
-#include "engine/scene/figure.h"
+#include "engine/scene/skinned_mesh.h"
 #include "shaders/later_bounces/later_bounces_io.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/figures.h"
@@ -16,23 +16,23 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-struct FigureBench : Bench {
-    FigureLibrary library = makeFigureLibrary(asset);
+struct SkinnedBench : Bench {
+    SkinnedMeshLibrary library = makeSkinnedMeshLibrary(asset);
 
-    explicit FigureBench(uint32_t count, glm::uvec2 pixels = {96, 64})
+    explicit SkinnedBench(uint32_t count, glm::uvec2 pixels = {96, 64})
         : Bench(scenegen::figures(count), pixels) {
         settings.bounce.rsm.resolution = 64;
         settings.bounce.valClustering.count = 32;
         scene.allInstancesChanged = true;
     }
     // To another time of its animation; the frame after says so.
-    void pose(uint32_t figure, float seconds) {
-        const RenderFigure& row = scene.figures[figure];
-        poseFigure(library, figure, 0, seconds,
-                   std::span(scene.joints).subspan(row.firstJoint, row.jointCount));
-        if (!finishPose(library.models[figure], scene, figure)) return;
+    void pose(uint32_t skinnedMesh, float seconds) {
+        const RenderSkinnedMesh& row = scene.skinnedMeshes[skinnedMesh];
+        poseSkinnedMesh(library, skinnedMesh, 0, seconds,
+                        std::span(scene.joints).subspan(row.firstJoint, row.jointCount));
+        if (!finishPose(library.models[skinnedMesh], scene, skinnedMesh)) return;
         for (uint32_t i = 0; i < scene.instances.size(); ++i)
-            if (scene.instances[i].figure == figure) scene.changedInstances.push_back({i, i + 1});
+            if (scene.instances[i].skinnedMesh == skinnedMesh) scene.changedInstances.push_back({i, i + 1});
     }
     void next() {
         if (!scene.changedInstances.empty()) ++scene.instancesVersion;
@@ -49,17 +49,17 @@ struct FigureBench : Bench {
     std::vector<T> named(std::string_view name) {
         return read<T>(renderer.graph().findBuffer(name));
     }
-    float scale() const {  // of the figures' positions
+    float scale() const {  // of the skinned meshes' positions
         return glm::length(scene.bounds.max - scene.bounds.min);
     }
 };
 
-void expectTwins(FigureBench& b) {
-    const DeformedVertices cpu = deformFigures(b.scene);
+void expectTwins(SkinnedBench& b) {
+    const DeformedVertices cpu = deformSkinnedMeshes(b.scene);
     const auto positions = b.named<glm::vec3>("skinning.positions");
     const auto attributes = b.named<VertexAttributes>("skinning.attributes");
     ASSERT_GE(positions.size(), cpu.positions.size());
-    for (const RenderFigure& f : b.scene.figures)
+    for (const RenderSkinnedMesh& f : b.scene.skinnedMeshes)
         for (uint32_t v = f.firstDeformed; v < f.firstDeformed + f.vertexCount; ++v) {
             ASSERT_LT(glm::length(positions[v] - cpu.positions[v]),
                       1e-5f * (1 + glm::length(cpu.positions[v])));
@@ -70,7 +70,7 @@ void expectTwins(FigureBench& b) {
 }
 
 TEST(Skinning, TheDeviceDeformsAsTheCpuDoes) {
-    FigureBench b(5);
+    SkinnedBench b(5);
     b.next();
     expectTwins(b);
     b.pose(1, 0.4f);
@@ -79,8 +79,8 @@ TEST(Skinning, TheDeviceDeformsAsTheCpuDoes) {
     expectTwins(b);
 }
 
-TEST(Skinning, OnlyFiguresThatMovedAreDeformed) {
-    FigureBench b(6);
+TEST(Skinning, OnlySkinnedMeshesThatMovedAreDeformed) {
+    SkinnedBench b(6);
     b.next();
     ASSERT_NE(b.pass("skinning.deform"), nullptr);
     EXPECT_EQ(b.pass("skinning.deform")->outcome, PassOutcome::kRan);
@@ -100,7 +100,7 @@ TEST(Skinning, OnlyFiguresThatMovedAreDeformed) {
     EXPECT_NE(b.pass("skinning.deform")->outcome, PassOutcome::kRan) << "the same pose again";
 }
 
-TEST(Skinning, ScenesWithoutFiguresHaveNoneOfIt) {
+TEST(Skinning, ScenesWithoutSkinnedMeshesHaveNoneOfIt) {
     Bench b(*scenegen::buildScene("crowd", 4), {64, 48});
     b.frame();
     for (const PassReport& p : b.renderer.graph().report())
@@ -117,21 +117,21 @@ float distanceFrom(glm::vec3 p, const std::array<glm::vec3, 3>& c) {
     return std::abs(glm::dot(n, p - c[0]));
 }
 
-// Every point on a figure lies on the triangle it was chosen on, as that is bent now, with its normal.
+// Every point on a skinned mesh lies on the triangle it was chosen on, as that is bent now, with its normal.
 TEST(Skinning, PointsOnSurfacesFollow) {
-    FigureBench b(3);
+    SkinnedBench b(3);
     b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.surfacePoints.points); };
     const SurfaceSamples samples = render::sampleSurfaces(b.scene, 1u << 17);
     b.next();
     for (uint32_t f = 0; f < 3; ++f)
         b.pose(f, 0.3f + 0.9f * float(f));
     b.next();
-    const DeformedVertices v = deformFigures(b.scene);
+    const DeformedVertices v = deformSkinnedMeshes(b.scene);
     const auto points = b.named<io::SurfacePoint>("surface_points.points");
     ASSERT_GE(points.size(), samples.samples.size());
     size_t checked = 0;
     for (size_t i = samples.stillCount; i < samples.samples.size(); i += 7, ++checked) {
-        io::FigureSample on;
+        io::SkinnedSample on;
         std::memcpy(&on, &samples.samples[i], sizeof on);
         const glm::mat4x3& m = b.scene.instances[on.instance].worldFromLocal;
         std::array<glm::vec3, 3> corners;
@@ -146,13 +146,13 @@ TEST(Skinning, PointsOnSurfacesFollow) {
 
 // Points that stand for light that bounces on are some of them.
 TEST(Skinning, LaterBouncesFollow) {
-    FigureBench b(3);
+    SkinnedBench b(3);
     b.settings.bounce.laterBounces.enabled = true;
     b.next();
     for (uint32_t f = 0; f < 3; ++f)
         b.pose(f, 0.5f + 0.8f * float(f));
     b.next();
-    const DeformedVertices v = deformFigures(b.scene);
+    const DeformedVertices v = deformSkinnedMeshes(b.scene);
     struct Texel {
         glm::vec3 position;
         float area;
@@ -164,7 +164,7 @@ TEST(Skinning, LaterBouncesFollow) {
     size_t checked = 0;
     for (size_t i = 0; i < points.size(); ++i) {
         const RenderInstance& instance = b.scene.instances[points[i].instance];
-        if (instance.figure == kNoFigure) continue;
+        if (instance.skinnedMesh == kNoSkinnedMesh) continue;
         glm::uvec3 corners;
         std::memcpy(&corners, &points[i].normalLocal, sizeof corners);
         std::array<glm::vec3, 3> at;
@@ -178,7 +178,7 @@ TEST(Skinning, LaterBouncesFollow) {
 
 // A way back that leads to where the surface was: both frames' places of each vertex the camera sees.
 TEST(Skinning, MotionLeadsBackToTheFrameBefore) {
-    FigureBench b(1, {160, 120});
+    SkinnedBench b(1, {160, 120});
     b.settings.bounce.denoiser.enabled = true;
     ImageHandle motion, depth;
     b.output = [&](GraphScope scope, const RenderFrame& f) {
@@ -190,16 +190,16 @@ TEST(Skinning, MotionLeadsBackToTheFrameBefore) {
     b.next();
     EXPECT_FALSE(motion) << "nothing stood elsewhere before";
     b.next();
-    const DeformedVertices before = deformFigures(b.scene);
+    const DeformedVertices before = deformSkinnedMeshes(b.scene);
     b.pose(0, 0.6f);
     b.next();
     ASSERT_TRUE(motion);
     const Image way = readImage(b.renderer, motion), depths = readImage(b.renderer, depth);
-    const DeformedVertices now = deformFigures(b.scene);
+    const DeformedVertices now = deformSkinnedMeshes(b.scene);
     size_t checked = 0, off = 0;
     for (const RenderInstance& instance : b.scene.instances) {
-        if (instance.figure == kNoFigure) continue;
-        for (uint32_t v = 0; v < b.scene.figures[0].vertexCount; ++v) {
+        if (instance.skinnedMesh == kNoSkinnedMesh) continue;
+        for (uint32_t v = 0; v < b.scene.skinnedMeshes[0].vertexCount; ++v) {
             const glm::vec3 p = instance.worldFromLocal * glm::vec4(now.positions[v], 1),
                             q = instance.worldFromLocal * glm::vec4(before.positions[v], 1);
             const glm::vec4 clip = b.scene.camera.clipFromWorld * glm::vec4(p, 1);

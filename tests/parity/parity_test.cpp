@@ -1,5 +1,5 @@
 // The renderer against the reference, term by term: direct light, the first bounce without visibility, and
-// the light maps' texels as emitters.
+// the RSMs' texels as emitters.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,8 +59,8 @@ TEST(Parity, DirectLight) {
     }
 }
 
-// Figures bent as their animation says: both see the same pose.
-TEST(Parity, PosedFigures) {
+// Skinned meshes bent as their animation says: both see the same pose.
+TEST(Parity, PosedSkinnedMeshes) {
     Parity p("figures", 9);
     const reference::Reference truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512});
     const ImageDifference direct = differ(truth.bounces[0], p.render(Layer::kDirect, {}, 2));
@@ -136,10 +136,10 @@ TEST(Parity, SecondBounce) {
 
 // What is left is within a few hundredths of the truth's mean, and no energy is lost or won.
 struct GlossErrors {
-    ImageDifference coated, lambert;
+    ImageDifference glossy, lambert;
 };
 
-// Where surfaces are glossy, with their coats and without.
+// Where surfaces are glossy, with their gloss and without.
 GlossErrors glossErrors(uint32_t percent, bool visibility) {
     Parity p("glossy", percent);
     Image truth =
@@ -154,7 +154,7 @@ GlossErrors glossErrors(uint32_t percent, bool visibility) {
         if (with.pixels[i] == without.pixels[i]) with.pixels[i] = without.pixels[i] = truth.pixels[i] = {};
     const GlossErrors e{differ(truth, with), differ(truth, without)};
     std::printf("roughness %.2f%s: mean ratio %.3f, relative RMSE %.3f; as Lambert %.3f, %.3f\n",
-                percent / 100.0, visibility ? "" : ", unshadowed", e.coated.meanRatio, e.coated.relativeRmse,
+                percent / 100.0, visibility ? "" : ", unshadowed", e.glossy.meanRatio, e.glossy.relativeRmse,
                 e.lambert.meanRatio, e.lambert.relativeRmse);
     return e;
 }
@@ -164,12 +164,12 @@ GlossErrors glossErrors(uint32_t percent, bool visibility) {
 TEST(Parity, GlossyReceivers) {
     for (const uint32_t percent : {60u, 30u, 15u}) {
         const GlossErrors e = glossErrors(percent, false);
-        EXPECT_NEAR(e.coated.meanRatio, 1, 0.05);
-        EXPECT_LT(e.coated.relativeRmse, 0.5 * e.lambert.relativeRmse);
+        EXPECT_NEAR(e.glossy.meanRatio, 1, 0.05);
+        EXPECT_LT(e.glossy.relativeRmse, 0.5 * e.lambert.relativeRmse);
     }
     const GlossErrors e = glossErrors(30, true);
-    EXPECT_NEAR(e.coated.meanRatio, 1, 0.05);
-    EXPECT_LT(e.coated.relativeRmse, 0.5 * e.lambert.relativeRmse);
+    EXPECT_NEAR(e.glossy.meanRatio, 1, 0.05);
+    EXPECT_LT(e.glossy.relativeRmse, 0.5 * e.lambert.relativeRmse);
 }
 
 TEST(Parity, FirstBounceThroughImperfectShadowMaps) {

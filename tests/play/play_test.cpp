@@ -125,7 +125,7 @@ TEST_F(Walkthrough, TellsWhichTermOfAFlowersLightIsOff) {
     row("twice as long", {}, flowers, 48);
     row("16 taps", taps, flowers);
     row("512 clusters", clusters, flowers);
-    row("light maps of 512", maps, flowers);
+    row("RSMs of 512", maps, flowers);
     row("views of 128, 16384 points", views, flowers);
 }
 

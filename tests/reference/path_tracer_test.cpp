@@ -174,7 +174,7 @@ TEST(Reference, SphereInAConstantEnvironment) {
     EXPECT_NEAR(double(r.radiance.at(0, 0).z), 2, 1e-5) << "the environment itself is seen";
 }
 
-// The GGX coat by sampling against the same brdf by quadrature over the hemisphere.
+// The GGX specular lobe by sampling against the same brdf by quadrature over the hemisphere.
 TEST(Reference, GlossyPlaneUnderASkyByQuadrature) {
     for (const float roughness : {0.2f, 0.5f, 1.0f})
         for (const float metallic : {0.0f, 1.0f}) {
@@ -243,7 +243,7 @@ TEST(Reference, BacksOfSingleSidedSurfacesReflectNothing) {
 
 // Points close to other surfaces are left out: there a map's texels are too few, and single ones count for
 // too much to be a mean.
-TEST(Reference, LightMapTexelsAgreeWithPaths) {
+TEST(Reference, RsmTexelsAgreeWithPaths) {
     for (const char* name : {"cornell", "occluder"}) {
         Traced t(*scenegen::buildScene(name, 0), {48, 27});
         const RayScene rays(t.scene);

@@ -1,4 +1,4 @@
-// The smallest figure whose every vertex is known.
+// The smallest skinned mesh whose every vertex is known.
 #pragma once
 
 #include <cmath>

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/scene/deform.h"
-#include "engine/scene/figure.h"
 #include "engine/scene/gltf_export.h"
 #include "engine/scene/gltf_import.h"
+#include "engine/scene/skinned_mesh.h"
 #include "engine/scene/static_scene.h"
 #include "tests/scene/bar.h"
 #include "tools/scenegen/figures.h"
@@ -84,7 +84,8 @@ TEST(GltfSkin, WhatIsWrittenIsReadAgain) {
     ASSERT_EQ(again->animations.size(), 1u);
     EXPECT_EQ(again->animations[0].channels.size(), asset.animations[0].channels.size());
     EXPECT_FLOAT_EQ(again->animations[0].duration, 3);
-    const DeformedVertices a = deformFigures(staticScene(asset)), b = deformFigures(staticScene(*again));
+    const DeformedVertices a = deformSkinnedMeshes(staticScene(asset)),
+                           b = deformSkinnedMeshes(staticScene(*again));
     ASSERT_EQ(a.positions.size(), b.positions.size());
     for (size_t i = 0; i < a.positions.size(); ++i) {
         ASSERT_LT(glm::length(a.positions[i] - b.positions[i]), 1e-5f) << i;
@@ -244,7 +245,7 @@ TEST(GltfSkin, TheFoxRuns) {
         for (SceneNode& node : asset.nodes)
             node.extras.clipStart = seconds;
         const RenderScene scene = staticScene(asset);
-        const DeformedVertices v = deformFigures(scene);
+        const DeformedVertices v = deformSkinnedMeshes(scene);
         ASSERT_EQ(v.positions.size(), 1728u);
         Bounds bounds;
         float moved = 0;

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr uint32_t kWarmFrames = 64;                         // for clusters and histories to settle
 constexpr double kSlowestMovingMs = 400;                     // what takes longer is no light to move in
 constexpr uint32_t kBudgetFrames = 120, kBudgetJudged = 30;  // within which a budget is met; the last ones
-constexpr uint32_t kEmitterMap = 32;                         // texels along a light map's side
+constexpr uint32_t kEmitterMap = 32;                         // texels along an RSM's side
 constexpr uint32_t kTrendSamples = 1024;                     // a pixel of each key of the flicker's trend
 
 double secondsSince(Clock::time_point start) {

@@ -71,7 +71,7 @@ uint64_t sceneHash(const RenderScene& scene) {
                 h = hashArray(texels, h);
     for (const RenderInstance& i : scene.instances)
         h = hashValue(i.worldFromLocal, combineHash(h, i.primitive));
-    for (const RenderFigure& f : scene.figures)
+    for (const RenderSkinnedMesh& f : scene.skinnedMeshes)
         h = combineHash(combineHash(h, f.firstVertex), f.poseVersion);
     for (const RenderLight& l : scene.lights)
         h = hashLight(l, h);

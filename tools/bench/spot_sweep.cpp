@@ -19,7 +19,7 @@ namespace {
 
 constexpr glm::uvec2 kSize{96, 54};
 constexpr uint32_t kWarmFrames = 32;
-constexpr uint32_t kMap = 128;  // texels along the light map's side
+constexpr uint32_t kMap = 128;  // texels along the RSM's side
 
 SceneAsset emptyRoom() {
     scenegen::SceneBuilder b("spot sweep");

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 3> kSweepVariants = {"not adaptive", "ada
 struct SweepFrame {
     double seconds = 0;
     // A value a variant. Spread: standard deviation of live clusters' areas over their mean. Error: relative
-    // RMSE of unshadowed first-bounce irradiance against a gather of all the light map's texels.
+    // RMSE of unshadowed first-bounce irradiance against a gather of all the RSM's texels.
     std::array<double, kSweepVariants.size()> spread{}, error{};
 };
 

@@ -27,8 +27,8 @@ std::vector<Variant> mapSizes(std::initializer_list<int> sizes) {
 
 std::vector<Variant> ours() {
     std::vector<Variant> variants = clusterBudgets(kCounts);
-    variants.push_back({"128, light map 256²", {"rsm.resolution=256"}});
-    variants.push_back({"256, light map 1024²", {"val_clustering.count=256", "rsm.resolution=1024"}});
+    variants.push_back({"128, RSM 256²", {"rsm.resolution=256"}});
+    variants.push_back({"256, RSM 1024²", {"val_clustering.count=256", "rsm.resolution=1024"}});
     variants.push_back({"128 not adaptive", {"val_clustering.adaptive=off"}});
     return variants;
 }
@@ -57,14 +57,14 @@ std::vector<Variant> paraboloids() {
 std::vector<Variant> qualityLadder() {
     std::vector<Variant> variants;
     for (const render::QualityStep& s : render::qualitySteps().subspan(render::firstFullSizeStep()))
-        variants.push_back({s.name,
-                            {fmt::format("rsm.resolution={}", s.mapResolution),
-                             fmt::format("val_clustering.count={}", s.valCount),
-                             fmt::format("ism_atlas.tile_size={}", s.ismTile),
-                             fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
-                             fmt::format("gi.spacing={}", s.spacing),
-                             fmt::format("val_shading.near_reach={}", s.nearReach),
-                             fmt::format("val_shading.taps={}", s.taps)}});
+        variants.push_back(
+            {s.name,
+             {fmt::format("rsm.resolution={}", s.mapResolution),
+              fmt::format("val_clustering.count={}", s.valCount),
+              fmt::format("ism_atlas.tile_size={}", s.ismTile),
+              fmt::format("ism_atlas.points_per_map={}", s.pointsPerMap),
+              fmt::format("gi.spacing={}", s.spacing), fmt::format("val_shading.near_reach={}", s.nearReach),
+              fmt::format("val_shading.taps={}", s.taps)}});
     return variants;
 }
 
@@ -80,24 +80,24 @@ std::vector<Technique> makeTechniques() {
     return {
         {.name = "none", .description = "no indirect light", .variants = {{"", {}}}},
         {.name = "rsm-brute",
-         .description = "every light-map texel a point emitter, unshadowed",
+         .description = "every RSM texel a point emitter, unshadowed",
          .variants = mapSizes({32, 64, 128})},
         {.name = "rsm-brute-visible",
          .description = "the same with ray-traced visibility, on the CPU",
          .runner = Runner::kEmitters,
          .variants = {{"32²", {}}}},
         {.name = "rsm-400",
-         .description = "400 fixed samples of the light map (Dachsbacher & Stamminger 2005)",
+         .description = "400 fixed samples of the RSM (Dachsbacher & Stamminger 2005)",
          .variants = {{"all pixels", {}},
                       {"interpolated", {"stochastic_rsm.interpolate=on"}},
                       {"randomised", {"stochastic_rsm.random=on"}}}},
         {.name = "irsm",
-         .description = "few samples of the light map, denoised as published",
+         .description = "few samples of the RSM, denoised as published",
          .variants = {{"4 samples", {"stochastic_rsm.samples=4"}},
                       {"8 samples", {}},
                       {"8 samples, square filter", {"denoiser.separable=off"}}}},
         {.name = "stochastic",
-         .description = "few samples of the light map and our denoiser",
+         .description = "few samples of the RSM and our denoiser",
          .variants = {{"4 samples", {"stochastic_rsm.samples=4"}},
                       {"8 samples", {}},
                       {"8 samples, unshadowed", {"stochastic_rsm.visible=off"}},

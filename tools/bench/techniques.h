@@ -16,7 +16,7 @@ struct Variant {
 
 enum class Runner {
     kGpu,       // a preset of the renderer
-    kEmitters,  // light-map texels with ray-traced visibility, on the CPU
+    kEmitters,  // RSM texels with ray-traced visibility, on the CPU
 };
 
 struct Technique {

@@ -6,7 +6,7 @@
 
 namespace ag::reference {
 
-struct LightMap {
+struct BeamMap {
     uint32_t faces = 1;
     uint32_t resolution = 1;  // texels a side
     uint32_t texels() const { return faces * resolution * resolution; }

@@ -27,7 +27,7 @@ float brightnessOf(glm::vec3 arriving, const Surface& s) {
     return mean(arriving * (s.albedo + kGlossOfTarget * s.baseColor)) * std::numbers::inv_pi_v<float>;
 }
 
-glm::vec2 texelCenter(const LightMap& map, uint32_t inFace) {
+glm::vec2 texelCenter(const BeamMap& map, uint32_t inFace) {
     const glm::vec2 at(inFace % map.resolution, inFace / map.resolution);
     return (at + 0.5f) / float(map.resolution) * 2.0f - 1.0f;
 }

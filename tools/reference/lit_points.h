@@ -81,7 +81,7 @@ class LitPoints {
         uint32_t draws = 0;
     };
     struct Map {
-        LightMap shape;
+        BeamMap shape;
         uint32_t firstTexel = 0;
         bool used = false;
     };

@@ -54,7 +54,7 @@ void onEmbreeError(void*, RTCError, const char* what) {
 
 }  // namespace
 
-RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformFigures(scene)) {
+RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformSkinnedMeshes(scene)) {
     device_ = rtcNewDevice(nullptr);
     if (!device_) endProgram("Embree cannot begin: out of memory");
     rtcSetDeviceErrorFunction(device_, onEmbreeError, nullptr);

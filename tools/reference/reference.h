@@ -14,11 +14,11 @@ enum class Method : uint32_t { kPaths, kEmitters };
 
 struct ReferenceSettings {
     PathSettings paths;
-    Method method = Method::kPaths;  // kEmitters: first bounce by the texels of light maps
+    Method method = Method::kPaths;  // kEmitters: first bounce by the texels of RSMs
     uint32_t samplesPerPixel = 64;   // at most: paths, or emitters met
     double maxError = 0;             // stop when the layer's noise is below; 0: take all samples
     uint32_t seed = 1;
-    uint32_t emitterMap = 128;  // texels along a light map's side
+    uint32_t emitterMap = 128;  // texels along an RSM's side
     std::string layer = "radiance";
 };
 

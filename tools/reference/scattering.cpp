@@ -18,7 +18,7 @@ glm::vec3 inFrame(glm::vec3 normal, float sine, float cosine, float phi) {
     return t * (sine * std::cos(phi)) + b * (sine * std::sin(phi)) + normal * cosine;
 }
 
-bool hasCoat(const Surface& s, bool glossy) {
+bool hasSpecular(const Surface& s, bool glossy) {
     return glossy && (s.specular > 0 || s.metallic > 0);
 }
 
@@ -33,7 +33,7 @@ glm::vec3 brdf(const Surface& s, glm::vec3 toViewer, glm::vec3 toLight, bool glo
 float densityOf(const Surface& s, glm::vec3 toViewer, glm::vec3 direction, bool glossy) {
     const float nl = glm::dot(s.normal, direction);
     if (nl <= 0) return 0;
-    if (!hasCoat(s, glossy)) return nl * kInvPi;
+    if (!hasSpecular(s, glossy)) return nl * kInvPi;
     const float alpha = std::max(s.roughness * s.roughness, io::kLeastAlpha);
     const glm::vec3 h = glm::normalize(toViewer + direction);
     const float nh = glm::dot(s.normal, h), vh = std::max(glm::dot(toViewer, h), 1e-6f);
@@ -44,10 +44,10 @@ DirectionSample sampleDirection(const Surface& s, glm::vec3 toViewer, bool gloss
                                 float choice) {
     DirectionSample out;
     const float phi = 2 * kPi * v;
-    const bool coat = hasCoat(s, glossy);
-    if (!coat || choice < 0.5f) {
+    const bool specular = hasSpecular(s, glossy);
+    if (!specular || choice < 0.5f) {
         out.direction = inFrame(s.normal, std::sqrt(u), std::sqrt(std::max(1 - u, 0.0f)), phi);
-        if (!coat) {
+        if (!specular) {
             out.density = std::sqrt(std::max(1 - u, 0.0f)) * kInvPi;
             out.incident = kPi;
             out.reflected = s.albedo;

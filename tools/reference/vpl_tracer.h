@@ -1,5 +1,5 @@
 // A second estimator of the first bounce that shares nothing with path tracing but the rays: every texel of a
-// light map is a point emitter, seen or not seen from each pixel. That both agree proves the units of
+// RSM is a point emitter, seen or not seen from each pixel. That both agree proves the units of
 // reflective shadow maps (flux = albedo x incident power, E = flux / pi x cosines / d²).
 #pragma once
 

@@ -1,4 +1,4 @@
-// Figures made in code: pillars that bend over a chain of joints.
+// Skinned meshes made in code: pillars that bend over a chain of joints.
 #pragma once
 
 #include "engine/scene/scene_asset.h"

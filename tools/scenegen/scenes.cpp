@@ -197,16 +197,17 @@ SceneAsset lamps(uint32_t param) {
     return b.finish();
 }
 
-constexpr uint32_t kFigureEvery = 32, kMostCrowdFigures = 64;
+constexpr uint32_t kSkinnedMeshEvery = 32, kMostCrowdSkinnedMeshes = 64;
 constexpr float kCrowdSway = 3;  // s
 
-bool isFigure(uint32_t i) {
-    const uint32_t row = i / kFigureEvery;
-    return row < kMostCrowdFigures && i % kFigureEvery == (11 * row + kFigureEvery - 1) % kFigureEvery;
+bool isSkinnedMesh(uint32_t i) {
+    const uint32_t row = i / kSkinnedMeshEvery;
+    return row < kMostCrowdSkinnedMeshes &&
+           i % kSkinnedMeshEvery == (11 * row + kSkinnedMeshEvery - 1) % kSkinnedMeshEvery;
 }
 
 // `param` moving things (default 256) over a floor among four coloured walls, lit by a strong spot: boxes of
-// one mesh, and in a place of every 32 a swaying figure, 64 at most.
+// one mesh, and in a place of every 32 a swaying skinned mesh, 64 at most.
 SceneAsset crowd(uint32_t param) {
     const uint32_t count = param ? param : 256;
     SceneBuilder b("crowd");
@@ -216,19 +217,19 @@ SceneAsset crowd(uint32_t param) {
     const float side = std::sqrt(float(count)), half = 0.6f * side + 1;
     b.room("walls", {-half, 0, -half}, {half, 0.6f * half + 2, half}, {red, green, floor, ~0u, white, ~0u});
     const PillarShape pillar;
-    uint32_t first = ~0u, firstFigure = ~0u;
+    uint32_t first = ~0u, firstSkinnedMesh = ~0u;
     for (uint32_t i = 0; i < count; ++i) {
         const auto columns = uint32_t(std::ceil(side));
         const glm::vec3 at((float(i % columns) + 0.5f - 0.5f * float(columns)) * 1.2f, 0.25f,
                            (float(i / columns) + 0.5f - 0.5f * float(columns)) * 1.2f);
         const float yaw = 6.2831853f * io::hashToUnit(i);
         uint32_t node;
-        if (isFigure(i)) {
+        if (isSkinnedMesh(i)) {
             node = b.place("place", at - glm::vec3(0, 0.25f, 0), yaw);
-            const uint32_t figure = firstFigure == ~0u
+            const uint32_t figure = firstSkinnedMesh == ~0u
                                         ? b.model("figure", pillarParts(pillar, box, red), glm::vec3(0))
-                                        : b.copy(firstFigure, "figure", glm::vec3(0));
-            if (firstFigure == ~0u) firstFigure = figure;
+                                        : b.copy(firstSkinnedMesh, "figure", glm::vec3(0));
+            if (firstSkinnedMesh == ~0u) firstSkinnedMesh = figure;
             b.attach(figure, node);
             b.node(figure).extras.clipStart = kCrowdSway * io::hashToUnit(7 * i + 1);
         } else {
@@ -241,8 +242,8 @@ SceneAsset crowd(uint32_t param) {
     b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(6 * height * height), 30,
            50);
     b.camera("camera", {0, 0.5f * half + 1.5f, 1.25f * half + 2}, {0, 0.3f, 0}, 55);
-    if (firstFigure == ~0u) return b.finish();
-    const auto mesh = uint32_t(b.node(firstFigure).mesh);
+    if (firstSkinnedMesh == ~0u) return b.finish();
+    const auto mesh = uint32_t(b.node(firstSkinnedMesh).mesh);
     SceneAsset asset = b.finish();
     addChains(asset, mesh, pillar, kCrowdSway);
     return asset;

@@ -19,7 +19,7 @@ RenderLight pointLight(glm::vec3 position, float intensity) {
             .id = 1};
 }
 
-// A patch one texel of a light map wide, and a wall that its light falls on.
+// A patch one texel of an RSM wide, and a wall that its light falls on.
 SceneAsset patch(float side) {
     scenegen::SceneBuilder b("patch");
     const uint32_t gray = b.material("gray", glm::vec3(0.5f));

@@ -74,7 +74,7 @@ std::vector<T> Stage::read(BufferHandle buffer) {
 
 std::optional<std::string> Stage::clusterFault() {
     const auto texels = read<io::RsmTexel>(last_.bounce.rsm.texels);
-    if (!finiteFloats(texels, sizeof(io::RsmTexel) / 4)) return "a texel of a light map is no number";
+    if (!finiteFloats(texels, sizeof(io::RsmTexel) / 4)) return "a texel of an RSM is no number";
     if (!last_.bounce.clusters.clusters) return std::nullopt;
     const auto clusters = read<io::Cluster>(last_.bounce.clusters.clusters);
     const auto slots = read<uint32_t>(last_.bounce.clusters.slotOfTexel);

@@ -130,10 +130,10 @@ void addReferenceCommand(CLI::App& program, int& exitCode) {
     command->add_option("--max-error", r.maxError, "stop when the layer's estimated relative error is less")
         ->check(numberFrom(1e-6, 1000));
     command->add_option("--seed", r.seed, "of the random numbers")->capture_default_str();
-    command->add_option("--method", r.method, "path, or vpl: light-map texels as point emitters")
+    command->add_option("--method", r.method, "path, or vpl: RSM texels as point emitters")
         ->transform(CLI::CheckedTransformer(std::map<std::string, reference::Method>{
             {"path", reference::Method::kPaths}, {"vpl", reference::Method::kEmitters}}));
-    command->add_option("--vpl-map", r.emitterMap, "texels along a light map's side")
+    command->add_option("--vpl-map", r.emitterMap, "texels along an RSM's side")
         ->check(numberFrom(1, 1024))
         ->capture_default_str();
     command->add_flag("--glossy", r.paths.glossy, "whole glTF materials instead of their Lambert part");

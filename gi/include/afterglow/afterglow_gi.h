@@ -152,8 +152,9 @@ AGI_API AgiResult agiAddMaterials(AgiScene scene, uint32_t count, const AgiMater
 AGI_API AgiResult agiUpdateMaterials(AgiScene scene, uint32_t firstId, uint32_t count,
                                      const AgiMaterial* materials);
 
-/* Triangles. The buffers are yours (VERTEX_BUFFER and INDEX_BUFFER usage) and are read when light maps are
- * drawn; what lies in host memory is the same data, copied during the call, for points on the surfaces. */
+/* Triangles. The buffers are yours (VERTEX_BUFFER and INDEX_BUFFER usage) and are read when reflective shadow
+ * maps are drawn; what lies in host memory is the same data, copied during the call, for points on the
+ * surfaces. */
 typedef struct AgiMesh {
     size_t structSize;
     const void* next;
@@ -213,7 +214,7 @@ typedef struct AgiLight {
     float range;                  /* m, 0: no limit; as in KHR_lights_punctual */
     float innerAngle, outerAngle; /* of a spot, from its axis */
     float budgetShare;            /* weight of its share of the virtual lights beside its flux; usually 1 */
-    uint32_t mapSize;             /* texels along its light map's side, 32 to 1024; 0: 512 */
+    uint32_t mapSize;             /* texels along its reflective shadow map's side, 32 to 1024; 0: 512 */
 } AgiLight;
 
 /* All of them, in the place of those before. */

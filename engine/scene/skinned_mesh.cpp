@@ -1,4 +1,4 @@
-#include "engine/scene/figure.h"
+#include "engine/scene/skinned_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ int32_t frameOf(const SceneAsset& asset, const SceneSkin& skin) {
     return common;
 }
 
-void gatherNodes(const SceneAsset& asset, const SceneSkin& skin, FigureModel& model,
+void gatherNodes(const SceneAsset& asset, const SceneSkin& skin, SkinnedModel& model,
                  std::unordered_map<int32_t, int32_t>& placeOf) {
     std::vector<uint32_t> nodes;
     for (const uint32_t joint : skin.joints)
@@ -60,7 +60,7 @@ void gatherNodes(const SceneAsset& asset, const SceneSkin& skin, FigureModel& mo
         model.jointNodes.push_back(uint32_t(placeOf[int32_t(joint)]));
 }
 
-void gatherVertices(const GeometryArrays& g, const SceneMesh& mesh, FigureModel& model) {
+void gatherVertices(const GeometryArrays& g, const SceneMesh& mesh, SkinnedModel& model) {
     uint32_t first = ~0u, end = 0;
     model.jointBounds.resize(model.jointNodes.size());
     for (uint32_t i = mesh.firstPrimitive; i < mesh.firstPrimitive + mesh.primitiveCount; ++i) {
@@ -77,9 +77,9 @@ void gatherVertices(const GeometryArrays& g, const SceneMesh& mesh, FigureModel&
     model.vertexCount = end - model.firstVertex;
 }
 
-FigureModel makeModel(const FigureLibrary& library, uint32_t mesh, uint32_t skin) {
+SkinnedModel makeModel(const SkinnedMeshLibrary& library, uint32_t mesh, uint32_t skin) {
     const SceneAsset& asset = *library.asset;
-    FigureModel model{.mesh = mesh, .skin = skin, .frame = frameOf(asset, asset.skins[skin])};
+    SkinnedModel model{.mesh = mesh, .skin = skin, .frame = frameOf(asset, asset.skins[skin])};
     std::unordered_map<int32_t, int32_t> placeOf;  // of the asset's nodes among the model's
     gatherNodes(asset, asset.skins[skin], model, placeOf);
     gatherVertices(asset.geometry, asset.meshes[mesh], model);
@@ -94,15 +94,15 @@ FigureModel makeModel(const FigureLibrary& library, uint32_t mesh, uint32_t skin
 
 }  // namespace
 
-std::span<const uint32_t> FigureLibrary::channelsOf(uint32_t animation, uint32_t node) const {
+std::span<const uint32_t> SkinnedMeshLibrary::channelsOf(uint32_t animation, uint32_t node) const {
     const auto nodeOf = [&](uint32_t c) { return asset->animations[animation].channels[c].node; };
     const std::vector<uint32_t>& order = channels[animation];  // equal_range's result needs clang 16
     return {std::ranges::lower_bound(order, node, {}, nodeOf),
             std::ranges::upper_bound(order, node, {}, nodeOf)};
 }
 
-FigureLibrary makeFigureLibrary(const SceneAsset& asset) {
-    FigureLibrary library{.asset = &asset};
+SkinnedMeshLibrary makeSkinnedMeshLibrary(const SceneAsset& asset) {
+    SkinnedMeshLibrary library{.asset = &asset};
     for (const SceneAnimation& animation : asset.animations) {
         auto& order = library.channels.emplace_back(animation.channels.size());
         std::iota(order.begin(), order.end(), 0u);
@@ -121,17 +121,17 @@ FigureLibrary makeFigureLibrary(const SceneAsset& asset) {
     return library;
 }
 
-void poseFigure(const FigureLibrary& library, uint32_t index, int32_t animation, float seconds,
-                std::span<glm::mat3x4> joints) {
+void poseSkinnedMesh(const SkinnedMeshLibrary& library, uint32_t index, int32_t animation, float seconds,
+                     std::span<glm::mat3x4> joints) {
     const SceneAsset& asset = *library.asset;
-    const FigureModel& model = library.models[index];
+    const SkinnedModel& model = library.models[index];
     thread_local std::vector<NodeTransform> locals;
     thread_local std::vector<glm::mat4> places;
     locals.clear();
-    for (const FigureModel::PoseNode& n : model.nodes)
+    for (const SkinnedModel::PoseNode& n : model.nodes)
         locals.push_back(asset.nodes[n.node].local);
     if (animation >= 0 && size_t(animation) < asset.animations.size())
-        for (const FigureModel::PoseChannel& c : model.animations[size_t(animation)])
+        for (const SkinnedModel::PoseChannel& c : model.animations[size_t(animation)])
             applyChannel(asset.animations[size_t(animation)].channels[c.channel], seconds, locals[c.node]);
     places.clear();
     for (size_t i = 0; i < model.nodes.size(); ++i) {
@@ -145,7 +145,7 @@ void poseFigure(const FigureLibrary& library, uint32_t index, int32_t animation,
             withinReach(glm::mat3x4(glm::transpose(places[model.jointNodes[j]] * skin.inverseBind[j])));
 }
 
-Bounds boundsOfPose(const FigureModel& model, std::span<const glm::mat3x4> joints) {
+Bounds boundsOfPose(const SkinnedModel& model, std::span<const glm::mat3x4> joints) {
     Bounds all;
     for (size_t j = 0; j < joints.size(); ++j) {
         const Bounds& local = model.jointBounds[j];
@@ -160,28 +160,29 @@ Bounds boundsOfPose(const FigureModel& model, std::span<const glm::mat3x4> joint
     return all;
 }
 
-uint32_t addFigure(const FigureModel& model, RenderScene& scene) {
-    RenderFigure figure{.firstVertex = model.firstVertex,
-                        .vertexCount = model.vertexCount,
-                        .firstJoint = uint32_t(scene.joints.size()),
-                        .jointCount = uint32_t(model.jointNodes.size())};
-    if (!scene.figures.empty()) {
-        const RenderFigure& last = scene.figures.back();
+uint32_t addSkinnedMesh(const SkinnedModel& model, RenderScene& scene) {
+    RenderSkinnedMesh skinnedMesh{.firstVertex = model.firstVertex,
+                                  .vertexCount = model.vertexCount,
+                                  .firstJoint = uint32_t(scene.joints.size()),
+                                  .jointCount = uint32_t(model.jointNodes.size())};
+    if (!scene.skinnedMeshes.empty()) {
+        const RenderSkinnedMesh& last = scene.skinnedMeshes.back();
         const uint32_t end = last.firstDeformed + last.vertexCount;
-        figure.firstDeformed = (end + kFigureAlignment - 1) / kFigureAlignment * kFigureAlignment;
+        skinnedMesh.firstDeformed =
+            (end + kSkinnedMeshAlignment - 1) / kSkinnedMeshAlignment * kSkinnedMeshAlignment;
     }
-    scene.joints.resize(scene.joints.size() + figure.jointCount);
-    scene.figures.push_back(figure);
-    return uint32_t(scene.figures.size() - 1);
+    scene.joints.resize(scene.joints.size() + skinnedMesh.jointCount);
+    scene.skinnedMeshes.push_back(skinnedMesh);
+    return uint32_t(scene.skinnedMeshes.size() - 1);
 }
 
-bool finishPose(const FigureModel& model, RenderScene& scene, uint32_t index) {
-    RenderFigure& figure = scene.figures[index];
-    const auto joints = std::span(scene.joints).subspan(figure.firstJoint, figure.jointCount);
+bool finishPose(const SkinnedModel& model, RenderScene& scene, uint32_t index) {
+    RenderSkinnedMesh& skinnedMesh = scene.skinnedMeshes[index];
+    const auto joints = std::span(scene.joints).subspan(skinnedMesh.firstJoint, skinnedMesh.jointCount);
     const uint64_t version = hashBytes(std::as_bytes(joints)) | 1;
-    if (version == figure.poseVersion) return false;
-    figure.poseVersion = version;
-    figure.boundsLocal = boundsOfPose(model, joints);
+    if (version == skinnedMesh.poseVersion) return false;
+    skinnedMesh.poseVersion = version;
+    skinnedMesh.boundsLocal = boundsOfPose(model, joints);
     return true;
 }
 

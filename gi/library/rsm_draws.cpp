@@ -1,4 +1,4 @@
-#include "gi/library/light_map_draws.h"
+#include "gi/library/rsm_draws.h"
 
 #include <algorithm>
 #include <array>
@@ -26,14 +26,14 @@ bool isMirrored(const GuestInstance& instance) {
 
 }  // namespace
 
-LightMapDraws::~LightMapDraws() {
+RsmDraws::~RsmDraws() {
     context_.gpu().retire(
         [vk = context_.gpu().vk(), device = context_.gpu().handle(), pool = pool_,
          host = context_.gpu().hostAllocation()] { vk.DestroyDescriptorPool(device, pool, host); });
 }
 
-void LightMapDraws::listDraws(const GuestScene& scene, const SceneOnDevice& device,
-                              const glm::mat4& clipFromWorld) {
+void RsmDraws::listDraws(const GuestScene& scene, const SceneOnDevice& device,
+                         const glm::mat4& clipFromWorld) {
     firstOfFace_.push_back(draws_.size());
     const auto& instances = scene.instances();
     for (uint32_t row = 0; row < instances.size(); ++row)
@@ -43,8 +43,8 @@ void LightMapDraws::listDraws(const GuestScene& scene, const SceneOnDevice& devi
         [](const Draw& a, const Draw& b) { return std::pair(a.mesh, a.row) < std::pair(b.mesh, b.row); });
 }
 
-void LightMapDraws::add(GraphScope scope, const GuestScene& scene, const SceneOnDevice& device,
-                        BufferHandle instances, gi::RsmSet& rsm) {
+void RsmDraws::add(GraphScope scope, const GuestScene& scene, const SceneOnDevice& device,
+                   BufferHandle instances, gi::RsmSet& rsm) {
     draws_.clear();
     firstOfFace_.clear();
     uint64_t key = combineHash(scene.drawnVersion(), device.setVersion());
@@ -56,9 +56,7 @@ void LightMapDraws::add(GraphScope scope, const GuestScene& scene, const SceneOn
     }
     firstOfFace_.push_back(draws_.size());
     rsm.inputsVersion = combineHash(rsm.inputsVersion, key);
-    scope
-        .raster("guest.light_maps", "guest/light_map.vert", "guest/light_map.frag",
-                gpu::VertexLayout::kStrided)
+    scope.raster("guest.rsms", "guest/rsm.vert", "guest/rsm.frag", gpu::VertexLayout::kStrided)
         .colorClear(rsm.normal, glm::vec4(0))
         .colorClear(rsm.albedo, glm::vec4(0))
         .depthClear(rsm.depth)
@@ -68,7 +66,7 @@ void LightMapDraws::add(GraphScope scope, const GuestScene& scene, const SceneOn
 }
 
 // One set a material, of its map or of white; made anew when materials are others.
-void LightMapDraws::makeSets(const GuestScene& scene, const gpu::Pipeline& pipeline) {
+void RsmDraws::makeSets(const GuestScene& scene, const gpu::Pipeline& pipeline) {
     const size_t count = scene.materials().size();
     const uint64_t of =
         combineHash(combineHash(scene.drawnVersion(), count), uint64_t(pipeline.drawSetLayout));
@@ -103,7 +101,7 @@ void LightMapDraws::makeSets(const GuestScene& scene, const gpu::Pipeline& pipel
     setsOf_ = of;
 }
 
-void LightMapDraws::record(const PassRecording& to, const GuestScene& scene, const gi::RsmSet& rsm) {
+void RsmDraws::record(const PassRecording& to, const GuestScene& scene, const gi::RsmSet& rsm) {
     if (draws_.empty()) return;
     makeSets(scene, *to.pipeline);
     for (uint32_t f = 0; f < rsm.lightFaceCount; ++f)
@@ -111,8 +109,8 @@ void LightMapDraws::record(const PassRecording& to, const GuestScene& scene, con
                  std::span(draws_).subspan(firstOfFace_[f], firstOfFace_[f + 1] - firstOfFace_[f]));
 }
 
-void LightMapDraws::drawFace(const PassRecording& to, const GuestScene& scene, const io::RsmFace& face,
-                             std::span<const Draw> draws) {
+void RsmDraws::drawFace(const PassRecording& to, const GuestScene& scene, const io::RsmFace& face,
+                        std::span<const Draw> draws) {
     const gpu::Functions& vk = context_.gpu().vk();
     const VkViewport viewport{
         float(face.origin.x), float(face.origin.y), float(face.size), float(face.size), 0, 1};
@@ -137,7 +135,7 @@ void LightMapDraws::drawFace(const PassRecording& to, const GuestScene& scene, c
             vk.CmdBindIndexBuffer(to.commands, given.indexBuffer, given.indexOffset, given.indexType);
             vk.CmdBindDescriptorSets(to.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, to.pipeline->layout, 1, 1,
                                      &sets_[given.material], 0, nullptr);
-            const io::LightMapPush push{.clipFromWorld = face.clipFromWorld,
+            const io::GuestRsmPush push{.clipFromWorld = face.clipFromWorld,
                                         .albedo = material.albedo,
                                         .alphaCutoff = material.alphaCutoff,
                                         .doubleSided = material.doubleSided,

@@ -6,7 +6,7 @@
 #include "guest/guest_io.h"
 #include "scene/scene.glsl"
 
-layout(push_constant, scalar) uniform Push { LightMapPush p; } push;
+layout(push_constant, scalar) uniform Push { GuestRsmPush p; } push;
 layout(set = 1, binding = 0) uniform sampler2D albedoMap;
 
 layout(location = 0) in vec3 normal;

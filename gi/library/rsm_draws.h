@@ -6,12 +6,12 @@
 
 namespace ag::guest {
 
-class LightMapDraws {
+class RsmDraws {
   public:
-    explicit LightMapDraws(GuestContext& context) : context_(context) {}
-    ~LightMapDraws();
-    LightMapDraws(const LightMapDraws&) = delete;
-    LightMapDraws& operator=(const LightMapDraws&) = delete;
+    explicit RsmDraws(GuestContext& context) : context_(context) {}
+    ~RsmDraws();
+    RsmDraws(const RsmDraws&) = delete;
+    RsmDraws& operator=(const RsmDraws&) = delete;
 
     // Declares the pass; `scene` and `device` live until the graph is executed.
     void add(GraphScope scope, const GuestScene& scene, const SceneOnDevice& device, BufferHandle instances,

@@ -1,9 +1,9 @@
-// What a FigureSample stands for now, from buffers of the figures' deformed vertices.
-#ifndef AG_FIGURE_SAMPLE_GLSL
-#define AG_FIGURE_SAMPLE_GLSL
+// What a SkinnedSample stands for now, from buffers of the skinned meshes' deformed vertices.
+#ifndef AG_SKINNED_SAMPLE_GLSL
+#define AG_SKINNED_SAMPLE_GLSL
 
 #include "skinning/skinning_io.h"
-#include "surface_points/figure_sample.h"
+#include "surface_points/skinned_sample.h"
 
 SurfaceSample deformedSample(vec3 a, vec3 b, vec3 c, vec3 normalA, vec3 normalB, vec3 normalC, uint instance,
                              vec3 weights, uint sharp) {

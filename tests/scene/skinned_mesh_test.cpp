@@ -1,5 +1,5 @@
-// Figures: what an animation makes of joints, joints of vertices, and how a world keeps up with it.
-#include "engine/scene/figure.h"
+// Skinned meshes: what an animation makes of joints, joints of vertices, and how a world keeps up with it.
+#include "engine/scene/skinned_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -58,14 +58,14 @@ TEST(Animation, GoesRoundOrHolds) {
     EXPECT_FLOAT_EQ(advanceClip(2.5f, 1, 0, true), 0);
 }
 
-TEST(Figure, ABentBarIsWhereItShouldBe) {
+TEST(SkinnedMesh, ABentBarIsWhereItShouldBe) {
     SceneAsset asset = test::bar();
     asset.nodes[3].extras.clipStart = 1;
     const RenderScene scene = staticScene(asset);
-    ASSERT_EQ(scene.figures.size(), 1u);
+    ASSERT_EQ(scene.skinnedMeshes.size(), 1u);
     ASSERT_EQ(scene.instances.size(), 1u);
     EXPECT_TRUE(scene.instances[0].movable);
-    const DeformedVertices v = deformFigures(scene);
+    const DeformedVertices v = deformSkinnedMeshes(scene);
     // Its own node's place does not count, its joints' frame does.
     const auto world = [&](size_t i) {
         return scene.instances[0].worldFromLocal * glm::vec4(v.positions[i], 1);
@@ -76,42 +76,42 @@ TEST(Figure, ABentBarIsWhereItShouldBe) {
     EXPECT_LT(glm::length(v.attributes[2].normal - glm::vec3(0, 1, 0)), 1e-6f);
     EXPECT_LT(glm::length(v.attributes[1].normal - glm::normalize(glm::vec3(1, 1, 0))), 1e-6f);
     EXPECT_LT(glm::length(glm::vec3(v.attributes[2].tangent) - glm::vec3(-1, 0, 0)), 1e-6f);
-    const Bounds& b = scene.figures[0].boundsLocal;
+    const Bounds& b = scene.skinnedMeshes[0].boundsLocal;
     for (const glm::vec3 at : v.positions) {
         EXPECT_TRUE(glm::all(glm::greaterThanEqual(at, b.min - 1e-5f)));
         EXPECT_TRUE(glm::all(glm::lessThanEqual(at, b.max + 1e-5f)));
     }
 }
 
-TEST(Figure, HalfTheTimeIsHalfTheAngle) {
+TEST(SkinnedMesh, HalfTheTimeIsHalfTheAngle) {
     SceneAsset asset = test::bar();
     asset.nodes[3].extras.clipStart = 0.5f;
     const RenderScene scene = staticScene(asset);
-    const glm::vec3 tip = deformFigures(scene).positions[2];
+    const glm::vec3 tip = deformSkinnedMeshes(scene).positions[2];
     const float angle = kHalfPi / 2;
     const glm::vec3 expected(0.1f * std::cos(angle) - std::sin(angle),
                              1 + 0.1f * std::sin(angle) + std::cos(angle), 0);
     EXPECT_LT(glm::length(tip - expected), 2e-6f);
 }
 
-TEST(Figure, StretchedNormalsStayAcross) {
+TEST(SkinnedMesh, StretchedNormalsStayAcross) {
     SceneAsset asset = test::bar();
     asset.nodes[3].extras.clip = -1;
     asset.nodes[2].local.scale = {1, 4, -2};
     asset.geometry.attributes[2].normal = glm::normalize(glm::vec3(0, 1, 1));
     const RenderScene scene = staticScene(asset);
-    const glm::vec3 n = deformFigures(scene).attributes[2].normal;
+    const glm::vec3 n = deformSkinnedMeshes(scene).attributes[2].normal;
     // Of the plane that (0, 1, -1) and x lie in, which become (0, 4, 2) and x; turned over with the mirror.
     EXPECT_NEAR(glm::dot(n, glm::vec3(0, 4, 2)), 0, 1e-5f);
     EXPECT_NEAR(glm::length(n), 1, 1e-6f);
     EXPECT_GT(n.y, 0);
 }
 
-TEST(Figure, BoundsHoldEveryVertex) {
+TEST(SkinnedMesh, BoundsHoldEveryVertex) {
     const SceneAsset asset = scenegen::figures(9);
     const RenderScene scene = staticScene(asset);
-    const DeformedVertices v = deformFigures(scene);
-    for (const RenderFigure& f : scene.figures) {
+    const DeformedVertices v = deformSkinnedMeshes(scene);
+    for (const RenderSkinnedMesh& f : scene.skinnedMeshes) {
         Bounds tight;
         for (uint32_t i = 0; i < f.vertexCount; ++i)
             tight.add(v.positions[f.firstDeformed + i]);
@@ -134,65 +134,65 @@ struct Stage {
         world.setResource<ExtractState>();
         world.setResource<ActiveCamera>();
         world.setResource<RenderScene>().geometry = &asset.geometry;
-        schedule.add("play", [](View<AnimationPlayer> all, Res<const FigureLibrary> library,
+        schedule.add("play", [](View<AnimationPlayer> all, Res<const SkinnedMeshLibrary> library,
                                 JobRunner& jobs) { advancePlayers(all, *library, 1.0f / 60, jobs); });
         schedule.add("nodes", animateNodes);
         schedule.add("roots", updateRootTransforms);
         schedule.add("children", updateChildTransforms);
-        schedule.add("pose", poseFigures);
+        schedule.add("pose", poseSkinnedMeshes);
         schedule.add("extract", extractScene);
-        View<const Figure, const AnimationPlayer>(world, {}).each(
-            [&](Entity e, const Figure&, const AnimationPlayer&) { players.push_back(e); });
+        View<const SkinnedMesh, const AnimationPlayer>(world, {}).each(
+            [&](Entity e, const SkinnedMesh&, const AnimationPlayer&) { players.push_back(e); });
     }
     void frame() { schedule.run(world, runner); }
     RenderScene& scene() { return world.resource<RenderScene>(); }
 };
 
-TEST(Figure, AWorldPosesAsOneSceneDoes) {
+TEST(SkinnedMesh, AWorldPosesAsOneSceneDoes) {
     Stage s(scenegen::figures(7), 2);
     for (const Entity e : s.players)
         s.world.write<AnimationPlayer>(e)->speed = 0;
     s.frame();
     const RenderScene still = staticScene(s.asset, s.scene().originWorld);
-    ASSERT_EQ(s.scene().figures.size(), still.figures.size());
-    const DeformedVertices a = deformFigures(s.scene()), b = deformFigures(still);
+    ASSERT_EQ(s.scene().skinnedMeshes.size(), still.skinnedMeshes.size());
+    const DeformedVertices a = deformSkinnedMeshes(s.scene()), b = deformSkinnedMeshes(still);
     EXPECT_EQ(a.positions, b.positions);
-    size_t figures = 0;
+    size_t skinnedMeshes = 0;
     for (const RenderInstance& i : s.scene().instances)
-        if (i.figure != kNoFigure) {
-            ++figures;
+        if (i.skinnedMesh != kNoSkinnedMesh) {
+            ++skinnedMeshes;
             EXPECT_TRUE(i.movable);
         }
-    EXPECT_EQ(figures, 14u) << "two primitives each";
+    EXPECT_EQ(skinnedMeshes, 14u) << "two primitives each";
 }
 
-TEST(Figure, OnlyThoseThatMoveAreMarked) {
+TEST(SkinnedMesh, OnlyThoseThatMoveAreMarked) {
     Stage s(scenegen::figures(7), 1);
     for (size_t i = 0; i < s.players.size(); ++i)
         s.world.write<AnimationPlayer>(s.players[i])->speed = i == 3;
     s.frame();
     EXPECT_TRUE(s.scene().allInstancesChanged);
     const uint64_t before = s.scene().instancesVersion;
-    const std::vector<RenderFigure> figures = s.scene().figures;
+    const std::vector<RenderSkinnedMesh> skinnedMeshes = s.scene().skinnedMeshes;
     s.frame();
     EXPECT_FALSE(s.scene().allInstancesChanged);
     EXPECT_EQ(s.scene().instancesVersion, before + 1);
     ASSERT_EQ(s.scene().changedInstances.size(), 1u);
     const RenderScene::Range range = s.scene().changedInstances[0];
     EXPECT_EQ(range.end - range.begin, 2u);
-    EXPECT_EQ(s.scene().instances[range.begin].figure, 3u);
-    for (size_t i = 0; i < figures.size(); ++i)
-        EXPECT_EQ(figures[i].poseVersion == s.scene().figures[i].poseVersion, i != 3);
+    EXPECT_EQ(s.scene().instances[range.begin].skinnedMesh, 3u);
+    for (size_t i = 0; i < skinnedMeshes.size(); ++i)
+        EXPECT_EQ(skinnedMeshes[i].poseVersion == s.scene().skinnedMeshes[i].poseVersion, i != 3);
     s.world.write<AnimationPlayer>(s.players[3])->speed = 0;
     s.frame();
     EXPECT_EQ(s.scene().instancesVersion, before + 1) << "at rest nothing changes";
     s.world.destroy(s.players[1]);
     s.frame();
     EXPECT_TRUE(s.scene().allInstancesChanged);
-    EXPECT_EQ(s.scene().figures.size(), 6u);
+    EXPECT_EQ(s.scene().skinnedMeshes.size(), 6u);
 }
 
-TEST(Figure, ThreadsAndSnapshotsShowInNoBit) {
+TEST(SkinnedMesh, ThreadsAndSnapshotsShowInNoBit) {
     describeSceneComponents();
     Stage one(scenegen::figures(40), 1), four(scenegen::figures(40), 4);
     for (int i = 0; i < 5; ++i)
@@ -211,7 +211,7 @@ TEST(Figure, ThreadsAndSnapshotsShowInNoBit) {
 }
 
 // A lamp on a node that an animation moves: no joint, so the entity itself moves.
-TEST(Figure, NodesThatAreNoJointsMoveToo) {
+TEST(SkinnedMesh, NodesThatAreNoJointsMoveToo) {
     SceneAsset asset = test::bar();
     asset.lights.push_back({.name = "lamp"});
     asset.nodes.push_back(

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// For scenes with figures.
-#define AG_FIGURES
-#include "surface_points/place_points.glsl"
+// For scenes with skinned meshes.
+#define AG_SKINNED
+#include "later_bounces/emit.glsl"

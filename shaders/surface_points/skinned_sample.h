@@ -1,6 +1,6 @@
-// A point on a figure, from the corners of its triangle as they are bent now.
-#ifndef AG_FIGURE_SAMPLE_H
-#define AG_FIGURE_SAMPLE_H
+// A point on a skinned mesh, from the corners of its triangle as they are bent now.
+#ifndef AG_SKINNED_SAMPLE_H
+#define AG_SKINNED_SAMPLE_H
 
 #include "surface_points/surface_points_io.h"
 

@@ -1,0 +1,4 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define DOWNSAMPLED_FORMAT r32f
+#include "gbuffer/downsample.glsl"

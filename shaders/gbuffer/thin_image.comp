@@ -1,4 +1,0 @@
-#version 460
-#extension GL_GOOGLE_include_directive : require
-#define THIN_FORMAT rgba16f
-#include "gbuffer/thin.glsl"
