@@ -26,20 +26,20 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
 
     // Gather on screen, at some of the pixels
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
-    f.bounce1 = addValShading(scope, downsampled, firstVals(f.vals, f.firstCount), f.isms, s.valShading,
+    f.bounce1 = addValShading(scope, downsampled, {firstVals(f.vals, f.firstCount), f.isms}, s.valShading,
                               kFirstBounceShading, refresh.pixels);
-    f.gloss = addValGloss(scope, in.surfaces, f.vals, f.isms, s.valShading, refresh.pixels);
+    f.gloss = addValGloss(scope, in.surfaces, {f.vals, f.isms}, s.valShading, refresh.pixels);
 
     // Light that goes on
     f.irradiance = f.bounce1;
-    addLaterIrradiance(scope, f.laterLight, f.vals, f.firstCount, f.isms, s.laterBounces);
+    addLaterIrradiance(scope, f.laterLight, {f.vals, f.isms}, f.firstCount, s.laterBounces);
     if (f.bounce1.image && f.vals.count > f.firstCount)
-        f.irradiance = addLaterShading(scope, downsampled, f.bounce1, f.vals, f.firstCount, f.isms,
-                                       s.valShading, s.laterBounces.spacing);
+        f.irradiance = addLaterShading(scope, downsampled, f.bounce1, {f.vals, f.isms},
+                                       {f.firstCount, s.laterBounces.spacing}, s.valShading);
 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, downsampled, s, h, f);
-    addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
+    addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;
 }
 
@@ -58,12 +58,12 @@ BounceLight addStochasticLight(GraphScope scope, const BounceLightInputs& in, co
     // Gather on screen, at some of the pixels
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 =
-        addStochasticRsm(scope, in.world.versions, downsampled, f.rsm, {f.clusters, f.vals, f.isms},
+        addStochasticRsm(scope, in.world.versions, downsampled, {f.rsm, f.clusters, {f.vals, f.isms}},
                          s.stochasticRsm, h.stochasticRsm);
 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, downsampled, s, h, f);
-    addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
+    addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;
 }
 

@@ -24,8 +24,14 @@ struct Images {
     BufferHandle cameras;
 };
 
-void addFilter(GraphScope scope, std::string_view name, const Images& images, ImageHandle from,
-               ImageHandle to, glm::ivec2 stride, uint32_t seed, const DenoiserSettings& s) {
+struct FilterRound {
+    ImageHandle from, to;
+    glm::ivec2 stride;
+};
+
+void addFilter(GraphScope scope, std::string_view name, const Images& images, const FilterRound& round,
+               uint32_t seed, const DenoiserSettings& s) {
+    const auto& [from, to, stride] = round;
     scope.compute(name, "denoiser/filter.comp")
         .sample("light", from)
         .sample("surface", images.surface.current)
@@ -106,10 +112,10 @@ Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t origi
         const ImageHandle to = r == 0 && recurrent ? images.light.current : turns[r % 2];
         const int stride = 1 << r;
         if (s.separable) {
-            addFilter(scope, kLineNames[r], images, from, lines, {stride, 0}, noisy.step, s);
-            addFilter(scope, kRoundNames[r], images, lines, to, {0, stride}, noisy.step, s);
+            addFilter(scope, kLineNames[r], images, {from, lines, {stride, 0}}, noisy.step, s);
+            addFilter(scope, kRoundNames[r], images, {lines, to, {0, stride}}, noisy.step, s);
         } else {
-            addFilter(scope, kRoundNames[r], images, from, to, {stride, stride}, noisy.step, s);
+            addFilter(scope, kRoundNames[r], images, {from, to, {stride, stride}}, noisy.step, s);
         }
         from = to;
     }

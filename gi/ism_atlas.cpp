@@ -15,10 +15,16 @@ constexpr uint32_t kMostListed = 65535;  // groups of a dispatch on any device
 constexpr VkFormat kUint = VK_FORMAT_R32_UINT;
 
 constexpr WorkListNames kMapsAnew = {"ism_atlas.anew", "ism_atlas.anew_groups", "ism_atlas.none_anew"};
-constexpr WorkListNames kRestored = {"ism_atlas.restored", "ism_atlas.restored_groups",
-                                     "ism_atlas.none_restored"};
-constexpr WorkListNames kFinished = {"ism_atlas.finished", "ism_atlas.finished_groups",
-                                     "ism_atlas.none_finished"};
+struct RegionNames {
+    std::string_view pass;
+    WorkListNames list;
+};
+constexpr RegionNames kRestored = {
+    "ism_atlas.list_restored",
+    {"ism_atlas.restored", "ism_atlas.restored_groups", "ism_atlas.none_restored"}};
+constexpr RegionNames kFinished = {
+    "ism_atlas.list_finished",
+    {"ism_atlas.finished", "ism_atlas.finished_groups", "ism_atlas.none_finished"}};
 
 // What still layers are made of and like, as a number; 0: none are kept.
 uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const SurfacePoints& points,
@@ -124,10 +130,10 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
 }
 
 // Regions of maps, see list_regions.comp.
-WorkList addRegions(const Splat& s, std::string_view name, const WorkListNames& names, BufferHandle places,
+WorkList addRegions(const Splat& s, const RegionNames& names, BufferHandle places,
                     const HistoryBuffer& finishes, bool before, const io::IsmSplatPush& push) {
-    const WorkList regions = addWorkList(s.scope, names, s.regions(), {0, 1, 1});
-    s.scope.compute(name, "ism_atlas/list_regions.comp")
+    const WorkList regions = addWorkList(s.scope, names.list, s.regions(), {0, 1, 1});
+    s.scope.compute(names.pass, "ism_atlas/list_regions.comp")
         .read("places", places)
         .readPrevious("previousFinishes", finishes)
         .readWrite("finishes", finishes.current)
@@ -241,13 +247,11 @@ IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Vals& 
     addStillLayer(splat, kept, layerPush(push, points.still, 0, still, settings.splatScale));
     const HistoryBuffer finishes =
         scope.historyBuffer("ism_atlas.finishes", {.sizeBytes = atlas.mapCount * sizeof(io::IsmFinish)});
-    const WorkList restored =
-        addRegions(splat, "ism_atlas.list_restored", kRestored, kept.places.current, finishes, true, push);
+    const WorkList restored = addRegions(splat, kRestored, kept.places.current, finishes, true, push);
     const io::IsmSplatPush movingPush = layerPush(push, points.moving, still, moving, settings.splatScale);
     MovingLayer all{kept.keys.current, atlas.chosen};
     if (moving > 0) all = addMovingLayer(splat, all.keys, finishes.current, restored, movingPush);
-    const WorkList finished =
-        addRegions(splat, "ism_atlas.list_finished", kFinished, kept.places.current, finishes, false, push);
+    const WorkList finished = addRegions(splat, kFinished, kept.places.current, finishes, false, push);
     addFinish(splat, all, finished, movingPush);
     return atlas;
 }

@@ -61,6 +61,12 @@ struct IsmAtlas {
     bool shared = false;  // not one a light: which one, a point light's shape row says
 };
 
+// Area lights, and what each of them sees.
+struct ShadowedVals {
+    Vals vals;
+    IsmAtlas isms;
+};
+
 IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Vals& vals,
                      const IsmAtlasSettings& settings);
 

@@ -50,8 +50,10 @@ LaterLight addLaterLight(GraphScope scope, const Occluders& occluders, const Ver
     return light;
 }
 
-void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Vals& vals, uint32_t firstLater,
-                        const IsmAtlas& isms, const LaterBouncesSettings& s) {
+void addLaterIrradiance(GraphScope scope, const LaterLight& light, const ShadowedVals& lights,
+                        uint32_t firstLater, const LaterBouncesSettings& s) {
+    const Vals& vals = lights.vals;
+    const IsmAtlas& isms = lights.isms;
     if (!light.texels || vals.count == 0) return;
     const ValShadingSettings shading;
     const uint32_t runs = (light.count + io::kRunPoints - 1) / io::kRunPoints;
@@ -95,13 +97,13 @@ void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Vals& v
 }
 
 Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
-                           const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
-                           const ValShadingSettings& shading, uint32_t spacing) {
-    if (spacing == 1) return addValShading(scope, gbuffer, vals, isms, shading, kAllBouncesShading);
-    const Surfaces downsampled = addDownsampled(scope, gbuffer, spacing, kLaterDownsampling);
-    const Irradiance later =
-        addValShading(scope, downsampled, laterVals(vals, firstLater), isms, shading, kLaterShading);
-    return addUpsampling(scope, gbuffer, downsampled, later, kLaterUpsampling, bounce1);
+                           const ShadowedVals& lights, const LaterShading& later,
+                           const ValShadingSettings& shading) {
+    if (later.spacing == 1) return addValShading(scope, gbuffer, lights, shading, kAllBouncesShading);
+    const Surfaces downsampled = addDownsampled(scope, gbuffer, later.spacing, kLaterDownsampling);
+    const ShadowedVals laterLights{laterVals(lights.vals, later.firstLater), lights.isms};
+    const Irradiance added = addValShading(scope, downsampled, laterLights, shading, kLaterShading);
+    return addUpsampling(scope, gbuffer, downsampled, added, kLaterUpsampling, bounce1);
 }
 
 }  // namespace ag::gi

@@ -13,8 +13,7 @@
 namespace ag::gi {
 
 struct Irradiance;
-struct IsmAtlas;
-struct Vals;
+struct ShadowedVals;
 struct ValShadingSettings;
 
 struct LaterBouncesSettings {
@@ -55,13 +54,16 @@ LaterLight addLaterLight(GraphScope scope, const Occluders& occluders, const Ver
 
 // What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
 // for later bounces.
-void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Vals& vals, uint32_t firstLater,
-                        const IsmAtlas& isms, const LaterBouncesSettings& settings);
+void addLaterIrradiance(GraphScope scope, const LaterLight& light, const ShadowedVals& lights,
+                        uint32_t firstLater, const LaterBouncesSettings& settings);
 
 // `bounce1`, of the pixels of `gbuffer`, and what the lights from `firstLater` on add to it. That is
 // smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
+struct LaterShading {
+    uint32_t firstLater = 0, spacing = 1;
+};
 Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
-                           const Vals& vals, uint32_t firstLater, const IsmAtlas& isms,
-                           const ValShadingSettings& shading, uint32_t spacing);
+                           const ShadowedVals& lights, const LaterShading& later,
+                           const ValShadingSettings& shading);
 
 }  // namespace ag::gi

@@ -52,11 +52,12 @@ void ProbeReadings::setDark(std::span<const RenderProbe> probes) {
     std::ranges::sort(rows_, {}, &Row::id);
 }
 
-void addProbes(GraphScope scope, std::span<const RenderProbe> probes, const RsmSet& rsm, const Vals& vals,
-               const IsmAtlas& isms, const ProbeSettings& settings, float lightUnit, ProbeReadings& known) {
-    if (probes.empty()) return known.clear();
-    if (rsm.empty() || vals.count == 0) return known.setDark(probes);
-    probes = probes.first(std::min<size_t>(probes.size(), kMostProbes));
+void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const ShadowedVals& lights,
+               const ProbeSettings& settings, ProbeReadings& known) {
+    const auto& [vals, isms] = lights;
+    if (at.probes.empty()) return known.clear();
+    if (rsm.empty() || vals.count == 0) return known.setDark(at.probes);
+    const auto probes = at.probes.first(std::min<size_t>(at.probes.size(), kMostProbes));
     const BufferHandle points = uploadProbes(scope, probes);
     const uint64_t room = scope.info(points).sizeBytes / sizeof(io::Probe);
     const BufferHandle rows = scope.buffer("probes.rows", {.sizeBytes = room * sizeof(io::ProbeRow)});
@@ -75,7 +76,7 @@ void addProbes(GraphScope scope, std::span<const RenderProbe> probes, const RsmS
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
-    known.set(scope.readBack(kProbeCopies, rows), lightUnit);
+    known.set(scope.readBack(kProbeCopies, rows), at.lightUnit);
 }
 
 }  // namespace ag::gi

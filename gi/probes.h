@@ -59,9 +59,13 @@ class ProbeReadings {
 // Names of the copies that are read back.
 constexpr std::array<std::string_view, kFramesInFlight> kProbeCopies = {"probes.read0", "probes.read1"};
 
-// Measures the probes and updates `known`. Without probes nothing is declared. `lightUnit`: see
-// ProbeReadings::set.
-void addProbes(GraphScope scope, std::span<const RenderProbe> probes, const RsmSet& rsm, const Vals& vals,
-               const IsmAtlas& isms, const ProbeSettings& settings, float lightUnit, ProbeReadings& known);
+struct ProbePoints {
+    std::span<const RenderProbe> probes;
+    float lightUnit = 1;  // see ProbeReadings::set
+};
+
+// Measures the probes and updates `known`. Without probes nothing is declared.
+void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const ShadowedVals& lights,
+               const ProbeSettings& settings, ProbeReadings& known);
 
 }  // namespace ag::gi

@@ -51,24 +51,31 @@ glm::vec2 shiftOf(uint32_t step) {
 struct Inputs {
     const Surfaces& gbuffer;
     const RsmSet& rsm;
-    const SampleVisibility& visibility;
+    const SampledRsm& of;
     BufferHandle pattern, noise;
     PixelList list;
     glm::vec2 shift{0};
     const StochasticRsmSettings& settings;
 };
 
-// One pass a map; `add`: on top of what the image holds.
+struct GatherTo {
+    ImageHandle image;
+    uint32_t step = 1;    // pixels from one that is gathered to the next
+    bool listed = false;  // only at listed pixels
+    bool add = false;     // on top of what the image holds
+};
+
+// One pass a map.
 PassBuilder addGather(GraphScope scope, std::string_view name, const Inputs& in, uint32_t map,
-                      ImageHandle image, uint32_t step, bool listed, bool add) {
-    const IsmAtlas& isms = in.visibility.isms;
+                      const GatherTo& to) {
+    const IsmAtlas& isms = in.of.lights.isms;
     const bool visible = in.settings.visible && bool(isms.planes);
     PassBuilder pass = scope.compute(
         name, visible ? "stochastic_rsm/gather_visible_samples.comp" : "stochastic_rsm/gather_samples.comp");
     if (visible)
-        pass.read("slotOfTexel", in.visibility.clusters.slotOfTexel)
-            .read("candidates", in.visibility.clusters.candidates)
-            .read("vals", in.visibility.vals.vals)
+        pass.read("slotOfTexel", in.of.clusters.slotOfTexel)
+            .read("candidates", in.of.clusters.candidates)
+            .read("vals", in.of.lights.vals.vals)
             .read("isms", isms.planes)
             .spec(3, isms.mapping == IsmMapping::kParaboloid);
     pass.sample("normalMap", in.gbuffer.normal)
@@ -83,19 +90,19 @@ PassBuilder addGather(GraphScope scope, std::string_view name, const Inputs& in,
         .spec(4, in.settings.random)
         .spec(5, in.settings.whole)
         .spec(0, in.rsm.mapInfo[map].kind)
-        .spec(1, listed)
-        .spec(2, !add)
+        .spec(1, to.listed)
+        .spec(2, !to.add)
         .push(io::StochasticRsmPush{.map = map,
                                     .sampleCount = in.settings.samples,
                                     .radius = in.settings.radius,
-                                    .step = step,
+                                    .step = to.step,
                                     .atlasWidth = in.rsm.atlas.size.x,
                                     .shift = in.shift,
                                     .ismTileSize = isms.tileSize});
-    if (add)
-        pass.readWrite("irradiance", image);
+    if (to.add)
+        pass.readWrite("irradiance", to.image);
     else
-        pass.write("irradiance", image);
+        pass.write("irradiance", to.image);
     return pass;
 }
 
@@ -116,8 +123,8 @@ void addInterpolation(GraphScope scope, const Inputs& in, ImageHandle coarse, Im
 }  // namespace
 
 Irradiance addStochasticRsm(GraphScope scope, const Versions& versions, const Surfaces& gbuffer,
-                            const RsmSet& rsm, const SampleVisibility& visibility,
-                            const StochasticRsmSettings& settings, Settling& settling) {
+                            const SampledRsm& of, const StochasticRsmSettings& settings, Settling& settling) {
+    const RsmSet& rsm = of.rsm;
     if (rsm.empty()) return {};
     const VkFormat format = VK_FORMAT_R16G16B16A16_SFLOAT;
     const Irradiance result{
@@ -126,7 +133,7 @@ Irradiance addStochasticRsm(GraphScope scope, const Versions& versions, const Su
     const uint32_t step = settings.random ? settling.advance(seen, settings.settleFrames) : 0;
     const Inputs in{.gbuffer = gbuffer,
                     .rsm = rsm,
-                    .visibility = visibility,
+                    .of = of,
                     .pattern = addPattern(scope, settings.samples, settings.whole),
                     .noise = addBlueNoise(scope),
                     .list = addPixelList(scope, kList, settings.interpolate ? gbuffer.size : glm::uvec2(0)),
@@ -135,18 +142,18 @@ Irradiance addStochasticRsm(GraphScope scope, const Versions& versions, const Su
 
     if (!settings.interpolate) {
         for (uint32_t m = 0; m < rsm.lightRsmCount; ++m)
-            addGather(scope, kGatherNames[m], in, m, result.image, 1, false, m > 0)
+            addGather(scope, kGatherNames[m], in, m, {.image = result.image, .add = m > 0})
                 .dispatchThreads(gbuffer.size.x * gbuffer.size.y);
         return result;
     }
     const glm::uvec2 coarseSize = (gbuffer.size + kCoarseStep - 1u) / kCoarseStep;
     const ImageHandle coarse = scope.image("stochastic_rsm.coarse", {.format = format, .size = coarseSize});
     for (uint32_t m = 0; m < rsm.lightRsmCount; ++m)
-        addGather(scope, kGatherNames[m], in, m, coarse, kCoarseStep, false, m > 0)
+        addGather(scope, kGatherNames[m], in, m, {.image = coarse, .step = kCoarseStep, .add = m > 0})
             .dispatchThreads(coarseSize.x * coarseSize.y);
     addInterpolation(scope, in, coarse, result.image);
     for (uint32_t m = 0; m < rsm.lightRsmCount; ++m)
-        addGather(scope, kListedNames[m], in, m, result.image, 1, true, true)
+        addGather(scope, kListedNames[m], in, m, {.image = result.image, .listed = true, .add = true})
             .dispatchIndirect(in.list.groups);
     return result;
 }

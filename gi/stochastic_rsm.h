@@ -46,14 +46,14 @@ struct StochasticRsmSettings {
     bool operator==(const StochasticRsmSettings&) const = default;
 };
 
-struct SampleVisibility {  // clusters of texels, and the map of what each sees; none: samples are seen
+// Texels to sample, their clusters, and the map of what each cluster sees; without these samples are seen.
+struct SampledRsm {
+    const RsmSet& rsm;
     Clusters clusters;
-    Vals vals;
-    IsmAtlas isms;
+    ShadowedVals lights;
 };
 
 Irradiance addStochasticRsm(GraphScope scope, const Versions& versions, const Surfaces& gbuffer,
-                            const RsmSet& rsm, const SampleVisibility& visibility,
-                            const StochasticRsmSettings& settings, Settling& settling);
+                            const SampledRsm& of, const StochasticRsmSettings& settings, Settling& settling);
 
 }  // namespace ag::gi

@@ -96,18 +96,21 @@ BufferHandle addAdaption(GraphScope scope, const RsmSet& rsm, const Importance& 
     return plans;
 }
 
+struct SeedBuffers {
+    BufferHandle plans, seeds;
+};
+
 void addSeeding(GraphScope scope, const RsmSet& rsm, const Importance& importance,
-                const HistoryBuffer& clusters, BufferHandle plans, BufferHandle seeds,
-                const io::ClusterSettings& push) {
+                const HistoryBuffer& clusters, const SeedBuffers& of, const io::ClusterSettings& push) {
     scope.compute("val_clustering.seed", "val_clustering/seed.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
         .read("pyramid", importance.pyramid)
         .readPrevious("previous", clusters)
-        .read("plans", plans ? plans : rsm.maps)
-        .spec(0, bool(plans))
-        .write("seeds", seeds)
+        .read("plans", of.plans ? of.plans : rsm.maps)
+        .spec(0, bool(of.plans))
+        .write("seeds", of.seeds)
         .push(SeedPush{push, rsm.atlas.faceCount, importance.pyramidStride})
         .dispatchThreads(push.clusterCount);
 }
@@ -202,7 +205,7 @@ Clusters addValClustering(GraphScope scope, const RsmSet& rsm, const Importance&
 
     const BufferHandle plans =
         settings.adaptive ? addAdaption(scope, rsm, importance, state, push) : BufferHandle{};
-    addSeeding(scope, rsm, importance, state.clusters, plans, c.seeds, push);
+    addSeeding(scope, rsm, importance, state.clusters, {plans, c.seeds}, push);
     addAssignment(scope, rsm, c, partials, push);
     addUpdate(scope, rsm, c, partials, push);
     return c;

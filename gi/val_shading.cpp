@@ -35,8 +35,7 @@ uint32_t tileSizeFor(uint32_t interleave, uint32_t spacing) {
 struct Gather {
     GraphScope scope;
     const Surfaces& gbuffer;
-    const Vals& vals;
-    const IsmAtlas& isms;
+    const ShadowedVals& lights;
     io::ValShadingPush push;
     BufferHandle lists, counts, lackingCounts, lacking;
     uint32_t tileCount, blocks;  // blocks of 2 x 2 pixels
@@ -47,8 +46,8 @@ void addClassification(const Gather& g, std::string_view name) {
     g.scope.compute(name, "val_shading/classify_lights.comp")
         .sample("depthMap", g.gbuffer.depth)
         .read("camera", g.gbuffer.camera)
-        .read("vals", g.vals.vals)
-        .read("shapes", g.vals.shapes)
+        .read("vals", g.lights.vals.vals)
+        .read("shapes", g.lights.vals.shapes)
         .write("lists", g.lists)
         .write("counts", g.counts)
         .write("lackingCounts", g.lackingCounts)
@@ -62,23 +61,23 @@ PassBuilder addGather(const Gather& g, std::string_view name, std::string_view s
     pass.sample("normalMap", g.gbuffer.normal)
         .sample("depthMap", g.gbuffer.depth)
         .read("camera", g.gbuffer.camera)
-        .read("vals", g.vals.vals)
-        .read("shapes", g.vals.shapes)
-        .read("isms", g.isms.planes ? g.isms.planes : g.vals.vals)
+        .read("vals", g.lights.vals.vals)
+        .read("shapes", g.lights.vals.shapes)
+        .read("isms", g.lights.isms.planes ? g.lights.isms.planes : g.lights.vals.vals)
         .read("lists", g.lists)
         .read("counts", g.counts)
         .spec(0, uint32_t(shape))
-        .spec(1, g.isms.planes ? taps : 0)
+        .spec(1, g.lights.isms.planes ? taps : 0)
         .spec(2, g.interleave)
-        .spec(3, g.isms.mapping == IsmMapping::kParaboloid)
-        .spec(4, g.isms.shared)
+        .spec(3, g.lights.isms.mapping == IsmMapping::kParaboloid)
+        .spec(4, g.lights.isms.shared)
         .push(g.push);
     return pass;
 }
 
 // With every tile's lights sorted into near and far ones.
-Gather addTiles(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
-                float nearReach, uint32_t interleave, const ValTileNames& names) {
+Gather addTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights, float nearReach,
+                uint32_t interleave, const ValTileNames& names) {
     const uint32_t tileSize = tileSizeFor(interleave, gbuffer.spacing);
     const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
     const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
@@ -86,15 +85,14 @@ Gather addTiles(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, con
     const Gather g{
         .scope = scope,
         .gbuffer = gbuffer,
-        .vals = vals,
-        .isms = isms,
-        .push = {.valCount = vals.count,
-                 .firstVal = vals.first,
+        .lights = lights,
+        .push = {.valCount = lights.vals.count,
+                 .firstVal = lights.vals.first,
                  .tileSize = tileSize,
                  .tiles = tiles,
                  .nearReach = nearReach,
-                 .ismTileSize = isms.tileSize},
-        .lists = scope.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * vals.count * 4,
+                 .ismTileSize = lights.isms.tileSize},
+        .lists = scope.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * lights.vals.count * 4,
                                             .texelFormat = VK_FORMAT_R32_UINT}),
         .counts = scope.buffer(names.counts, {.sizeBytes = tileCount * 8}),
         .lackingCounts = scope.buffer(names.lackingCounts, {.sizeBytes = tileCount * 4}),
@@ -149,25 +147,31 @@ WorkList addGlossyGroups(const Gather& g, ImageHandle gloss) {
     return glossy;
 }
 
-void addGloss(const Gather& g, std::string_view name, uint32_t list, ValShape shape, uint32_t taps,
-              const WorkList& groups, ImageHandle gloss) {
-    addGather(g, name, "val_shading/gather_gloss.comp", shape, taps)
+struct GlossGather {
+    std::string_view name;
+    uint32_t list;  // kNearList or kFarList
+    ValShape shape;
+    uint32_t taps;
+};
+
+void addGloss(const Gather& g, const GlossGather& of, const WorkList& groups, ImageHandle gloss) {
+    addGather(g, of.name, "val_shading/gather_gloss.comp", of.shape, of.taps)
         .sample("albedoMap", g.gbuffer.albedo)
         .sample("reflectanceMap", g.gbuffer.reflectance)
         .read("listed", groups.items)
         .readWrite("gloss", gloss)
-        .spec(5, list)
+        .spec(5, of.list)
         .dispatchIndirect(groups.groups);
 }
 
 }  // namespace
 
-Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
+Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
                          const ValShadingSettings& settings, const ValShadingNames& names,
                          const PixelShare& share) {
-    if (vals.count == 0) return {};
+    if (lights.vals.count == 0) return {};
     const uint32_t n = std::clamp(settings.interleave, 1u, 4u);
-    const Gather g = addTiles(scope, gbuffer, vals, isms, settings.nearReach, n, names.tiles);
+    const Gather g = addTiles(scope, gbuffer, lights, settings.nearReach, n, names.tiles);
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle parts = scope.image(names.parts, info);
     // Pixels that take another's light want to know where it comes from if they are turned otherwise.
@@ -206,16 +210,16 @@ Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Vals& 
     return result;
 }
 
-ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
+ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
                         const ValShadingSettings& settings, const PixelShare& share) {
     const bool lightsHaveArea = settings.farShape != ValShape::kPoint;
-    if (!settings.glossy || !gbuffer.reflectance || vals.count == 0 || !lightsHaveArea) return {};
-    const Gather g = addTiles(scope, gbuffer, vals, isms, settings.nearReach, 1, kGlossTiles);
+    if (!settings.glossy || !gbuffer.reflectance || lights.vals.count == 0 || !lightsHaveArea) return {};
+    const Gather g = addTiles(scope, gbuffer, lights, settings.nearReach, 1, kGlossTiles);
     const ImageHandle gloss = scope.image("val_gloss.gloss", scope.info(gbuffer.reflectance));
     const WorkList glossy = addGlossyGroups(g, gloss);
     const WorkList anew = share.some ? addGroupsAnew(g, share, kGlossyAnew, &glossy) : glossy;
-    addGloss(g, "val_gloss.near", io::kNearList, settings.shape, settings.taps, anew, gloss);
-    addGloss(g, "val_gloss.far", io::kFarList, settings.farShape, settings.farTaps, anew, gloss);
+    addGloss(g, {"val_gloss.near", io::kNearList, settings.shape, settings.taps}, anew, gloss);
+    addGloss(g, {"val_gloss.far", io::kFarList, settings.farShape, settings.farTaps}, anew, gloss);
     return gloss;
 }
 

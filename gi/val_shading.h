@@ -94,13 +94,13 @@ constexpr ValShadingNames kLaterShading = {
     "val_shading.toward_later"};
 
 // `share`: only of the first bounce, and not where pixels share out far lights.
-Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
+Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
                          const ValShadingSettings& settings,
                          const ValShadingNames& names = kFirstBounceShading, const PixelShare& share = {});
 
 // What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels of the
 // G-buffer; those without a specular lobe cost nothing. Invalid: no gloss.
-ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const Vals& vals, const IsmAtlas& isms,
+ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
                         const ValShadingSettings& settings, const PixelShare& share = {});
 
 }  // namespace ag::gi

@@ -282,6 +282,7 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
     VkDescriptorSet set =
         pools.empty() ? VK_NULL_HANDLE : tryAllocate(*context, pools.back(), pipeline.setLayout);
     if (!set) {
+        pools.reserve(pools.size() + 1);  // no pool is lost where its row cannot be had
         pools.push_back(makePool(*context));
         set = tryAllocate(*context, pools.back(), pipeline.setLayout);
     }

@@ -131,11 +131,12 @@ bool PipelineLibrary::Impl::open(const std::string& path, Shader& shader, std::s
 
 PipelineLibrary::Impl::Shader& PipelineLibrary::Impl::shader(std::string_view path) {
     const auto found = shaders.find(path);
-    if (found != shaders.end()) return found->second;
-    Shader made;
+    if (found != shaders.end() && found->second.handle) return found->second;
+    // Its row is there before the module is: no module is lost where a row cannot be had.
+    Shader& made = found != shaders.end() ? found->second : shaders[std::string(path)];
     std::string error;
     if (!open(std::string(path), made, &error)) fail(FailureKind::kMistake, error);
-    return shaders.emplace(std::string(path), std::move(made)).first->second;
+    return made;
 }
 
 void PipelineLibrary::Impl::mergeBindings(Pipeline& pipeline, const Shader& shader) const {
@@ -345,7 +346,7 @@ PipelineLibrary::~PipelineLibrary() {
     const VkAllocationCallbacks* host = impl_->context.hostAllocation();
     const Functions& vk = impl_->context.vk();
     for (auto& [hash, pipeline] : impl_->pipelines)
-        vk.DestroyPipeline(device, pipeline->handle, host);
+        if (pipeline) vk.DestroyPipeline(device, pipeline->handle, host);
     for (auto& [hash, layout] : impl_->layouts) {
         vk.DestroyPipelineLayout(device, layout.pipeline, host);
         for (const VkDescriptorSetLayout set : layout.sets)
@@ -357,14 +358,15 @@ PipelineLibrary::~PipelineLibrary() {
 
 const Pipeline& PipelineLibrary::get(const PipelineRequest& request) {
     const uint64_t hash = requestHash(request);
-    const auto found = impl_->pipelines.find(hash);
-    if (found != impl_->pipelines.end()) return *found->second;
-    auto pipeline = std::make_unique<Pipeline>();
+    // Its row is there before the pipeline is, as in shader().
+    std::unique_ptr<Pipeline>& row = impl_->pipelines[hash];
+    if (row && row->handle) return *row;
+    row = std::make_unique<Pipeline>();
     if (!request.computeShader.empty())
-        impl_->makeCompute(request, *pipeline);
+        impl_->makeCompute(request, *row);
     else
-        impl_->makeRaster(request, *pipeline);
-    return *impl_->pipelines.emplace(hash, std::move(pipeline)).first->second;
+        impl_->makeRaster(request, *row);
+    return *row;
 }
 
 int PipelineLibrary::reloadChanged(std::vector<std::string>* errors) {

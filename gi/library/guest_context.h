@@ -29,6 +29,7 @@ class GuestContext {
     // Of a frame that is about to be recorded.
     void beginFrame(uint64_t frame, uint64_t framesDone);
     uint64_t lastFrame() const { return lastFrame_; }
+    uint64_t nameScene() { return ++scenes_; }  // another number for each
 
   private:
     void makeSampler();
@@ -38,7 +39,7 @@ class GuestContext {
     gpu::Image white_;
     VkSampler albedoSampler_ = VK_NULL_HANDLE;
     uint64_t whiteFrame_ = 0;  // that fills it; 0: none yet
-    uint64_t lastFrame_ = 0;
+    uint64_t lastFrame_ = 0, scenes_ = 0;
 };
 
 // With the instance's functions, and those of the device if there is one.

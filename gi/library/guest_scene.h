@@ -60,7 +60,7 @@ struct GuestPoints {
 
 class GuestScene {
   public:
-    explicit GuestScene(GuestContext& context) : context_(context) {}
+    explicit GuestScene(GuestContext& context) : context_(context), id_(context.nameScene()) {}
 
     // What was asked for, already found to be possible.
     uint32_t addMaterials(std::vector<GuestMaterial> materials);
@@ -80,6 +80,7 @@ class GuestScene {
     bool has(uint64_t instance) const { return rowOf_.contains(instance); }
 
     GuestContext& context() const { return context_; }
+    uint64_t id() const { return id_; }  // of no other scene of the context, then or later; never 0
     // Numbers that change with what they are about; never 0.
     uint64_t setVersion() const { return setVersion_; }      // which instances and meshes there are
     uint64_t movedVersion() const { return movedVersion_; }  // where anything stands
@@ -97,6 +98,7 @@ class GuestScene {
 
   private:
     GuestContext& context_;
+    uint64_t id_;
     std::vector<GuestMaterial> materials_;
     std::vector<GuestMesh> meshes_;
     std::vector<GuestInstance> instances_;

@@ -68,8 +68,8 @@ void RsmDraws::add(GraphScope scope, const GuestScene& scene, const SceneOnDevic
 // One set a material, of its map or of white; made anew when materials are others.
 void RsmDraws::makeSets(const GuestScene& scene, const gpu::Pipeline& pipeline) {
     const size_t count = scene.materials().size();
-    const uint64_t of =
-        combineHash(combineHash(scene.drawnVersion(), count), uint64_t(pipeline.drawSetLayout));
+    const uint64_t of = combineHash(combineHash(combineHash(scene.id(), scene.drawnVersion()), count),
+                                    uint64_t(pipeline.drawSetLayout));
     if (setsOf_ == of) return;
     gpu::Context& gpu = context_.gpu();
     gpu.retire([vk = gpu.vk(), device = gpu.handle(), pool = std::exchange(pool_, VK_NULL_HANDLE),

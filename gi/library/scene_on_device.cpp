@@ -29,10 +29,9 @@ SceneOnDevice::~SceneOnDevice() {
 }
 
 bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
-    const bool other = scene_ != &scene;
+    const bool other = scene_ != scene.id();
     if (other) {
-        scene_ = &scene;
-        ++scenes_;
+        scene_ = scene.id();
         setVersion_ = movedVersion_ = lightsVersion_ = pointsSet_ = 0;
         originIsChosen_ = false;
         units_ = {};
@@ -195,7 +194,7 @@ void SceneOnDevice::upload(VkCommandBuffer commands) {
 gi::World SceneOnDevice::world() const {
     return {.lights = lights_,
             .bounds = bounds_,
-            .versions = {.scene = combineHash(scenes_, setVersion_),
+            .versions = {.scene = combineHash(scene_, setVersion_),
                          .instances = combineHash(combineHash(movedVersion_, setVersion_), origins_),
                          .lights = lightsVersion_ + 1,
                          .camera = cameras_ + 1,

@@ -45,15 +45,14 @@ class SceneOnDevice {
     void stage(std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset);
     template <class T>
     std::unique_ptr<gpu::Buffer> make(const char* name, std::span<const T> items, VkFormat texelFormat);
-    void noteStill(bool stillMoved, uint64_t set);
 
     gpu::Context& context_;
-    const GuestScene* scene_ = nullptr;
+    uint64_t scene_ = 0;  // GuestScene::id
     uint64_t setVersion_ = 0, movedVersion_ = 0, lightsVersion_ = 0, stillVersion_ = 0;
     glm::dvec3 origin_{0};
     bool originIsChosen_ = false;
     gi::RenderUnits units_;
-    uint64_t scenes_ = 0, origins_ = 1, cameras_ = 0;
+    uint64_t origins_ = 1, cameras_ = 0;
     glm::dvec3 camera_{0};
     Bounds bounds_;
     float extent_ = 0;

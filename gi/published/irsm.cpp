@@ -9,8 +9,8 @@ BounceLight addIrsm(GraphScope scope, const BounceLightInputs& in, const BounceL
     BounceLight f;
     addRsms(scope, in, s, h, f);
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 =
-        addStochasticRsm(scope, in.world.versions, downsampled, f.rsm, {}, s.stochasticRsm, h.stochasticRsm);
+    f.irradiance = f.bounce1 = addStochasticRsm(scope, in.world.versions, downsampled, {.rsm = f.rsm},
+                                                s.stochasticRsm, h.stochasticRsm);
     addToPixels(scope, in, downsampled, s, h, f);  // denoised
     h.probes.clear();
     return f;

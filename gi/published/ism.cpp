@@ -15,9 +15,9 @@ BounceLight addIsm(GraphScope scope, const BounceLightInputs& in, const BounceLi
     f.firstCount = f.vals.count;
     addVisibility(scope, in, s.ismAtlas, f);
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 = addValShading(scope, downsampled, f.vals, f.isms, s.valShading);
+    f.irradiance = f.bounce1 = addValShading(scope, downsampled, {f.vals, f.isms}, s.valShading);
     addToPixels(scope, in, downsampled, s, h, f);
-    addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
+    addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;
 }
 

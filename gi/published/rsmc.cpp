@@ -11,10 +11,10 @@ BounceLight addRsmc(GraphScope scope, const BounceLightInputs& in, const BounceL
     addAreaLights(scope, in, s, h, f);
     f.firstCount = f.vals.count;
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 = addValShading(scope, downsampled, f.vals, f.isms, s.valShading);
-    f.gloss = addValGloss(scope, in.surfaces, f.vals, f.isms, s.valShading);
+    f.irradiance = f.bounce1 = addValShading(scope, downsampled, {f.vals, f.isms}, s.valShading);
+    f.gloss = addValGloss(scope, in.surfaces, {f.vals, f.isms}, s.valShading);
     addToPixels(scope, in, downsampled, s, h, f);
-    addProbes(scope, in.probes, f.rsm, f.vals, f.isms, s.probes, in.lightUnit, h.probes);
+    addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;
 }
 

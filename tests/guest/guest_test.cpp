@@ -131,6 +131,25 @@ TEST(Guest, AnotherSceneKnowsNothingOfTheLightBefore) {
     agiDestroyScene(dim);
 }
 
+// The allocator likes to give the next scene the place of the last.
+TEST(Guest, ASceneInThePlaceOfADestroyedOneIsAnother) {
+    const HostRoom room;
+    const HostCamera camera(room.room(), {}), fresh(room.room(), {});
+    Guest guest(room);
+    const AgiView view = guest.addView(camera);
+    guest.drawFrames(4, view, camera);
+    const AgiLight light = spotAt({0.5, 0, 0});
+    agiDestroyScene(guest.scene);
+    ASSERT_EQ(agiCreateScene(guest.context, &guest.scene), AGI_OK);
+    ASSERT_EQ(room.fill(guest.scene), AGI_OK);
+    ASSERT_EQ(agiSetLights(guest.scene, 1, &light), AGI_OK);
+    guest.drawFrames(8, view, camera);
+    Guest other(room);
+    ASSERT_EQ(agiSetLights(other.scene, 1, &light), AGI_OK);
+    other.drawFrames(8, other.addView(fresh), fresh);
+    EXPECT_LT(relativeError(camera.irradiance(), fresh.irradiance()), 0.05);
+}
+
 TEST(Guest, ThingsMoveComeAndGo) {
     const HostRoom room;
     const HostCamera camera(room.room(), {});
