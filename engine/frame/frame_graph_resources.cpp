@@ -4,6 +4,7 @@
 
 #include "engine/core/failure.h"
 #include "engine/frame/frame_graph_impl.h"
+#include "engine/gpu/retire.h"
 
 namespace ag {
 namespace {
@@ -56,10 +57,9 @@ bool isBuffer(gpu::BindingKind kind) {
 
 void FrameGraph::Impl::retireMemory(Slot& slot) {
     for (Memory& half : slot.halves) {
-        if (context && (half.image || half.buffer)) {
-            std::shared_ptr<gpu::Image> image = std::move(half.image);
-            std::shared_ptr<gpu::Buffer> buffer = std::move(half.buffer);
-            context->retire([image, buffer]() mutable { image.reset(), buffer.reset(); });
+        if (context) {
+            gpu::retireOwned(*context, std::move(half.image));
+            gpu::retireOwned(*context, std::move(half.buffer));
         }
         half = {};
     }

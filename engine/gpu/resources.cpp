@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "engine/gpu/context.h"
+#include "engine/gpu/retire.h"
 
 namespace ag::gpu {
 namespace {
@@ -193,8 +194,7 @@ VkImageAspectFlags Image::aspect() const {
 }
 
 void retire(Context& context, std::unique_ptr<Buffer> buffer) {
-    if (!buffer) return;
-    context.retire([old = std::shared_ptr<Buffer>(std::move(buffer))]() mutable { old.reset(); });
+    retireOwned(context, std::move(buffer));
 }
 
 uint32_t texelSizeBytes(VkFormat format) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "engine/gpu/retire.h"
 #include "gi/surfaces.h"
 #include "shaders/guest/guest_io.h"
 
@@ -89,14 +90,11 @@ GuestView::GuestView(GuestContext& context, const gi::BounceLightSettings& setti
 }
 
 GuestView::~GuestView() {
-    context_.gpu().retire(
-        [graph = std::shared_ptr<FrameGraph>(std::move(graph_))]() mutable { graph.reset(); });
+    gpu::retireOwned(context_.gpu(), std::move(graph_));
 }
 
 void GuestView::startAnew() {
-    if (graph_)
-        context_.gpu().retire(
-            [graph = std::shared_ptr<FrameGraph>(std::move(graph_))]() mutable { graph.reset(); });
+    gpu::retireOwned(context_.gpu(), std::move(graph_));
     history_ = {};
     hostFrames_ = {};
     surfaces_ = std::make_unique<SceneOnDevice>(context_.gpu());

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/core/hash.h"
+#include "engine/gpu/retire.h"
 #include "shaders/guest/guest_io.h"
 
 namespace ag::guest {
@@ -26,10 +27,12 @@ bool isMirrored(const GuestInstance& instance) {
 
 }  // namespace
 
+RsmDraws::Pool::~Pool() {
+    context.vk().DestroyDescriptorPool(context.handle(), handle, context.hostAllocation());
+}
+
 RsmDraws::~RsmDraws() {
-    context_.gpu().retire(
-        [vk = context_.gpu().vk(), device = context_.gpu().handle(), pool = pool_,
-         host = context_.gpu().hostAllocation()] { vk.DestroyDescriptorPool(device, pool, host); });
+    gpu::retireOwned(context_.gpu(), std::move(pool_));
 }
 
 void RsmDraws::listDraws(const GuestScene& scene, const SceneOnDevice& device,
@@ -72,18 +75,18 @@ void RsmDraws::makeSets(const GuestScene& scene, const gpu::Pipeline& pipeline) 
                                     uint64_t(pipeline.drawSetLayout));
     if (setsOf_ == of) return;
     gpu::Context& gpu = context_.gpu();
-    gpu.retire([vk = gpu.vk(), device = gpu.handle(), pool = std::exchange(pool_, VK_NULL_HANDLE),
-                host = gpu.hostAllocation()] { vk.DestroyDescriptorPool(device, pool, host); });
+    gpu::retireOwned(gpu, std::move(pool_));
+    pool_ = std::make_unique<Pool>(gpu);
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, uint32_t(count)};
     const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                           .maxSets = uint32_t(count),
                                           .poolSizeCount = 1,
                                           .pPoolSizes = &size};
-    AG_VK(gpu.vk().CreateDescriptorPool(gpu.handle(), &info, gpu.hostAllocation(), &pool_));
+    AG_VK(gpu.vk().CreateDescriptorPool(gpu.handle(), &info, gpu.hostAllocation(), &pool_->handle));
     const std::vector<VkDescriptorSetLayout> layouts(count, pipeline.drawSetLayout);
     sets_.assign(count, VK_NULL_HANDLE);
     const VkDescriptorSetAllocateInfo allocation{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                                 .descriptorPool = pool_,
+                                                 .descriptorPool = pool_->handle,
                                                  .descriptorSetCount = uint32_t(count),
                                                  .pSetLayouts = layouts.data()};
     AG_VK(gpu.vk().AllocateDescriptorSets(gpu.handle(), &allocation, sets_.data()));

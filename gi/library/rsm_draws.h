@@ -26,11 +26,19 @@ class RsmDraws {
     void drawFace(const PassRecording& to, const GuestScene& scene, const io::RsmFace& face,
                   std::span<const Draw> draws);
     void makeSets(const GuestScene& scene, const gpu::Pipeline& pipeline);
+    struct Pool {
+        explicit Pool(gpu::Context& of) : context(of) {}
+        ~Pool();
+        Pool(const Pool&) = delete;
+        Pool& operator=(const Pool&) = delete;
+        gpu::Context& context;
+        VkDescriptorPool handle = VK_NULL_HANDLE;
+    };
 
     GuestContext& context_;
     std::vector<Draw> draws_;
     std::vector<size_t> firstOfFace_;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::unique_ptr<Pool> pool_;
     std::vector<VkDescriptorSet> sets_;  // by material
     uint64_t setsOf_ = 0;
 };
