@@ -28,13 +28,16 @@ uint32_t GuestScene::addMaterials(std::vector<GuestMaterial> materials) {
 }
 
 void GuestScene::updateMaterials(uint32_t first, std::vector<GuestMaterial> materials) {
-    std::ranges::copy(materials, materials_.begin() + first);
+    const auto from = materials_.begin() + first;
+    if (std::equal(materials.begin(), materials.end(), from)) return;
+    std::ranges::copy(materials, from);
     ++drawnVersion_;
     ++setVersion_;  // points know of holes and albedo
 }
 
 uint32_t GuestScene::addMeshes(std::vector<GuestMesh> meshes) {
     const auto first = uint32_t(meshes_.size());
+    meshes_.reserve(meshes_.size() + meshes.size());
     std::ranges::move(meshes, std::back_inserter(meshes_));
     return first;
 }
@@ -45,22 +48,27 @@ void GuestScene::removeMeshes(uint32_t first, uint32_t count) {
 }
 
 void GuestScene::setInstance(const GuestInstance& given) {
-    GuestInstance instance = given;
-    instance.moved = ++movedVersion_;
-    const auto [known, added] = rowOf_.try_emplace(instance.id, instances_.size());
-    if (added) {
-        instances_.push_back(instance);
-        ++meshes_[instance.mesh].instances;
-        ++setVersion_;
-        return;
-    }
+    const auto known = rowOf_.find(given.id);
+    if (known == rowOf_.end()) return addInstance(given);
     GuestInstance& old = instances_[known->second];
-    if (old.mesh != instance.mesh || old.movable != instance.movable) {
+    if (old.standsAs(given)) return;
+    if (old.mesh != given.mesh || old.movable != given.movable) {
         --meshes_[old.mesh].instances;
-        ++meshes_[instance.mesh].instances;
+        ++meshes_[given.mesh].instances;
         ++setVersion_;
     }
-    old = instance;
+    old = given;
+    old.moved = ++movedVersion_;
+}
+
+void GuestScene::addInstance(const GuestInstance& given) {
+    // Room first: the row is there as soon as its id is known.
+    if (instances_.size() == instances_.capacity()) instances_.reserve(2 * instances_.size() + 1);
+    rowOf_.emplace(given.id, instances_.size());
+    instances_.push_back(given);
+    instances_.back().moved = ++movedVersion_;
+    ++meshes_[given.mesh].instances;
+    ++setVersion_;
 }
 
 void GuestScene::removeInstance(uint64_t id) {
@@ -78,6 +86,7 @@ void GuestScene::removeInstance(uint64_t id) {
 }
 
 void GuestScene::setLights(std::vector<GuestLight> lights) {
+    if (lights == lights_) return;
     lights_ = std::move(lights);
     ++lightsVersion_;
 }
@@ -91,14 +100,16 @@ Bounds GuestScene::boundsOf(const GuestInstance& instance, const Bounds& local, 
     return {at - reach, at + reach};
 }
 
-GuestScene::DoubleBounds GuestScene::bounds() const {
-    DoubleBounds all;
+const GuestScene::DoubleBounds& GuestScene::bounds() {
+    if (boundsOf_ == movedVersion_) return bounds_;
+    bounds_ = {};
     for (const GuestInstance& instance : instances_) {
         const Bounds b = boundsOf(instance, meshes_[instance.mesh].bounds, instance.position);
-        all.min = glm::min(all.min, instance.position + glm::dvec3(b.min));
-        all.max = glm::max(all.max, instance.position + glm::dvec3(b.max));
+        bounds_.min = glm::min(bounds_.min, instance.position + glm::dvec3(b.min));
+        bounds_.max = glm::max(bounds_.max, instance.position + glm::dvec3(b.max));
     }
-    return all;
+    boundsOf_ = movedVersion_;
+    return bounds_;
 }
 
 const GuestPoints& GuestScene::points() {
@@ -106,7 +117,7 @@ const GuestPoints& GuestScene::points() {
     std::vector<gi::SampledMesh> meshes;
     for (const GuestMesh& mesh : meshes_)
         meshes.push_back(sampledOf(mesh));
-    const DoubleBounds all = bounds();
+    const DoubleBounds& all = bounds();
     const glm::dvec3 middle = instances_.empty() ? glm::dvec3(0) : 0.5 * (all.min + all.max);
     std::vector<gi::SampledInstance> instances;
     for (const GuestInstance& instance : instances_)

@@ -19,6 +19,8 @@ struct GuestMaterial {
     VkImageView map = VK_NULL_HANDLE;
     float alphaCutoff = 0, coverage = 1;
     bool doubleSided = false;
+
+    bool operator==(const GuestMaterial&) const = default;
 };
 
 struct GuestMesh {
@@ -37,12 +39,18 @@ struct GuestInstance {
     bool movable = false;
     glm::dvec3 position{0};
     glm::mat3 linear{1};
-    uint64_t moved = 0;  // version of the scene when it was set last
+    uint64_t moved = 0;  // version of the scene when it was changed last
+
+    bool standsAs(const GuestInstance& o) const {
+        return mesh == o.mesh && movable == o.movable && position == o.position && linear == o.linear;
+    }
 };
 
 struct GuestLight {
     gi::RsmLight light;  // but for its position
     glm::dvec3 position{0};
+
+    bool operator==(const GuestLight&) const = default;
 };
 
 struct GuestProbe {
@@ -62,7 +70,7 @@ class GuestScene {
   public:
     explicit GuestScene(GuestContext& context) : context_(context), id_(context.nameScene()) {}
 
-    // What was asked for, already found to be possible.
+    // What was asked for, already found to be possible. What is as it was changes nothing.
     uint32_t addMaterials(std::vector<GuestMaterial> materials);
     void updateMaterials(uint32_t first, std::vector<GuestMaterial> materials);
     uint32_t addMeshes(std::vector<GuestMesh> meshes);
@@ -93,10 +101,12 @@ class GuestScene {
     struct DoubleBounds {
         glm::dvec3 min{1e300}, max{-1e300};
     };
-    DoubleBounds bounds() const;
+    const DoubleBounds& bounds();
     static Bounds boundsOf(const GuestInstance& instance, const Bounds& local, glm::dvec3 origin);
 
   private:
+    void addInstance(const GuestInstance& instance);
+
     GuestContext& context_;
     uint64_t id_;
     std::vector<GuestMaterial> materials_;
@@ -107,6 +117,8 @@ class GuestScene {
     std::vector<GuestProbe> probes_;
     uint64_t setVersion_ = 1, movedVersion_ = 1, lightsVersion_ = 1, drawnVersion_ = 1;
     GuestPoints points_;
+    DoubleBounds bounds_;
+    uint64_t boundsOf_ = 0;  // movedVersion_ they are of
 };
 
 }  // namespace ag::guest

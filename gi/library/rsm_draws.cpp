@@ -46,25 +46,36 @@ void RsmDraws::listDraws(const GuestScene& scene, const SceneOnDevice& device,
         [](const Draw& a, const Draw& b) { return std::pair(a.mesh, a.row) < std::pair(b.mesh, b.row); });
 }
 
-void RsmDraws::add(GraphScope scope, const GuestScene& scene, const SceneOnDevice& device,
-                   BufferHandle instances, gi::RsmSet& rsm) {
+// Lists anew only when a face, a place or what is drawn changed.
+void RsmDraws::listFaces(const GuestScene& scene, const SceneOnDevice& device, const gi::RsmSet& rsm) {
+    const auto faces = std::span(rsm.faceInfo).first(rsm.lightFaceCount);
+    const uint64_t of = combineHash(combineHash(scene.id(), scene.drawnVersion()),
+                                    combineHash(device.placesVersion(), hashBytes(std::as_bytes(faces))));
+    if (listedOf_ == of) return;
+    listedOf_ = 0;
     draws_.clear();
     firstOfFace_.clear();
-    uint64_t key = combineHash(scene.drawnVersion(), device.setVersion());
-    for (uint32_t f = 0; f < rsm.lightFaceCount; ++f) {
-        listDraws(scene, device, rsm.faceInfo[f].clipFromWorld);
-        key = hashValue(rsm.faceInfo[f], key);
-        for (size_t i = firstOfFace_[f]; i < draws_.size(); ++i)
-            key = combineHash(combineHash(key, draws_[i].row), device.rowVersions()[draws_[i].row]);
+    key_ = scene.drawnVersion();
+    for (const io::RsmFace& face : faces) {
+        listDraws(scene, device, face.clipFromWorld);
+        key_ = hashValue(face, key_);
+        for (size_t i = firstOfFace_.back(); i < draws_.size(); ++i)
+            key_ = combineHash(combineHash(key_, draws_[i].row), device.rowVersions()[draws_[i].row]);
     }
     firstOfFace_.push_back(draws_.size());
-    rsm.inputsVersion = combineHash(rsm.inputsVersion, key);
+    listedOf_ = of;
+}
+
+void RsmDraws::add(GraphScope scope, const GuestScene& scene, const SceneOnDevice& device,
+                   BufferHandle instances, gi::RsmSet& rsm) {
+    listFaces(scene, device, rsm);
+    rsm.inputsVersion = combineHash(rsm.inputsVersion, key_);
     scope.raster("guest.rsms", "guest/rsm.vert", "guest/rsm.frag", gpu::VertexLayout::kStrided)
         .colorClear(rsm.normal, glm::vec4(0))
         .colorClear(rsm.albedo, glm::vec4(0))
         .depthClear(rsm.depth)
         .read("instances", instances)
-        .key(key)
+        .key(key_)
         .record([this, &scene, rsm](const PassRecording& to) { record(to, scene, rsm); });
 }
 

@@ -21,6 +21,7 @@ class RsmDraws {
     struct Draw {
         uint32_t row, mesh;
     };
+    void listFaces(const GuestScene& scene, const SceneOnDevice& device, const gi::RsmSet& rsm);
     void listDraws(const GuestScene& scene, const SceneOnDevice& device, const glm::mat4& clipFromWorld);
     void record(const PassRecording& to, const GuestScene& scene, const gi::RsmSet& rsm);
     void drawFace(const PassRecording& to, const GuestScene& scene, const io::RsmFace& face,
@@ -38,6 +39,7 @@ class RsmDraws {
     GuestContext& context_;
     std::vector<Draw> draws_;
     std::vector<size_t> firstOfFace_;
+    uint64_t listedOf_ = 0, key_ = 0;  // what the list is of; what it draws
     std::unique_ptr<Pool> pool_;
     std::vector<VkDescriptorSet> sets_;  // by material
     uint64_t setsOf_ = 0;

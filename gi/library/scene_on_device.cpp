@@ -58,8 +58,8 @@ void SceneOnDevice::follow(glm::dvec3 camera) {
     ++origins_;
 }
 
-void SceneOnDevice::chooseUnits(const GuestScene& scene) {
-    const auto all = scene.bounds();
+void SceneOnDevice::chooseUnits(GuestScene& scene) {
+    const auto& all = scene.bounds();
     bounds_ = {};
     if (scene.instances().empty()) return;
     const Bounds metres{glm::vec3(all.min - origin_), glm::vec3(all.max - origin_)};
@@ -113,6 +113,8 @@ void SceneOnDevice::takePoints(GuestScene& scene) {
 }
 
 void SceneOnDevice::takeInstances(GuestScene& scene) {
+    moved_.clear();
+    if (!allAnew_ && movedVersion_ == scene.movedVersion()) return;
     const auto& instances = scene.instances();
     const uint64_t bytes = std::max<uint64_t>(instances.size(), 1) * sizeof(io::Instance);
     if (!instances_ || instances_->sizeBytes() < bytes) {
@@ -124,7 +126,6 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
     }
     rowBounds_.resize(instances.size());
     rowVersions_.resize(instances.size());
-    moved_.clear();
     bool stillMoved = allAnew_;
     size_t movedCount = 0;
     const float perMetre = 1 / units_.length;
@@ -191,11 +192,16 @@ void SceneOnDevice::upload(VkCommandBuffer commands) {
     bytes_.clear();
 }
 
+uint64_t SceneOnDevice::placesVersion() const {
+    return combineHash(combineHash(movedVersion_, setVersion_),
+                       combineHash(origins_, hashValue(units_.length)));
+}
+
 gi::World SceneOnDevice::world() const {
     return {.lights = lights_,
             .bounds = bounds_,
             .versions = {.scene = combineHash(scene_, setVersion_),
-                         .instances = combineHash(combineHash(movedVersion_, setVersion_), origins_),
+                         .instances = placesVersion(),
                          .lights = lightsVersion_ + 1,
                          .camera = cameras_ + 1,
                          .origin = origins_},

@@ -30,7 +30,8 @@ class SceneOnDevice {
     // Of an instance, in our units.
     const Bounds& boundsOf(size_t row) const { return rowBounds_[row]; }
     const std::vector<uint64_t>& rowVersions() const { return rowVersions_; }
-    uint64_t setVersion() const { return setVersion_; }
+    // Where all rows stand, in our units.
+    uint64_t placesVersion() const;
 
   private:
     struct Copy {
@@ -38,7 +39,7 @@ class SceneOnDevice {
         uint64_t offset = 0, from = 0, sizeBytes = 0;  // `from`: in bytes_
     };
     void follow(glm::dvec3 camera);
-    void chooseUnits(const GuestScene& scene);
+    void chooseUnits(GuestScene& scene);
     void takeInstances(GuestScene& scene);
     void takePoints(GuestScene& scene);
     void takeLights(const GuestScene& scene);

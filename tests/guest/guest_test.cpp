@@ -20,6 +20,18 @@ std::vector<glm::vec3> lightOf(const GbufferLayout& layout, int frames = kFrames
     return camera.irradiance();
 }
 
+// Whether the pass ran in the frame drawn last.
+bool ran(AgiView view, std::string_view name) {
+    uint32_t count = 0;
+    EXPECT_EQ(agiGetPasses(view, &count, nullptr), AGI_OK);
+    std::vector<AgiPass> passes(count);
+    EXPECT_EQ(agiGetPasses(view, &count, passes.data()), AGI_OK);
+    for (const AgiPass& pass : passes)
+        if (pass.name == name) return pass.ran != 0;
+    ADD_FAILURE() << "there is no pass " << name;
+    return false;
+}
+
 TEST(Guest, EveryGbufferLayoutGivesTheSameLight) {
     const auto expected = lightOf({});
     EXPECT_GT(meanOf(expected), 0.01);
@@ -148,6 +160,25 @@ TEST(Guest, ASceneInThePlaceOfADestroyedOneIsAnother) {
     ASSERT_EQ(agiSetLights(other.scene, 1, &light), AGI_OK);
     other.drawFrames(8, other.addView(fresh), fresh);
     EXPECT_LT(relativeError(camera.irradiance(), fresh.irradiance()), 0.05);
+}
+
+// Many hosts tell all they have each frame.
+TEST(Guest, WhatIsToldAgainChangesNothingAndCostsNoPass) {
+    const HostRoom room;
+    const HostCamera once(room.room(), {}), often(room.room(), {});
+    Guest first(room), second(room);
+    const AgiView view = first.addView(once), again = second.addView(often);
+    const std::vector<AgiInstance> things = room.instances();
+    const AgiLight light = spotAt({});
+    for (int i = 0; i < kFrames; ++i) {
+        first.drawFrame({{view, &once}});
+        ASSERT_EQ(agiSetInstances(second.scene, 2, things.data()), AGI_OK);
+        ASSERT_EQ(agiSetLights(second.scene, 1, &light), AGI_OK);
+        second.drawFrame({{again, &often}});
+    }
+    EXPECT_TRUE(once.irradiance() == often.irradiance());
+    EXPECT_FALSE(ran(again, "guest.rsms"));
+    EXPECT_FALSE(ran(again, "surface_points.place"));
 }
 
 TEST(Guest, ThingsMoveComeAndGo) {
