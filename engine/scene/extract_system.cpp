@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "engine/core/floating_origin.h"
 #include "engine/core/log.h"
 #include "engine/scene/light_check.h"
 

@@ -102,11 +102,6 @@ std::vector<WorldPlacement> placeNodes(const SceneAsset& asset) {
     return places;
 }
 
-glm::dvec3 followingOrigin(glm::dvec3 before, glm::dvec3 camera) {
-    const glm::dvec3 away = glm::abs(camera - before);
-    return std::max({away.x, away.y, away.z}) <= kOriginReach ? before : camera;
-}
-
 glm::dvec3 likelyView(const SceneAsset& asset) {
     const auto firstWith = [&](int32_t SceneNode::*part) {
         return std::ranges::find_if(asset.nodes, [&](const SceneNode& n) { return n.*part >= 0; });

@@ -22,11 +22,6 @@ struct WorldPlacement {
 };
 std::vector<WorldPlacement> placeNodes(const SceneAsset& asset);
 
-// The origin that positions are taken relative to: where the camera stood when it was placed, until it is
-// farther off than floats are fine. Not on a grid: a scene that stands elsewhere then has the same numbers.
-constexpr double kOriginReach = 256;  // m: 1/50 mm
-glm::dvec3 followingOrigin(glm::dvec3 before, glm::dvec3 camera);
-
 // Where someone is likely to look from: the first camera, else the first thing there is. An origin for tools.
 glm::dvec3 likelyView(const SceneAsset& asset);
 

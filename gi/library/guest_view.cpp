@@ -224,13 +224,18 @@ void GuestView::record(GuestScene& scene, VkCommandBuffer commands, const AgiFra
 }
 
 void GuestView::prepare(GuestScene& scene, const AgiFrame& f) {
+    // Of a frame that counts for nothing: with a graph, an origin and a camera of its own.
+    auto surfaces = std::exchange(surfaces_, std::make_unique<SceneOnDevice>(context_.gpu()));
+    const RenderCamera camera = camera_;
     surfaces_->update(scene, glm::dvec3(f.cameraPosition[0], f.cameraPosition[1], f.cameraPosition[2]));
     noteCamera(f);
-    FrameGraph plan(&context_.gpu(), &context_.pipelines());  // its own, so that no frame counts as drawn
+    FrameGraph plan(&context_.gpu(), &context_.pipelines());
     plan.beginFrame({});
     gi::BounceLightHistory none;
     declare(plan, scene, f, Images(), none);
     plan.preparePipelines();
+    surfaces_ = std::move(surfaces);
+    camera_ = camera;
 }
 
 float GuestView::settled() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/core/floating_origin.h"
 #include "engine/core/hash.h"
 #include "shaders/scene/scene_io.h"
 
@@ -10,8 +11,6 @@ namespace ag::guest {
 namespace {
 
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr double kOriginReach = 256;  // m from the camera: floats are good to 0.02 mm there
-constexpr double kOriginStep = 16;    // m: the same origin wherever in a place the first camera stood
 
 io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 at, float perMetre) {
     const glm::mat3 rows = glm::transpose(instance.linear * perMetre);
@@ -51,8 +50,9 @@ bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
 
 // The origin moves rarely: all that is known in the world is lost then.
 void SceneOnDevice::follow(glm::dvec3 camera) {
-    if (originIsChosen_ && glm::distance(camera, origin_) < kOriginReach) return;
-    origin_ = kOriginStep * glm::round(camera / kOriginStep);
+    const glm::dvec3 next = originIsChosen_ ? followingOrigin(origin_, camera) : camera;
+    if (originIsChosen_ && next == origin_) return;
+    origin_ = next;
     originIsChosen_ = true;
     allAnew_ = true;
     ++origins_;
