@@ -106,6 +106,14 @@ bool mayMeet(const Frustum& a, const Frustum& b) {
     return !apart(a, b) && !apart(b, a);
 }
 
+bool mayMeet(const Frustum& f, const Bounds& box) {
+    return std::ranges::none_of(f.planes, [&](const glm::vec4& plane) {
+        const glm::vec3 innermost(plane.x > 0 ? box.max.x : box.min.x, plane.y > 0 ? box.max.y : box.min.y,
+                                  plane.z > 0 ? box.max.z : box.min.z);
+        return glm::dot(glm::vec3(plane), innermost) + plane.w < 0;
+    });
+}
+
 float farDistanceOf(glm::vec3 position, float range, const Bounds& bounds) {
     if (range > 0) return range;
     const glm::vec3 far = glm::max(glm::abs(bounds.min - position), glm::abs(bounds.max - position));

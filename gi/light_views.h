@@ -47,6 +47,8 @@ struct Frustum {
 Frustum frustumOf(const glm::mat4& clipFromWorld, float leastDepth = 0);
 // False only if two frusta have nothing in common; true for a few that just miss each other.
 bool mayMeet(const Frustum& a, const Frustum& b);
+// False only if the box is wholly outside of one of the planes.
+bool mayMeet(const Frustum& f, const Bounds& box);
 
 // How far a light's views must reach: its range, or the scene's far side.
 float farDistanceOf(glm::vec3 position, float range, const Bounds& bounds);

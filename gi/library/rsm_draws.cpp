@@ -5,21 +5,11 @@
 
 #include "engine/core/hash.h"
 #include "engine/gpu/retire.h"
+#include "gi/light_views.h"
 #include "shaders/guest/guest_io.h"
 
 namespace ag::guest {
 namespace {
-
-// False only if the box is wholly outside of one of the view's planes.
-bool mayBeSeen(const Bounds& b, const glm::mat4& clipFromWorld) {
-    const glm::mat4 t = glm::transpose(clipFromWorld);
-    for (const glm::vec4& plane : {t[3] + t[0], t[3] - t[0], t[3] + t[1], t[3] - t[1], t[3] - t[2], t[2]}) {
-        const glm::vec3 nearest(plane.x > 0 ? b.max.x : b.min.x, plane.y > 0 ? b.max.y : b.min.y,
-                                plane.z > 0 ? b.max.z : b.min.z);
-        if (glm::dot(glm::vec3(plane), nearest) + plane.w < 0) return false;
-    }
-    return true;
-}
 
 bool isMirrored(const GuestInstance& instance) {
     return glm::determinant(instance.linear) < 0;
@@ -38,9 +28,10 @@ RsmDraws::~RsmDraws() {
 void RsmDraws::listDraws(const GuestScene& scene, const SceneOnDevice& device,
                          const glm::mat4& clipFromWorld) {
     firstOfFace_.push_back(draws_.size());
+    const gi::Frustum frustum = gi::frustumOf(clipFromWorld);
     const auto& instances = scene.instances();
     for (uint32_t row = 0; row < instances.size(); ++row)
-        if (mayBeSeen(device.boundsOf(row), clipFromWorld)) draws_.push_back({row, instances[row].mesh});
+        if (gi::mayMeet(frustum, device.boundsOf(row))) draws_.push_back({row, instances[row].mesh});
     std::sort(
         draws_.begin() + std::ptrdiff_t(firstOfFace_.back()), draws_.end(),
         [](const Draw& a, const Draw& b) { return std::pair(a.mesh, a.row) < std::pair(b.mesh, b.row); });
