@@ -34,6 +34,11 @@ glm::vec2 octahedral(glm::vec3 n) {
     return n.z >= 0 ? glm::vec2(n) : (1.0f - glm::abs(glm::vec2(n.y, n.x))) * sign;
 }
 
+void copy3(double (&to)[3], const glm::dvec3& from) {
+    for (int i = 0; i < 3; ++i)
+        to[i] = from[i];
+}
+
 template <class T>
 void append(std::vector<std::byte>& bytes, T value) {
     const auto* from = reinterpret_cast<const std::byte*>(&value);
@@ -83,16 +88,43 @@ std::unique_ptr<gpu::Image> makeResult(const char* name, glm::uvec2 size) {
 }  // namespace
 
 HostCamera::HostCamera(const Room& room, const GbufferLayout& layout, glm::dvec3 place) {
+    copy3(frame_.cameraPosition, place + glm::dvec3(kEye));
+    for (const int i : {0, 4, 8})
+        frame_.viewFromWorld[i] = 1;
+    setPerspective(layout, 1.0f);
+    const glm::vec2 size(layout.size);
+    fillGbuffer(layout, [&](uint32_t x, uint32_t y) -> Pixel {
+        const glm::vec2 ndc = 2.0f * (glm::vec2(x, y) + 0.5f) / size - 1.0f;
+        const float* clip = frame_.clipFromView;
+        const glm::vec3 ray(ndc.x / clip[0], ndc.y / clip[5], -1);  // its length along z is 1
+        const auto hit = castRay(room, kEye, ray);
+        return hit ? Pixel{hit->distance, hit->normal} : Pixel{};
+    });
+    giveImages(layout);
+}
+
+HostCamera::HostCamera(const RenderCamera& camera, glm::dvec3 origin, const Image& depth,
+                       const Image& normal) {
+    const GbufferLayout layout{.size = {uint32_t(depth.width), uint32_t(depth.height)},
+                               .normals = AGI_NORMAL_XYZ_SIGNED};
+    copy3(frame_.cameraPosition, origin + glm::dvec3(camera.position));
+    const glm::vec3 right = glm::cross(camera.forward, camera.up);
+    for (int column = 0; column < 3; ++column) {
+        frame_.viewFromWorld[3 * column] = right[column];
+        frame_.viewFromWorld[3 * column + 1] = camera.up[column];
+        frame_.viewFromWorld[3 * column + 2] = -camera.forward[column];
+    }
+    setPerspective(layout, camera.verticalFov);
+    fillGbuffer(layout, [&](uint32_t x, uint32_t y) {
+        return Pixel{depth.at(int(x), int(y)).x, normal.at(int(x), int(y))};
+    });
+    giveImages(layout);
+}
+
+void HostCamera::giveImages(const GbufferLayout& layout) {
     frame_.structSize = sizeof frame_;
     frame_.width = layout.size.x;
     frame_.height = layout.size.y;
-    const glm::dvec3 eye = place + glm::dvec3(kEye);
-    for (int i = 0; i < 3; ++i)
-        frame_.cameraPosition[i] = eye[i];
-    for (const int i : {0, 4, 8})
-        frame_.viewFromWorld[i] = 1;
-    setPerspective(layout);
-    fillGbuffer(room, layout);
     frame_.normalEncoding = layout.normals;
     frame_.depth = given(depth_);
     frame_.normal = given(normal_);
@@ -108,8 +140,8 @@ HostCamera::HostCamera(const Room& room, const GbufferLayout& layout, glm::dvec3
 }
 
 // Depth (a z + b) / -z of z < 0 before the camera.
-void HostCamera::setPerspective(const GbufferLayout& layout) {
-    const float aspect = float(layout.size.x) / float(layout.size.y), focal = 1 / std::tan(0.5f);
+void HostCamera::setPerspective(const GbufferLayout& layout, float verticalFov) {
+    const float aspect = float(layout.size.x) / float(layout.size.y), focal = 1 / std::tan(verticalFov / 2);
     const float span = kFar - kNear;
     const bool reversed = layout.reversedDepth;
     frame_.clipFromView[0] = focal / aspect;
@@ -125,18 +157,17 @@ void HostCamera::setPerspective(const GbufferLayout& layout) {
     frame_.depthReversed = reversed;
 }
 
-void HostCamera::fillGbuffer(const Room& room, const GbufferLayout& layout) {
+void HostCamera::fillGbuffer(const GbufferLayout& layout,
+                             const std::function<Pixel(uint32_t, uint32_t)>& at) {
     const float* clip = frame_.clipFromView;
+    const float farthest = layout.reversedDepth ? 0.0f : 1.0f;
     std::vector<std::byte> depths, normals, colors, materials;
     for (uint32_t y = 0; y < layout.size.y; ++y)
         for (uint32_t x = 0; x < layout.size.x; ++x) {
-            const glm::vec2 ndc = 2.0f * (glm::vec2(x, y) + 0.5f) / glm::vec2(layout.size) - 1.0f;
-            const glm::vec3 ray(ndc.x / clip[0], ndc.y / clip[5], -1);  // its length along z is 1
-            const auto hit = castRay(room, kEye, ray);
-            const float z = hit ? -hit->distance : 0;
-            const float farthest = layout.reversedDepth ? 0.0f : 1.0f;
-            append(depths, hit ? (clip[10] * z + clip[14]) / -z : farthest);
-            appendNormal(normals, layout.normals, hit ? hit->normal : glm::vec3(0, 0, 1));
+            const Pixel pixel = at(x, y);
+            const float z = -pixel.distance;
+            append(depths, z < 0 ? (clip[10] * z + clip[14]) / -z : farthest);
+            appendNormal(normals, layout.normals, pixel.normal);
             append(colors, glm::packUnorm4x8({0.8f, 0.7f, 0.6f, 1}));
             append(materials, glm::packUnorm4x8({1, 0, 0.3f, 0}));  // metal, nothing, roughness
         }
@@ -253,10 +284,13 @@ AgiResult HostRoom::fill(AgiScene scene, glm::dvec3 place) const {
     return result;
 }
 
-Guest::Guest(const HostRoom& room, const HostHooks& hooks, glm::dvec3 place) {
+Guest::Guest(const HostHooks& hooks) {
     const AgiContextInfo info = contextInfo(hooks);
     EXPECT_EQ(agiCreateContext(&info, &context), AGI_OK) << agiLastError();
     EXPECT_EQ(agiCreateScene(context, &scene), AGI_OK) << agiLastError();
+}
+
+Guest::Guest(const HostRoom& room, const HostHooks& hooks, glm::dvec3 place) : Guest(hooks) {
     EXPECT_EQ(room.fill(scene, place), AGI_OK) << agiLastError();
 }
 

@@ -2,10 +2,13 @@
 // strangers call it.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <vector>
 
+#include "engine/core/image.h"
+#include "engine/core/render_camera.h"
 #include "engine/gpu/resources.h"
 #include "gi/include/afterglow/afterglow_gi.h"
 #include "tests/guest/room.h"
@@ -25,14 +28,21 @@ struct GbufferLayout {
 class HostCamera {
   public:
     HostCamera(const Room& room, const GbufferLayout& layout, glm::dvec3 place = glm::dvec3(0));
+    // What a camera of ours saw, about an origin: m along its axis, 0 where nothing is; unit normals.
+    HostCamera(const RenderCamera& camera, glm::dvec3 origin, const Image& depth, const Image& normal);
     // All but the frame's number and what is done.
     const AgiFrame& frame() const { return frame_; }
     std::vector<glm::vec3> irradiance() const { return download(*irradiance_); }
     std::vector<glm::vec3> gloss() const { return download(*gloss_); }
 
   private:
-    void setPerspective(const GbufferLayout& layout);
-    void fillGbuffer(const Room& room, const GbufferLayout& layout);
+    struct Pixel {
+        float distance = 0;  // m along the axis; 0: nothing is there
+        glm::vec3 normal{0, 0, 1};
+    };
+    void setPerspective(const GbufferLayout& layout, float verticalFov);
+    void fillGbuffer(const GbufferLayout& layout, const std::function<Pixel(uint32_t, uint32_t)>& at);
+    void giveImages(const GbufferLayout& layout);
     std::vector<glm::vec3> download(const gpu::Image& image) const;
 
     AgiFrame frame_{};
@@ -70,6 +80,7 @@ AgiLight spotAt(glm::dvec3 place);
 // A context, a scene with the room, and views by number; destroyed in the order the header asks for.
 class Guest {
   public:
+    explicit Guest(const HostHooks& hooks = {});  // its scene is empty
     explicit Guest(const HostRoom& room, const HostHooks& hooks = {}, glm::dvec3 place = glm::dvec3(0));
     ~Guest();
     Guest(const Guest&) = delete;
