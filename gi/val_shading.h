@@ -1,31 +1,19 @@
 // Irradiance from virtual area lights, seen through imperfect shadow maps. Each tile of the screen sorts the
-// lights: near ones are met by every pixel in their exact shape, far ones as disks, if asked for shared out
-// over blocks of n x n pixels (interleaved, Wald et al. 2002) and gathered by a filter that keeps to the
-// surface.
+// lights: near ones are met by every pixel in their exact shape, far ones as disks.
 #pragma once
 
 #include "engine/core/setting_fields.h"
-#include "gi/ism_atlas.h"
 #include "gi/refresh_settings.h"
-#include "gi/surfaces.h"
+#include "gi/val_tiles.h"
 
 namespace ag::gi {
-
-enum class ValShape : uint32_t {
-    kPoint,       // the cluster as a point emitter
-    kDisk,        // RSMC eq. 2, ACRSM eq. 3.9: as published, loses energy near the light
-    kVectorDisk,  // closed form of the disk's vector irradiance
-    kRectangle,   // the rectangle of the cluster's second moments by its edges
-    kPolygon,     // the convex polygon of its farthest texels by its edges
-};
 
 struct ValShadingSettings {
     ValShape shape = ValShape::kPolygon;  // of near lights
     ValShape farShape = ValShape::kVectorDisk;
-    float nearReach = 2;      // lights nearer than this many of their half lengths are near; 0: none
-    uint32_t interleave = 1;  // n: each pixel meets one of n² parts of the far lights
-    uint32_t taps = 4;        // of near lights' soft shadows; 1: hard ones, from the light's centre
-    uint32_t farTaps = 1;     // of far lights'
+    float nearReach = 2;   // lights nearer than this many of their half lengths are near; 0: none
+    uint32_t taps = 4;     // of near lights' soft shadows; 1: hard ones, from the light's centre
+    uint32_t farTaps = 1;  // of far lights'
     bool glossy = true;  // materials reflect by their roughness, where a scene has such and lights are areas
 
     static constexpr auto fields() {
@@ -36,8 +24,6 @@ struct ValShadingSettings {
                          "form factor of a far area light", "point|disk|vector_disk|rectangle|polygon"},
             SettingField{"near_reach", &ValShadingSettings::nearReach, 0, 1e6, "half lengths",
                          "lights nearer to a screen tile than this are met by each of its pixels; 0: none"},
-            SettingField{"interleave", &ValShadingSettings::interleave, 1, 4, "pixels",
-                         "blocks of n x n pixels share the far lights, each pixel meets a part of them"},
             SettingField{"taps", &ValShadingSettings::taps, 1, 64, "taps",
                          "of near lights' soft shadows; 1: hard ones"},
             SettingField{"far_taps", &ValShadingSettings::farTaps, 1, 64, "taps",
@@ -55,45 +41,36 @@ struct Irradiance {
 };
 
 // Passes and resources of one gathering; literals, because the graph keeps views of them.
-struct ValTileNames {
-    std::string_view classify, lists, counts, lacking, lackingCounts;
-};
 struct ValShadingNames {
     ValTileNames tiles;
-    std::string_view far, near, fill, parts, irradiance, partsToward, toward;
+    std::string_view far, near, farIrradiance, irradiance, farToward, toward;
 };
 constexpr ValShadingNames kFirstBounceShading = {
-    {"val_shading.classify", "val_shading.lists", "val_shading.counts", "val_shading.lacking",
-     "val_shading.lacking_counts"},
+    {"val_shading.classify", "val_shading.lists", "val_shading.counts"},
     "val_shading.far",
     "val_shading.near",
-    "val_shading.fill",
-    "val_shading.parts",
+    "val_shading.far_irradiance",
     "val_shading.irradiance",
-    "val_shading.parts_toward",
+    "val_shading.far_toward",
     "val_shading.toward"};
 constexpr ValShadingNames kAllBouncesShading = {
-    {"val_shading.classify_all", "val_shading.lists_all", "val_shading.counts_all", "val_shading.lacking_all",
-     "val_shading.lacking_counts_all"},
+    {"val_shading.classify_all", "val_shading.lists_all", "val_shading.counts_all"},
     "val_shading.far_all",
     "val_shading.near_all",
-    "val_shading.fill_all",
-    "val_shading.parts_all",
+    "val_shading.far_irradiance_all",
     "val_shading.irradiance_all",
-    "val_shading.parts_toward_all",
+    "val_shading.far_toward_all",
     "val_shading.toward_all"};
 constexpr ValShadingNames kLaterShading = {
-    {"val_shading.classify_later", "val_shading.lists_later", "val_shading.counts_later",
-     "val_shading.lacking_later", "val_shading.lacking_counts_later"},
+    {"val_shading.classify_later", "val_shading.lists_later", "val_shading.counts_later"},
     "val_shading.far_later",
     "val_shading.near_later",
-    "val_shading.fill_later",
-    "val_shading.parts_later",
+    "val_shading.far_irradiance_later",
     "val_shading.irradiance_later",
-    "val_shading.parts_toward_later",
+    "val_shading.far_toward_later",
     "val_shading.toward_later"};
 
-// `share`: only of the first bounce, and not where pixels share out far lights.
+// `share`: only of the first bounce.
 Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
                          const ValShadingSettings& settings,
                          const ValShadingNames& names = kFirstBounceShading, const PixelShare& share = {});

@@ -66,11 +66,11 @@ gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::Bo
         case Technique::kIrsm:
             return gi::addIrsm(scope, in, s.bounce, h);
         case Technique::kIsm:
-            return gi::addIsm(scope, in, s.bounce, h);
+            return gi::addIsm(scope, in, s.bounce, s.interleavedShading, h);
         case Technique::kRsmc:
             return gi::addRsmc(scope, in, s.bounce, h);
         case Technique::kAcrsm:
-            return gi::addAcrsm(scope, in, s.bounce, h);
+            return gi::addAcrsm(scope, in, s.bounce, s.interleavedShading, h);
         case Technique::kSsvp:
             break;
     }

@@ -53,11 +53,8 @@ void setIsm(RenderSettings& s) {
                          .nearMore = false,
                          .mapping = gi::IsmMapping::kParaboloid,
                          .planes = false};
-    s.bounce.valShading = {.shape = gi::ValShape::kPoint,
-                           .farShape = gi::ValShape::kPoint,
-                           .nearReach = 0,
-                           .interleave = 3,
-                           .taps = 1};
+    s.bounce.valShading = {
+        .shape = gi::ValShape::kPoint, .farShape = gi::ValShape::kPoint, .nearReach = 0, .taps = 1};
 }
 
 // 256 point lights and as many of the second bounce, 4x4 pixels share them; the edge-aware Gaussian is a
@@ -66,11 +63,8 @@ void setSsvp(RenderSettings& s) {
     s.bounce.spacing = 1;
     s.technique = Technique::kSsvp;
     s.bounce.valClustering.count = 256;
-    s.bounce.valShading = {.shape = gi::ValShape::kPoint,
-                           .farShape = gi::ValShape::kPoint,
-                           .nearReach = 0,
-                           .interleave = 4,
-                           .taps = 1};
+    s.bounce.valShading = {
+        .shape = gi::ValShape::kPoint, .farShape = gi::ValShape::kPoint, .nearReach = 0, .taps = 1};
     s.bounce.denoiser = {.enabled = true,
                          .leastShare = 1,
                          .rounds = 1,
@@ -106,7 +100,6 @@ void setAcrsm(RenderSettings& s) {
                          .mapping = gi::IsmMapping::kParaboloid,
                          .planes = false};
     s.bounce.valShading.shape = gi::ValShape::kDisk;
-    s.bounce.valShading.interleave = 3;
     s.bounce.valShading.taps = s.bounce.valShading.farTaps = 16;
 }
 
@@ -211,6 +204,7 @@ void registerSettings(Settings& settings, RenderSettings& s) {
                  &s.technique);
     gi::registerSettings(settings, s.bounce);
     registerFields(settings, "ssvp", s.ssvp);
+    registerFields(settings, "interleaved_shading", s.interleavedShading);
     registerFields(settings, "shadow_maps", s.shadowMaps);
     registerFields(settings, "light_clusters", s.lightClusters);
     registerFields(settings, "punctual_shadows", s.punctualShadows);

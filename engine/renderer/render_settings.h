@@ -8,6 +8,7 @@
 #include "engine/renderer/composite.h"
 #include "engine/renderer/punctual_lighting.h"
 #include "engine/renderer/shadow_maps.h"
+#include "gi/published/interleaved_shading.h"
 #include "gi/published/ssvp.h"
 #include "gi/settings.h"
 
@@ -35,6 +36,7 @@ struct RenderSettings {
     Technique technique = Technique::kAreaLights;
     gi::BounceLightSettings bounce;
     gi::SsvpSettings ssvp;
+    gi::InterleavedShadingSettings interleavedShading;  // of "ism" and "acrsm"
     ShadowMapSettings shadowMaps;
     LightClusterSettings lightClusters;
     PunctualShadowSettings punctualShadows;

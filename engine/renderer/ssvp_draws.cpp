@@ -2,13 +2,14 @@
 
 #include "engine/renderer/scene_draws.h"
 #include "gi/light_views.h"
-#include "shaders/ssvp/ssvp_io.h"
+#include "shaders/published/ssvp/ssvp_io.h"
 
 namespace ag::render {
 
 void drawParaboloids(GraphScope scope, const SceneView& scene, const gi::Paraboloids& maps) {
-    PassBuilder pass = scope.raster("ssvp.render_maps", "ssvp/render_maps.vert", "ssvp/render_maps.frag",
-                                    gpu::VertexLayout::kPositionsAndAttributes);
+    PassBuilder pass =
+        scope.raster("ssvp.render_maps", "published/ssvp/render_maps.vert", "published/ssvp/render_maps.frag",
+                     gpu::VertexLayout::kPositionsAndAttributes);
     pass.colorClear(maps.position, glm::vec4(0))
         .colorClear(maps.normal, glm::vec4(0))
         .colorClear(maps.albedo, glm::vec4(0))

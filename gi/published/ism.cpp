@@ -6,7 +6,7 @@
 namespace ag::gi {
 
 BounceLight addIsm(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
-                   BounceLightHistory& h) {
+                   const InterleavedShadingSettings& interleaved, BounceLightHistory& h) {
     BounceLight f;
     f.viewPoints = addViewPoints(scope, in.surfaces);
     addRsms(scope, in, s, h, f);
@@ -15,7 +15,8 @@ BounceLight addIsm(GraphScope scope, const BounceLightInputs& in, const BounceLi
     f.firstCount = f.vals.count;
     addVisibility(scope, in, s.ismAtlas, f);
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 = addValShading(scope, downsampled, {f.vals, f.isms}, s.valShading);
+    f.irradiance = f.bounce1 =
+        addInterleavedShading(scope, downsampled, {f.vals, f.isms}, s.valShading, interleaved.side);
     addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gi/bounce_light.h"
+#include "gi/published/interleaved_shading.h"
 #include "gi/published/ssvp.h"
 
 namespace ag::gi {
@@ -19,13 +20,13 @@ BounceLight addIrsm(GraphScope scope, const BounceLightInputs& in, const BounceL
                     BounceLightHistory& history);
 // Imperfect shadow maps: point lights sampled from the RSMs (Keller 1997, Ritschel et al. 2008).
 BounceLight addIsm(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
-                   BounceLightHistory& history);
+                   const InterleavedShadingSettings& interleaved, BounceLightHistory& history);
 // Reflective shadow map clustering, without visibility (Prutkin, Kaplanyan, Dachsbacher 2012).
 BounceLight addRsmc(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                     BounceLightHistory& history);
 // Adaptively clustered reflective shadow maps with imperfect shadow maps (Weinzierl-Heigl).
 BounceLight addAcrsm(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
-                     BounceLightHistory& history);
+                     const InterleavedShadingSettings& interleaved, BounceLightHistory& history);
 // Screen-space VPL propagation (Aranha, Macedo, Apolinario): two bounces.
 BounceLight addSsvpLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                          const SsvpSettings& ssvp, DrawParaboloids draw, BounceLightHistory& history);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shaders/ssvp/ssvp_io.h"
+#include "shaders/published/ssvp/ssvp_io.h"
 
 namespace ag::gi {
 namespace {
@@ -17,7 +17,7 @@ Clustered addClusters(GraphScope scope, const RsmSet& rsm, uint32_t firstCount, 
                       uint32_t rounds) {
     Clustered c;
     c.first = scope.buffer("ssvp.first", {.sizeBytes = firstCount * sizeof(io::Val)});
-    scope.compute("ssvp.sample_first", "ssvp/sample_first.comp")
+    scope.compute("ssvp.sample_first", "published/ssvp/sample_first.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
@@ -28,7 +28,7 @@ Clustered addClusters(GraphScope scope, const RsmSet& rsm, uint32_t firstCount, 
         scope.historyBuffer("ssvp.clusters", {.sizeBytes = clusterCount * sizeof(io::SsvpCluster)});
     c.clusters = clusters.current;
     c.owners = scope.buffer("ssvp.owners", {.sizeBytes = firstCount * sizeof(uint32_t)});
-    scope.compute("ssvp.cluster", "ssvp/cluster_vpls.comp")
+    scope.compute("ssvp.cluster", "published/ssvp/cluster_vpls.comp")
         .read("vpls", c.first)
         .readPrevious("before", clusters)
         .write("clusters", c.clusters)
@@ -67,7 +67,7 @@ Ssvp addSsvp(GraphScope scope, const RsmSet& rsm, uint32_t firstCount, const Ssv
     result.maps.planes =
         scope.buffer("ssvp.planes", {.sizeBytes = uint64_t(clusterCount) * s.mapSize * s.mapSize * 16,
                                      .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    scope.compute("ssvp.resolve_depths", "ssvp/resolve_depths.comp")
+    scope.compute("ssvp.resolve_depths", "published/ssvp/resolve_depths.comp")
         .sample("positions", maps.position)
         .read("clusters", c.clusters)
         .write("planes", result.maps.planes)
@@ -77,7 +77,7 @@ Ssvp addSsvp(GraphScope scope, const RsmSet& rsm, uint32_t firstCount, const Ssv
     struct Push {
         uint32_t firstCount, secondCount, valCount, clusterCount, mapSize;
     };
-    scope.compute("ssvp.list_vpls", "ssvp/list_vpls.comp")
+    scope.compute("ssvp.list_vpls", "published/ssvp/list_vpls.comp")
         .read("first", c.first)
         .read("clusters", c.clusters)
         .read("owners", c.owners)

@@ -17,6 +17,7 @@ struct SsvpSettings {
     uint32_t secondCount = 256;  // lights of the second bounce, over all clusters
     uint32_t rounds = 5;         // of k-means
     uint32_t mapSize = 256;      // texels along a paraboloid's square
+    uint32_t interleave = 4;     // blocks of so many pixels squared share the lights
     bool disk = true;            // sample the paraboloids' disks; off: the squares round them
 
     static constexpr auto fields() {
@@ -28,6 +29,8 @@ struct SsvpSettings {
             SettingField{"rounds", &SsvpSettings::rounds, 1, 20, "rounds", "of k-means a frame"},
             SettingField{"map_size", &SsvpSettings::mapSize, 16, 512, "texels",
                          "side of a paraboloid's square, a multiple of 16"},
+            SettingField{"interleave", &SsvpSettings::interleave, 1, 4, "pixels",
+                         "blocks of n x n pixels share the lights"},
             SettingField{"disk", &SsvpSettings::disk, 0, 0, "",
                          "sample the paraboloids' disks; off: the squares round them"}};
     }

@@ -13,10 +13,11 @@ BounceLight addSsvpLight(GraphScope scope, const BounceLightInputs& in, const Bo
     f.vals = propagated.vals, f.firstCount = propagated.firstCount;
     if (s.ismAtlas.enabled) f.isms = propagated.maps;
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
-    f.irradiance = f.bounce1 =
-        addValShading(scope, downsampled, {firstVals(f.vals, f.firstCount), f.isms}, s.valShading);
+    f.irradiance = f.bounce1 = addInterleavedShading(
+        scope, downsampled, {firstVals(f.vals, f.firstCount), f.isms}, s.valShading, ssvp.interleave);
     if (f.bounce1.image && f.vals.count > f.firstCount)
-        f.irradiance = addValShading(scope, downsampled, {f.vals, f.isms}, s.valShading, kAllBouncesShading);
+        f.irradiance = addInterleavedShading(scope, downsampled, {f.vals, f.isms}, s.valShading,
+                                             ssvp.interleave, kAllInterleaved);
     addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;

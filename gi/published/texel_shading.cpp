@@ -34,7 +34,7 @@ Irradiance addTexelShading(GraphScope scope, const Surfaces& gbuffer, const RsmS
     const Irradiance result{scope.image("texel_shading.irradiance",
                                         {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
     for (uint32_t first = 0, slice = 0; first < count; first += kSliceTexels, ++slice) {
-        PassBuilder pass = scope.compute(passName(slice), "texel_shading/gather_texels.comp");
+        PassBuilder pass = scope.compute(passName(slice), "published/texel_shading/gather_texels.comp");
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)
             .read("camera", gbuffer.camera)

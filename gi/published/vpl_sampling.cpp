@@ -8,7 +8,7 @@ Vals addVplSampling(GraphScope scope, const RsmSet& rsm, const Importance& impor
         uint32_t vplCount, valCount, atlasWidth, mapCount, pyramidStride;
     };
     const Vals v = allocateVals(scope, "vpl_sampling.vals", "vpl_sampling.shapes", count);
-    scope.compute("vpl_sampling.sample", "vpl_sampling/sample_vpls.comp")
+    scope.compute("vpl_sampling.sample", "published/vpl_sampling/sample_vpls.comp")
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)

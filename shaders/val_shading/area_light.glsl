@@ -15,15 +15,15 @@ const uint kShapeVectorDisk = 2;  // closed form of a disk's vector irradiance
 const uint kShapeRectangle = 3;   // of the second moments, by its edges
 const uint kShapePolygon = 4;     // of the farthest texels, by its edges
 
-layout(constant_id = 4) const bool kSharedMaps = false;
 const bool kPolygon = kShape == kShapePolygon;
 const bool kSoft = kVisibilityTaps > 1;  // else shadows are hard, or with 0 taps none
 #ifdef AG_GLOSSY
 const bool kRectangle = true;
-#else
+#elif defined(AG_SHARED_MAPS)
 const bool kRectangle = kShape == kShapeRectangle || kSoft || kSharedMaps;
+#else
+const bool kRectangle = kShape == kShapeRectangle || kSoft;
 #endif
-const uint kNoMap = 0xffffu;  // nothing stands in the light's way
 
 struct AreaLight {
     vec4 place;   // centre; area, or radius² of a vector disk
@@ -33,7 +33,7 @@ struct AreaLight {
     vec3 halfU, halfV;
     vec4 corners[kValCorners / 2];  // two each
     vec4 gradient;
-    uint map;  // of depths: its own, or one shared with others and seen from halfU with normal halfV
+    uint map;  // of depths
 };
 
 AreaLight loadLight(uint index) {
@@ -45,7 +45,11 @@ AreaLight loadLight(uint index) {
     l.thickness = kPolygon ? normal.w : 0.0;
     l.power = texelFetch(vals, at + 2);
     vec4 u = kRectangle ? texelFetch(shapes, shape) : vec4(0.0);
+#ifdef AG_SHARED_MAPS
     l.map = kSharedMaps ? uint(u.w) : index;
+#else
+    l.map = index;
+#endif
     vec4 v = kRectangle || kPolygon ? texelFetch(shapes, shape + 1) : vec4(0.0);
     l.halfU = u.xyz;
     l.halfV = v.xyz;
@@ -113,17 +117,21 @@ IsmTile tileOf(AreaLight l, uint ismTileSize) {
     return IsmTile(int(l.map * ismTileSize * ismTileSize), int(ismTileSize));
 }
 
-// By the map of the light's cluster, with hard edges (Dong et al. 2009).
+#ifdef AG_SHARED_MAPS
+// By the map of the light's cluster, seen from halfU with normal halfV, with hard edges (Dong et al. 2009).
 float sharedVisibility(vec3 x, AreaLight l, uint ismTileSize) {
     vec3 t, b, d = x - l.halfU;
     orthonormalBasis(l.halfV, t, b);
     d = vec3(dot(d, t), dot(d, b), dot(d, l.halfV));
     return l.map == kNoMap ? 1.0 : ismHardVisibility(isms, tileOf(l, ismTileSize), d);
 }
+#endif
 
 float visibility(vec3 x, AreaLight l, LightFrame f, uint ismTileSize) {
     if (kVisibilityTaps == 0) return 1.0;
+#ifdef AG_SHARED_MAPS
     if (kSharedMaps) return sharedVisibility(x, l, ismTileSize);
+#endif
     vec3 d = toFrame(f, x - l.place.xyz) - vec3(0.0, 0.0, l.power.w);
     IsmTile tile = tileOf(l, ismTileSize);
     if (!kSoft) return ismHardVisibility(isms, tile, d);

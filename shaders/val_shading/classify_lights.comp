@@ -17,7 +17,6 @@ layout(set = 0, binding = 2) uniform samplerBuffer vals;
 layout(set = 0, binding = 3) uniform samplerBuffer shapes;
 layout(set = 0, binding = 4, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 5, scalar) writeonly buffer Counts { uvec2 items[]; } counts;
-layout(set = 0, binding = 6, scalar) writeonly buffer LackingCounts { uint items[]; } lackingCounts;
 
 #include "val_shading/sort_lights.glsl"
 
@@ -40,8 +39,5 @@ Box boxOfTile(uint tile) {
 void main() {
     uint tile = gl_WorkGroupID.x;
     uvec2 count = sortLights(tile, boxOfTile(tile), push.p.firstVal, push.p.valCount, push.p.nearReach);
-    if (gl_SubgroupInvocationID == 0) {
-        counts.items[tile] = count;
-        lackingCounts.items[tile] = 0;
-    }
+    if (gl_SubgroupInvocationID == 0) counts.items[tile] = count;
 }

@@ -1,21 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Irradiance from far lights. Of each n x n pixels of a tile each takes another n²-th of the tile's list (Wald et al.
-// 2002; ACRSM section 3.2.3); four pixels an invocation share the loads.
+// Irradiance from a tile's far lights; four pixels an invocation share the loads.
 layout(constant_id = 0) const uint kShape = 2;
-layout(constant_id = 2) const uint kInterleave = 1;
 #include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 8) const bool kListed = false;  // else every workgroup
 layout(set = 0, binding = 10) uniform usamplerBuffer listed;
-layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D partsToward;
+layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D far;
+layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D farToward;
 
 void main() {
     uint group = kListed ? texelFetch(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
-    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     uvec2 size = camera.camera.size;
     Receiver r[kPixels];
     float distance_[kPixels];  // m along the camera's axis; 0: sky
@@ -26,11 +24,10 @@ void main() {
         r[p] = Receiver(worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0).xyz, 0.0,
                         vec3(0.0), vec3(0.0));
     }
-    const uint kParts = kInterleave * kInterleave;
     uint start = listStart(block.tile, kFarList, push.p.valCount), count = counts.items[block.tile].y;
     if (kLaneParallel) {
-        for (uint base = block.part; base < count; base += kSubgroupSize * kParts) {
-            uint entry = base + gl_SubgroupInvocationID * kParts;
+        for (uint base = 0; base < count; base += kSubgroupSize) {
+            uint entry = base + gl_SubgroupInvocationID;
             AreaLight mine = loadLight(texelFetch(lists, int(start + min(entry, count - 1))).x);
             if (entry >= count) mine.power = vec4(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
@@ -39,7 +36,7 @@ void main() {
             }
         }
     } else {
-        for (uint entry = block.part; entry < count; entry += kParts) {
+        for (uint entry = 0; entry < count; ++entry) {
             AreaLight l = loadLight(texelFetch(lists, int(start + entry)).x);
             [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
         }
@@ -47,7 +44,7 @@ void main() {
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);
         if (any(greaterThanEqual(pixel, ivec2(size)))) continue;
-        imageStore(parts, pixel, vec4(min(r[p].irradiance, vec3(kMostHalf)), distance_[p]));
-        if (kDirected) imageStore(partsToward, pixel, vec4(clamp(r[p].toward, vec3(-kMostHalf), vec3(kMostHalf)), 0.0));
+        imageStore(far, pixel, vec4(min(r[p].irradiance, vec3(kMostHalf)), distance_[p]));
+        if (kDirected) imageStore(farToward, pixel, vec4(clamp(r[p].toward, vec3(-kMostHalf), vec3(kMostHalf)), 0.0));
     }
 }

@@ -5,7 +5,6 @@
 // what it is reflected by. Only workgroups that were listed as having a pixel with a specular lobe.
 #define AG_GLOSSY
 layout(constant_id = 0) const uint kShape = 4;
-layout(constant_id = 2) const uint kInterleave = 1;
 layout(constant_id = 5) const uint kList = 0;
 #include "val_shading/gather_inputs.glsl"
 #include "val_shading/gloss.glsl"

@@ -1,4 +1,4 @@
-// What both gathers read. Needs the constants kShape and kInterleave.
+// What both gathers read. Needs the constant kShape.
 #ifndef AG_GATHER_INPUTS_GLSL
 #define AG_GATHER_INPUTS_GLSL
 

@@ -35,6 +35,4 @@ ivec2 pixelOf(TileBlock b, int p) {
     uvec2 inPart = b.inPart + uvec2(p & 1, p >> 1);
     return ivec2(b.origin + inPart * b.interleave + uvec2(b.part % b.interleave, b.part / b.interleave));
 }
-
-uint packLacking(uint inTile, uint parts) { return parts << kLackingPixelBits | inTile; }
 #endif

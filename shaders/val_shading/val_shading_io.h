@@ -10,8 +10,6 @@ namespace ag::io {
 #endif
 
 const uint kNearList = 0, kFarList = 1, kLightLists = 2;
-// Of a word that says which pixel of a tile lacks parts of its far lights; those parts are the bits above.
-const uint kLackingPixelBits = 10;
 
 struct ValShadingPush {
     uint valCount;  // and so the most entries of a list

@@ -201,8 +201,9 @@ TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
     const SceneAsset scene = b.finish();
     Parity p{SceneAsset(scene)}, q{SceneAsset(scene)};
     RenderSettings alone, shared;
-    alone.bounce.spacing = shared.bounce.spacing = 1;
-    shared.bounce.valShading.interleave = 3;
+    for (RenderSettings* s : {&alone, &shared})
+        ASSERT_TRUE(applyPreset("acrsm", *s));
+    alone.interleavedShading.side = 1;
     const ImageDifference d =
         differ(p.render(Layer::kBounce1, alone, 34), q.render(Layer::kBounce1, shared, 34));
     std::printf("slats: mean ratio %.4f, relative RMSE %.3f\n", d.meanRatio, d.relativeRmse);

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // The paraboloids' distances in the form of imperfect shadow maps without planes: squares across the ray, somewhat behind.
 #include "common/sampling.h"
-#include "ssvp/ssvp_io.h"
+#include "published/ssvp/ssvp_io.h"
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { uint mapSize; } push;

@@ -4,7 +4,7 @@
 // K-means over the lit lights, from the centres of the frame before (SSVP section III-B). Its eq. 2 adds the cosine of the
 // normals and so pushes like ones apart; here what is lacking from it counts.
 #include "common/sampling.h"
-#include "ssvp/ssvp_io.h"
+#include "published/ssvp/ssvp_io.h"
 #include "val_fit/val_fit_io.h"
 
 layout(local_size_x = 256) in;  // one workgroup

@@ -1,9 +1,9 @@
-// The lists that gathering keeps on the device.
+// The lists that interleaved shading keeps on the device.
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "shaders/val_shading/val_shading_io.h"
+#include "shaders/published/interleaved_shading/lacking.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/scenes.h"
 
@@ -13,16 +13,15 @@ namespace {
 
 // Whatever lacks light is given it once, by one invocation: at sizes whose tiles end inside a workgroup or
 // beyond the screen too.
-TEST(ValShading, NotesEachPixelThatLacksLightOnce) {
+TEST(InterleavedShading, NotesEachPixelThatLacksLightOnce) {
     for (const glm::uvec2 size : {glm::uvec2(65, 17), glm::uvec2(1, 1), glm::uvec2(72, 48)}) {
         Bench b(*scenegen::buildScene("cornell", 0), size);
-        b.settings.bounce.spacing = 1;
-        b.settings.bounce.valShading.interleave = 3;
+        ASSERT_TRUE(applyPreset("acrsm", b.settings));
         for (int i = 0; i < 3; ++i)
             b.frame();
         const FrameGraph& graph = b.renderer.graph();
-        const auto counts = b.read<uint32_t>(graph.findBuffer("val_shading.lacking_counts"));
-        const auto words = b.read<uint32_t>(graph.findBuffer("val_shading.lacking"));
+        const auto counts = b.read<uint32_t>(graph.findBuffer("interleaved_shading.lacking_counts"));
+        const auto words = b.read<uint32_t>(graph.findBuffer("interleaved_shading.lacking"));
         constexpr uint32_t kSide = 24, kPerTile = kSide * kSide;
         const uint32_t tilesAcross = (size.x + kSide - 1) / kSide;
         std::set<std::pair<uint32_t, uint32_t>> noted;

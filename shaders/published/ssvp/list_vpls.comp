@@ -6,7 +6,7 @@
 // round it for comparison. The source weighs all alike; here each carries what falls on its share of the map: flux times
 // cosine / pi times its solid angle, which is 4 / (1 + p²)² times its share of the disk, p from the middle.
 #include "common/sampling.h"
-#include "ssvp/ssvp_io.h"
+#include "published/ssvp/ssvp_io.h"
 #include "val_fit/val_fit_io.h"
 
 layout(local_size_x = 64) in;

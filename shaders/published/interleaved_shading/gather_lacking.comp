@@ -3,7 +3,9 @@
 #extension GL_EXT_scalar_block_layout : require
 // Where a surface is a few pixels wide no pixel near holds some parts of the far lights: they are gathered here.
 layout(constant_id = 0) const uint kShape = 2;
-layout(constant_id = 2) const uint kInterleave = 1;
+layout(constant_id = 2) const uint kSide = 1;
+#include "published/interleaved_shading/shared_maps.glsl"
+#include "published/interleaved_shading/lacking.h"
 #include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x_id = 100) in;  // one subgroup a tile
@@ -19,7 +21,7 @@ Receiver receiverOf(ivec2 pixel) {
 
 // Of the light that stands i-th in the tile's list.
 void addIfLacking(AreaLight l, uint i, uint parts, inout Receiver r) {
-    l.power.rgb *= float(parts >> i % (kInterleave * kInterleave) & 1u);
+    l.power.rgb *= float(parts >> i % (kSide * kSide) & 1u);
     addLight(l, push.p.ismTileSize, r);
 }
 

@@ -5,7 +5,7 @@
 #define AG_SCENE_INSTANCES
 #include "scene/scene.glsl"
 #include "common/sampling.h"
-#include "ssvp/ssvp_io.h"
+#include "published/ssvp/ssvp_io.h"
 
 layout(push_constant, scalar) uniform Push { uint cluster; float farDistance; } push;
 layout(set = 0, binding = 10, scalar) readonly buffer Clusters { SsvpCluster items[]; } clusters;

@@ -1,0 +1,54 @@
+#include "gi/val_tiles.h"
+
+namespace ag::gi {
+
+ValTiles addValTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights, float nearReach,
+                     uint32_t tileSize, const ValTileNames& names) {
+    const glm::uvec2 tiles = (gbuffer.size + tileSize - 1u) / tileSize;
+    const uint64_t tileCount = uint64_t(tiles.x) * tiles.y;
+    const ValTiles t{
+        .scope = scope,
+        .gbuffer = gbuffer,
+        .lights = lights,
+        .push = {.valCount = lights.vals.count,
+                 .firstVal = lights.vals.first,
+                 .tileSize = tileSize,
+                 .tiles = tiles,
+                 .nearReach = nearReach,
+                 .ismTileSize = lights.isms.tileSize},
+        .lists = scope.buffer(names.lists, {.sizeBytes = tileCount * io::kLightLists * lights.vals.count * 4,
+                                            .texelFormat = VK_FORMAT_R32_UINT}),
+        .counts = scope.buffer(names.counts, {.sizeBytes = tileCount * 8}),
+        .tileCount = uint32_t(tileCount),
+        .blocks = uint32_t(tileCount) * tileSize * tileSize / 4};
+    scope.compute(names.classify, "val_shading/classify_lights.comp")
+        .sample("depthMap", gbuffer.depth)
+        .read("camera", gbuffer.camera)
+        .read("vals", lights.vals.vals)
+        .read("shapes", lights.vals.shapes)
+        .write("lists", t.lists)
+        .write("counts", t.counts)
+        .push(t.push)
+        .dispatchGroups(t.tileCount);
+    return t;
+}
+
+PassBuilder gatherPass(const ValTiles& t, std::string_view name, std::string_view shader, ValShape shape,
+                       uint32_t taps) {
+    PassBuilder pass = t.scope.compute(name, shader);
+    pass.sample("normalMap", t.gbuffer.normal)
+        .sample("depthMap", t.gbuffer.depth)
+        .read("camera", t.gbuffer.camera)
+        .read("vals", t.lights.vals.vals)
+        .read("shapes", t.lights.vals.shapes)
+        .read("isms", t.lights.isms.planes ? t.lights.isms.planes : t.lights.vals.vals)
+        .read("lists", t.lists)
+        .read("counts", t.counts)
+        .spec(0, uint32_t(shape))
+        .spec(1, t.lights.isms.planes ? taps : 0)
+        .spec(3, t.lights.isms.mapping == IsmMapping::kParaboloid)
+        .push(t.push);
+    return pass;
+}
+
+}  // namespace ag::gi
