@@ -8,6 +8,7 @@
 namespace ag::gi {
 namespace {
 
+constexpr std::string_view kLight = "denoiser.light";
 constexpr uint32_t kMostRounds = 5;
 constexpr uint32_t kFramesOfChange = 8;  // after the light's last change in which histories may be cut short
 
@@ -58,7 +59,7 @@ Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t origi
                history.lightVersion == noisy.lightVersion ? history.sinceLightChange + 1 : 0};
     const bool changing = s.adaptive && history.sinceLightChange < kFramesOfChange;
 
-    Images images{.light = scope.historyImage("denoiser.light", info),
+    Images images{.light = scope.historyImage(kLight, info),
                   .surface = scope.historyImage("denoiser.surface", info),
                   .tiles = scope.historyImage("denoiser.tiles", tileInfo)};
     const io::PixelRays rays = pixelRays(camera, size);
@@ -120,6 +121,10 @@ Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t origi
         from = to;
     }
     return {from};
+}
+
+void forgetPixels(GraphScope scope) {
+    scope.resetHistory(kLight);
 }
 
 }  // namespace ag::gi

@@ -63,4 +63,7 @@ struct NoisyLight {
 Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t originVersion,
                        const NoisyLight& noisy, const DenoiserSettings& settings, DenoiserHistory& history);
 
+// The camera jumped: what was known of its pixels counts for nothing.
+void forgetPixels(GraphScope scope);
+
 }  // namespace ag::gi

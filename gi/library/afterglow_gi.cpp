@@ -294,6 +294,8 @@ AgiResult agiRecord(AgiView view, AgiScene scene, VkCommandBuffer commands, cons
         const AgiFrame frame = whole(given, "frame is null");
         GuestContext& context = view->owner->context;
         refuseBadFrame(frame, context.lastFrame());
+        refuseUnless(frame.drawRsmFace || scene->scene.allHaveBuffers(),
+                     "a mesh has no vertex and index buffer, and the frame no drawRsmFace");
         context.beginFrame(frame.frame, frame.framesDone);
         begun = frame.frame;
         view->view.record(scene->scene, commands, frame);

@@ -49,7 +49,8 @@ std::vector<T> copyOf(const void* from, uint32_t stride, uint32_t count) {
 }
 
 GuestMesh meshOf(const AgiMesh& m, size_t materials) {
-    refuseUnless(m.vertexBuffer && m.indexBuffer, "a mesh has no vertex or index buffer");
+    refuseUnless(bool(m.vertexBuffer) == bool(m.indexBuffer),
+                 "a mesh has a vertex or an index buffer, not both");
     refuseUnless(m.positions && m.normals && m.indices, "a mesh's host memory is null");
     refuseUnless(m.vertexCount > 0 && m.indexCount > 0 && m.indexCount % 3 == 0,
                  "a mesh has no vertices, or not three indices a triangle");

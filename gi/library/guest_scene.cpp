@@ -42,6 +42,10 @@ uint32_t GuestScene::addMeshes(std::vector<GuestMesh> meshes) {
     return first;
 }
 
+bool GuestScene::allHaveBuffers() const {
+    return std::ranges::all_of(meshes_, [](const GuestMesh& m) { return !m.there || m.given.vertexBuffer; });
+}
+
 void GuestScene::removeMeshes(uint32_t first, uint32_t count) {
     for (uint32_t i = first; i < first + count; ++i)
         meshes_[i] = {.there = false};

@@ -85,6 +85,7 @@ class GuestScene {
     const std::vector<GuestInstance>& instances() const { return instances_; }
     const std::vector<GuestLight>& lights() const { return lights_; }
     const std::vector<GuestProbe>& probes() const { return probes_; }
+    bool allHaveBuffers() const;  // the meshes, so that the library can draw them
     bool has(uint64_t instance) const { return rowOf_.contains(instance); }
 
     GuestContext& context() const { return context_; }

@@ -5,6 +5,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/gpu/retire.h"
+#include "gi/library/host_rsm.h"
 #include "gi/surfaces.h"
 #include "shaders/guest/guest_io.h"
 
@@ -176,7 +177,10 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
     world.versions.camera = cameraVersion_;
     const gi::Occluders occluders = surfaces_->occluders(scope);
     const auto draw = [&](GraphScope at, gi::RsmSet& rsm) {
-        rsms_->add(at, scene, *surfaces_, occluders.instances, rsm);
+        if (f.drawRsmFace)
+            addHostRsm(at, *surfaces_, f, rsm);
+        else
+            rsms_->add(at, scene, *surfaces_, occluders.instances, rsm);
     };
     const float unit = surfaces_->units().light;
     const gi::BounceLight light = gi::addBounceLight(
@@ -209,7 +213,7 @@ void GuestView::record(GuestScene& scene, VkCommandBuffer commands, const AgiFra
         graph_->reset();
         history_ = {};
     }
-    if (f.cut) graph_->resetHistory("denoiser.light");
+    if (f.cut) gi::forgetPixels(*graph_);
     noteCamera(f);
     context_.fillWhite(commands);
     surfaces_->upload(commands);

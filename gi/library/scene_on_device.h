@@ -22,6 +22,7 @@ class SceneOnDevice {
     void upload(VkCommandBuffer commands);
 
     gi::RenderUnits units() const { return units_; }
+    glm::dvec3 origin() const { return origin_; }  // in the world, m
     glm::vec3 toOurs(glm::dvec3 world) const { return glm::vec3((world - origin_) / double(units_.length)); }
     // Of the frame: valid until the next update().
     gi::World world() const;

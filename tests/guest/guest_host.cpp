@@ -319,6 +319,7 @@ void Guest::drawFrame(std::initializer_list<std::pair<AgiView, const HostCamera*
             AgiFrame f = camera->frame();
             f.frame = frame;
             f.framesDone = frame - 1;
+            if (change) change(f);
             EXPECT_EQ(agiRecord(view, scene, commands, &f), AGI_OK) << agiLastError();
         }
     });

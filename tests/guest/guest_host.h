@@ -65,6 +65,8 @@ class HostRoom {
     HostRoom();
     const Room& room() const { return room_; }
     std::vector<AgiMesh> meshes() const;  // walls and box, of materials 0 and 1
+    VkBuffer vertices() const { return vertices_->handle(); }
+    VkBuffer indices() const { return indices_->handle(); }
     std::vector<AgiInstance> instances(glm::dvec3 place = glm::dvec3(0)) const;  // ids 10 and 11
     // All of it, and a spot under the ceiling; the first code that is not AGI_OK.
     AgiResult fill(AgiScene scene, glm::dvec3 place = glm::dvec3(0)) const;
@@ -94,6 +96,7 @@ class Guest {
     AgiContext context = nullptr;
     AgiScene scene = nullptr;
     uint64_t frame = 0;
+    std::function<void(AgiFrame&)> change;  // of each frame before it is recorded; or none
 
   private:
     std::vector<AgiView> views_;

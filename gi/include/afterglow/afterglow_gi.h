@@ -153,7 +153,7 @@ AGI_API AgiResult agiUpdateMaterials(AgiScene scene, uint32_t firstId, uint32_t 
                                      const AgiMaterial* materials);
 
 /* Triangles. The buffers are yours (VERTEX_BUFFER and INDEX_BUFFER usage) and are read when reflective shadow
- * maps are drawn; what lies in host memory is the same data, copied during the call, for points on the
+ * maps are drawn; null if you draw those (AgiFrame::drawRsmFace). What lies in host memory is the same data, copied during the call, for points on the
  * surfaces. */
 typedef struct AgiMesh {
     size_t structSize;
@@ -278,6 +278,15 @@ typedef struct AgiImage {
     VkFormat format;
 } AgiImage;
 
+/* What a light sees through one square of the reflective shadow maps: one a spot or directional light, six a
+ * point light. */
+typedef struct AgiRsmFace {
+    uint64_t light;          /* AgiLight::id */
+    VkRect2D area;           /* of the attachments: viewport and scissor */
+    double origin[3];        /* in the world: positions in clipFromLocal's space are relative to it, m */
+    float clipFromLocal[16]; /* depth 1 at the light, 0 farthest */
+} AgiRsmFace;
+
 typedef struct AgiFrame {
     size_t structSize;
     const void* next;
@@ -308,6 +317,16 @@ typedef struct AgiFrame {
 
     uint32_t cut;   /* the camera jumped: what was known of the pixels counts for nothing */
     uint32_t timed; /* passes are timed; with barriers round each, so that the frame takes longer */
+
+    /* Instead of the library, which draws the scene's meshes from their buffers: draws into a face what is to
+     * reflect the light. Called from agiRecord, on its thread, for every face of every light, within dynamic
+     * rendering whose attachments are cleared to zero: color 0 R16G16B16A16_SFLOAT, the unit normal in world
+     * space on the light's side, and 1; color 1 R16G16B16A16_SFLOAT, diffuse albedo, and 1; depth D32_SFLOAT,
+     * test GREATER. It leaves rendering as it was. Null: the library draws. */
+    void (*drawRsmFace)(void* user, VkCommandBuffer commands, const AgiRsmFace* face);
+    void* drawRsmUser;
+    uint64_t drawRsmVersion; /* another one when other things would be drawn: else faces that look as they
+                                did are kept, and nothing is called */
 } AgiFrame;
 
 /* Records the frame's indirect light into `commands`, which is in the recording state. After an error the
