@@ -39,7 +39,7 @@ void addFilter(GraphScope scope, std::string_view name, const Images& images, co
         .sample("tiles", images.tiles.current, Sampler::kLinearClamp)
         .read("cameras", images.cameras)
         .write("result", to)
-        .spec(0, !s.separable)
+        .constant("kSquare", !s.separable)
         .push(io::FilterPush{stride.x, stride.y, s.lightTolerance, seed})
         .dispatchThreads(scope.info(to).size.x, scope.info(to).size.y);
 }
@@ -80,7 +80,7 @@ Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t origi
         .write("surface", images.surface.current)
         .write("history", reprojected)
         .sample("motionMap", gbuffer.motion ? gbuffer.motion : gbuffer.normal)
-        .spec(0, bool(gbuffer.motion))
+        .constant("kMotion", bool(gbuffer.motion))
         .push(io::ReprojectPush{camera.near, known && images.light.valid, noisy.step})
         .dispatchThreads(size.x, size.y);
     const ImageHandle excess = scope.image("denoiser.excess", tileInfo);

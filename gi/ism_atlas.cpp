@@ -93,7 +93,7 @@ PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle chosen,
         .read("chosen", chosen)
         .read("states", states)
         .readWrite("keys", keys)
-        .spec(3, s.settings.mapping == IsmMapping::kParaboloid)
+        .constant("kParaboloid", s.settings.mapping == IsmMapping::kParaboloid)
         .push(push);
     return pass;
 }
@@ -112,7 +112,7 @@ void addStaticLayer(const Splat& s, const MapHistories& kept, const io::IsmSplat
         .write("states", s.atlas.states)
         .write("anew", anew.items)
         .readWrite("anewGroups", anew.groups)
-        .spec(0, s.settings.nearMore)
+        .constant("kByDistance", s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
     s.scope.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
@@ -125,7 +125,7 @@ void addStaticLayer(const Splat& s, const MapHistories& kept, const io::IsmSplat
         .readPart("points", s.points.points, s.points.staticVersion)
         .readWrite("finishes", kept.keys.current)  // not looked at
         .read("listed", anew.items)
-        .spec(4, true)
+        .constant("kListed", true)
         .dispatchIndirect(anew.groups);
 }
 
@@ -139,7 +139,7 @@ WorkList addRegions(const Splat& s, const RegionNames& names, BufferHandle place
         .readWrite("finishes", finishes.current)
         .write("listed", regions.items)
         .readWrite("groups", regions.groups)
-        .spec(0, before)
+        .constant("kBefore", before)
         .push(MapPush{push, s.atlas.mapCount})
         .dispatchThreads(s.atlas.mapCount);
     return regions;
@@ -163,7 +163,7 @@ MovableLayer addMovableLayer(const Splat& s, BufferHandle staticKeys, BufferHand
         .read("vals", s.vals.vals)
         .write("chosen", chosen)
         .write("states", states)
-        .spec(0, s.settings.nearMore)
+        .constant("kByDistance", s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
     s.scope.compute("ism_atlas.restore", "ism_atlas/restore_keys.comp")
@@ -176,7 +176,7 @@ MovableLayer addMovableLayer(const Splat& s, BufferHandle staticKeys, BufferHand
         .read("points", s.points.points)
         .readWrite("finishes", finishes)
         .read("listed", chosen)  // not looked at
-        .spec(5, true)
+        .constant("kMarks", true)
         .dispatchGroups(splatGroups(push), s.atlas.mapCount);
     return {keys, chosen};
 }
@@ -195,9 +195,9 @@ void addFinish(const Splat& s, const MovableLayer& layer, const WorkList& finish
         .read("movableChosen", layer.chosen)
         .read("listed", finished.items)
         .write("planes", resolved)
-        .spec(0, s.settings.planes)
-        .spec(1, !s.settings.pullPush)
-        .spec(2, push.entryCount > 0)
+        .constant("kPlanes", s.settings.planes)
+        .constant("kLast", !s.settings.pullPush)
+        .constant("kMovable", push.entryCount > 0)
         .push(push)
         .dispatchIndirect(finished.groups);
     if (!s.settings.pullPush) return;
@@ -205,7 +205,7 @@ void addFinish(const Splat& s, const MovableLayer& layer, const WorkList& finish
         .read("resolved", resolved)
         .read("listed", finished.items)
         .write("planes", s.atlas.planes)
-        .spec(3, s.atlas.mapping == IsmMapping::kParaboloid)
+        .constant("kParaboloid", s.atlas.mapping == IsmMapping::kParaboloid)
         .push(push)
         .dispatchIndirect(finished.groups);
 }

@@ -81,17 +81,17 @@ void addLaterIrradiance(GraphScope scope, const LaterLight& light, const Shadowe
             .read("isms", isms.planes ? isms.planes : vals.vals)
             .read("lists", lists)
             .read("counts", counts)
-            .spec(0, uint32_t(shape))
-            .spec(1, isms.planes ? 1 : 0)
-            .spec(2, list)
-            .spec(3, isms.mapping == IsmMapping::kParaboloid)
+            .constant("kShape", uint32_t(shape))
+            .constant("kVisibilityTaps", isms.planes ? 1 : 0)
+            .constant("kList", list)
+            .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
             .push(push)
             .dispatchGroups(runs);
         return pass;
     };
     gather("later_bounces.far", io::kFarList, shading.farShape).write("irradiance", light.irradiance.current);
     gather("later_bounces.near", io::kNearList, shading.shape)
-        .spec(5, true)
+        .constant("kAdd", true)
         .readWrite("irradiance", light.irradiance.current);
     scope.output(light.irradiance.current);
 }

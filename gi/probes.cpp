@@ -70,9 +70,9 @@ void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const
         .read("maps", rsm.maps)
         .read("probes", points)
         .write("rows", rows)
-        .spec(0, uint32_t(settings.shape))
-        .spec(1, isms.planes ? settings.taps : 0)
-        .spec(3, isms.mapping == IsmMapping::kParaboloid)
+        .constant("kShape", uint32_t(settings.shape))
+        .constant("kVisibilityTaps", isms.planes ? settings.taps : 0)
+        .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));

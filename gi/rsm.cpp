@@ -30,7 +30,7 @@ void addRsmTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) 
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
         .read("later", later.texels ? later.texels : rsm.faces)  // none: not read
-        .spec(0, bool(later.texels))
+        .constant("kHasSurfaces", bool(later.texels))
         .write("texels", rsm.texels)
         .write("tileMaps", rsm.tileMaps)
         .readWrite("listed", creased.pixels)

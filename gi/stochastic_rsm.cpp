@@ -77,7 +77,7 @@ PassBuilder addGather(GraphScope scope, std::string_view name, const Inputs& in,
             .read("candidates", in.of.clusters.candidates)
             .read("vals", in.of.lights.vals.vals)
             .read("isms", isms.planes)
-            .spec(3, isms.mapping == IsmMapping::kParaboloid);
+            .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid);
     pass.sample("normalMap", in.gbuffer.normal)
         .sample("depthMap", in.gbuffer.depth)
         .read("camera", in.gbuffer.camera)
@@ -87,11 +87,11 @@ PassBuilder addGather(GraphScope scope, std::string_view name, const Inputs& in,
         .read("pattern", in.pattern)
         .read("list", in.list.pixels)
         .read("noise", in.noise)
-        .spec(4, in.settings.random)
-        .spec(5, in.settings.whole)
-        .spec(0, in.rsm.mapInfo[map].kind)
-        .spec(1, to.listed)
-        .spec(2, !to.add)
+        .constant("kRandom", in.settings.random)
+        .constant("kWhole", in.settings.whole)
+        .constant("kKind", in.rsm.mapInfo[map].kind)
+        .constant("kListed", to.listed)
+        .constant("kFirst", !to.add)
         .push(io::StochasticRsmPush{.map = map,
                                     .sampleCount = in.settings.samples,
                                     .radius = in.settings.radius,

@@ -26,8 +26,8 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
             .sample("light", gathered.image)
             .sample("toward", gathered.toward ? gathered.toward : gathered.image)
             .sample("base", base.image ? base.image : gathered.image)
-            .spec(0, bool(gathered.toward))
-            .spec(1, bool(base.image))
+            .constant("kDirected", bool(gathered.toward))
+            .constant("kAdd", bool(base.image))
             .push(push);
         return pass;
     };

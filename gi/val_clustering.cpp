@@ -78,7 +78,7 @@ BufferHandle addAdaption(GraphScope scope, const RsmSet& rsm, const Importance& 
     scope.compute("val_clustering.evaluate", "val_clustering/evaluate.comp")
         .readPrevious("previous", state.clusters)
         .read("viewPoints", importance.viewDependent() ? importance.viewPoints : rsm.texels)
-        .spec(0, importance.viewDependent())
+        .constant("kFromView", importance.viewDependent())
         .write("errors", errors)
         .push(push)
         .dispatchGroups(push.clusterCount);
@@ -109,7 +109,7 @@ void addSeeding(GraphScope scope, const RsmSet& rsm, const Importance& importanc
         .read("pyramid", importance.pyramid)
         .readPrevious("previous", clusters)
         .read("plans", of.plans ? of.plans : rsm.maps)
-        .spec(0, bool(of.plans))
+        .constant("kAdaptive", bool(of.plans))
         .write("seeds", of.seeds)
         .push(SeedPush{push, rsm.atlas.faceCount, importance.pyramidStride})
         .dispatchThreads(push.clusterCount);

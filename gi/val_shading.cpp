@@ -49,7 +49,7 @@ WorkList addGroupsAnew(const ValTiles& t, const PixelShare& share, const AnewNam
         .write("digests", digests.current)
         .write("listed", anew.items)
         .readWrite("groups", anew.groups)
-        .spec(0, glossy != nullptr)
+        .constant("kGlossy", glossy != nullptr)
         .push(io::ValSharePush{t.push, share.index, share.count});
     if (glossy)
         pass.dispatchIndirect(glossy->groups);
@@ -84,7 +84,7 @@ void addGloss(const ValTiles& t, const GlossGather& of, const WorkList& groups, 
         .sample("reflectanceMap", t.gbuffer.reflectance)
         .read("listed", groups.items)
         .readWrite("gloss", gloss)
-        .spec(5, of.list)
+        .constant("kList", of.list)
         .dispatchIndirect(groups.groups);
 }
 
@@ -108,7 +108,7 @@ Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Shadow
     const WorkList anew =
         share.some ? addGroupsAnew(t, share, kPixelsAnew, nullptr) : WorkList{.items = t.lists};
     const auto dispatch = [&](PassBuilder pass) {
-        pass.read("listed", anew.items).spec(7, directed).spec(8, share.some);
+        pass.read("listed", anew.items).constant("kDirected", directed).constant("kListed", share.some);
         if (share.some)
             pass.dispatchIndirect(anew.groups);
         else

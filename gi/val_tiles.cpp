@@ -44,9 +44,9 @@ PassBuilder gatherPass(const ValTiles& t, std::string_view name, std::string_vie
         .read("isms", t.lights.isms.planes ? t.lights.isms.planes : t.lights.vals.vals)
         .read("lists", t.lists)
         .read("counts", t.counts)
-        .spec(0, uint32_t(shape))
-        .spec(1, t.lights.isms.planes ? taps : 0)
-        .spec(3, t.lights.isms.mapping == IsmMapping::kParaboloid)
+        .constant("kShape", uint32_t(shape))
+        .constant("kVisibilityTaps", t.lights.isms.planes ? taps : 0)
+        .constant("kParaboloid", t.lights.isms.mapping == IsmMapping::kParaboloid)
         .push(t.push);
     return pass;
 }

@@ -173,7 +173,11 @@ class PassBuilder {
         return pushBytes(std::as_bytes(std::span(&value, 1)));
     }
     PassBuilder& pushBytes(std::span<const std::byte> bytes);
-    PassBuilder& spec(uint32_t id, uint32_t value);
+    PassBuilder& constant(const gpu::SpecConstant& value);
+    template <class T>
+    PassBuilder& constant(std::string_view name, T value) {
+        return constant(gpu::specConstant(name, value));
+    }
     // For passes with history: a number that advances while the pass is to go on stepping with equal inputs.
     PassBuilder& step(uint64_t value);
     // Anything else the result depends on that the graph cannot see.

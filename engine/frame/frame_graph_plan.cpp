@@ -8,7 +8,7 @@ namespace {
 
 uint64_t hashDraw(uint64_t key, const RasterDraw& draw) {
     for (uint32_t i = 0; i < draw.specCount; ++i)
-        key = combineHash(combineHash(key, draw.spec[i].id), draw.spec[i].value);
+        key = draw.spec[i].hash(key);
     key = combineHash(key, uint64_t(draw.cull) * 2 + draw.mirrored);
     key = hashValue(draw.viewport, key);
     key = hashBytes({draw.push.data(), draw.pushSizeBytes}, key);
@@ -25,7 +25,7 @@ const RasterDraw* firstDraw(std::span<const RasterDraw> draws) {
 uint64_t pipelineNameKey(const Pass& pass) {
     uint64_t key = hashText(pass.shader, hashText(pass.vertexShader));
     for (uint32_t i = 0; i < pass.specCount; ++i)
-        key = combineHash(combineHash(key, pass.spec[i].id), pass.spec[i].value);
+        key = pass.spec[i].hash(key);
     return key;
 }
 
@@ -35,7 +35,7 @@ gpu::PipelineRequest FrameGraph::Impl::requestFor(const Pass& pass, const Raster
     gpu::PipelineRequest request;
     request.raster = pass.raster;
     request.spec = pass.spec;
-    request.specCount = pass.specCount;
+    request.specCount = request.neededCount = pass.specCount;
     if (pass.kind == PassKind::kCompute) {
         request.computeShader = pass.shader;
         return request;

@@ -158,9 +158,9 @@ PassBuilder& PassBuilder::pushBytes(std::span<const std::byte> bytes) {
     return *this;
 }
 
-PassBuilder& PassBuilder::spec(uint32_t id, uint32_t value) {
+PassBuilder& PassBuilder::constant(const gpu::SpecConstant& value) {
     AG_CHECK_LT(AG_PASS.specCount, gpu::kMaxSpecConstants);
-    AG_PASS.spec[AG_PASS.specCount++] = {id, value};
+    AG_PASS.spec[AG_PASS.specCount++] = value;
     return *this;
 }
 

@@ -11,6 +11,11 @@
 #include "engine/gpu/context.h"
 
 namespace ag::gpu {
+
+uint64_t SpecConstant::hash(uint64_t seed) const {
+    return combineHash(hashText(name, seed), value);
+}
+
 namespace {
 
 uint64_t requestHash(const PipelineRequest& r) {
@@ -26,7 +31,7 @@ uint64_t requestHash(const PipelineRequest& r) {
     for (uint32_t i = 0; i < s.colorCount; ++i)
         hash = combineHash(hash, uint64_t(s.colorFormats[i]));
     for (uint32_t i = 0; i < r.specCount; ++i)
-        hash = combineHash(combineHash(hash, r.spec[i].id), r.spec[i].value);
+        hash = r.spec[i].hash(hash);
     return hash;
 }
 
@@ -200,6 +205,37 @@ void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash,
 
 namespace {
 
+bool isInteger(ScalarKind kind) {
+    return kind == ScalarKind::kInt || kind == ScalarKind::kUint;
+}
+
+bool fits(const SpecConstant& given, const SpecConstantInfo& declared) {
+    return given.name == declared.name &&
+           (given.kind == declared.kind || (isInteger(given.kind) && isInteger(declared.kind)));
+}
+
+// The value given last counts: a draw's variant over the pass's own.
+const SpecConstant* find(const PipelineRequest& request, const SpecConstantInfo& declared) {
+    const SpecConstant* found = nullptr;
+    for (uint32_t i = 0; i < request.specCount; ++i)
+        if (fits(request.spec[i], declared)) found = &request.spec[i];
+    return found;
+}
+
+// Each constant that is needed must be one of a stage's, with its type.
+void checkConstants(const PipelineRequest& request, std::initializer_list<const ShaderModule*> stages) {
+    for (uint32_t i = 0; i < request.neededCount; ++i) {
+        const SpecConstant& given = request.spec[i];
+        const bool known = std::ranges::any_of(stages, [&](const ShaderModule* stage) {
+            return std::ranges::any_of(stage->specConstants,
+                                       [&](const auto& declared) { return fits(given, declared); });
+        });
+        if (!known)
+            fail(FailureKind::kMistake,
+                 (*stages.begin())->path + " has no constant " + std::string(given.name) + " of that type");
+    }
+}
+
 // The request's constants and the device's own, as far as a shader declares them.
 struct Specialization {
     std::array<VkSpecializationMapEntry, kMaxSpecConstants + 2> entries{};
@@ -209,14 +245,14 @@ struct Specialization {
     Specialization(const PipelineRequest& request, const ShaderModule& module, const DeviceInfo& device) {
         uint32_t count = 0;
         const auto add = [&](uint32_t id, uint32_t value) {
-            if (std::ranges::find(module.specConstantIds, id) == module.specConstantIds.end()) return;
             entries[count] = {id, count * 4, 4};
             values[count++] = value;
         };
-        for (uint32_t i = 0; i < request.specCount; ++i)
-            add(request.spec[i].id, request.spec[i].value);
-        add(kSpecSubgroupSize, device.subgroupSize);
-        add(kSpecLaneParallel, device.isCpu);
+        for (const SpecConstantInfo& declared : module.specConstants) {
+            if (declared.id == kSpecSubgroupSize) add(declared.id, device.subgroupSize);
+            if (declared.id == kSpecLaneParallel) add(declared.id, device.isCpu);
+            if (const SpecConstant* given = find(request, declared)) add(declared.id, given->value);
+        }
         info = {count, entries.data(), count * 4, values.data()};
     }
     Specialization(const Specialization&) = delete;
@@ -240,6 +276,7 @@ void PipelineLibrary::Impl::makeCompute(const PipelineRequest& request, Pipeline
     makeLayout(pipeline, compute.hash, compute.module.path);
     pipeline.workgroupSize = compute.module.workgroupSize;
     pipeline.id = combineHash(compute.hash, requestHash(request));
+    checkConstants(request, {&compute.module});
     const Specialization specialization(request, compute.module, context.info());
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = stageInfo(compute.handle, compute.module, specialization),
@@ -260,6 +297,7 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
     pipeline.id =
         combineHash(combineHash(vertex.hash, hasFragment ? fragment.hash : 0), requestHash(request));
 
+    checkConstants(request, {&fragment.module, &vertex.module});
     const RasterState& state = request.raster;
     const Specialization vertexConstants(request, vertex.module, context.info());
     const Specialization fragmentConstants(request, fragment.module, context.info());

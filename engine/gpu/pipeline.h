@@ -5,6 +5,7 @@
 #include "engine/gpu/functions.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,10 +18,25 @@ namespace ag::gpu {
 
 class Context;
 
+// A specialization constant by its name in the shader. The name is a literal.
 struct SpecConstant {
-    uint32_t id = 0;
+    std::string_view name;
+    ScalarKind kind = ScalarKind::kUint;
     uint32_t value = 0;  // bit pattern
+
+    uint64_t hash(uint64_t seed) const;
 };
+inline SpecConstant specConstant(std::string_view name, bool value) {
+    return {name, ScalarKind::kBool, value};
+}
+inline SpecConstant specConstant(std::string_view name, float value) {
+    return {name, ScalarKind::kFloat, std::bit_cast<uint32_t>(value)};
+}
+template <class T>
+requires std::is_integral_v<T> || std::is_enum_v<T> SpecConstant specConstant(std::string_view name,
+                                                                              T value) {
+    return {name, ScalarKind::kUint, uint32_t(value)};
+}
 
 constexpr size_t kMaxSpecConstants = 8;
 constexpr size_t kMaxColorTargets = 4;
@@ -62,6 +78,7 @@ struct PipelineRequest {
     RasterState raster;
     std::array<SpecConstant, kMaxSpecConstants> spec{};
     uint32_t specCount = 0;
+    uint32_t neededCount = 0;  // the first ones: a stage must have them
 };
 
 struct Pipeline {

@@ -112,6 +112,19 @@ VkShaderStageFlagBits stageOf(spvc_compiler compiler) {
     }
 }
 
+ScalarKind kindOf(spvc_basetype type) {
+    switch (type) {
+        case SPVC_BASETYPE_BOOLEAN:
+            return ScalarKind::kBool;
+        case SPVC_BASETYPE_FP32:
+            return ScalarKind::kFloat;
+        case SPVC_BASETYPE_INT32:
+            return ScalarKind::kInt;
+        default:
+            return ScalarKind::kUint;
+    }
+}
+
 }  // namespace
 
 Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv) {
@@ -143,8 +156,12 @@ Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv
     const spvc_specialization_constant* constants = nullptr;
     size_t count = 0;
     spvc_compiler_get_specialization_constants(compiler, &constants, &count);
-    for (size_t i = 0; i < count; ++i)
-        module.specConstantIds.push_back(constants[i].constant_id);
+    for (size_t i = 0; i < count; ++i) {
+        const spvc_type type = spvc_compiler_get_type_handle(
+            compiler, spvc_constant_get_type(spvc_compiler_get_constant_handle(compiler, constants[i].id)));
+        module.specConstants.push_back({spvc_compiler_get_name(compiler, constants[i].id),
+                                        constants[i].constant_id, kindOf(spvc_type_get_basetype(type))});
+    }
     return module;
 }
 

@@ -32,6 +32,14 @@ struct ShaderBinding {
     bool writes = false;  // false: declared readonly, or a kind that cannot be written
 };
 
+enum class ScalarKind { kBool, kInt, kUint, kFloat };
+
+struct SpecConstantInfo {
+    std::string name;
+    uint32_t id = 0;
+    ScalarKind kind = ScalarKind::kUint;
+};
+
 struct StructMember {
     std::string name;
     uint32_t offset = 0;     // bytes
@@ -50,7 +58,7 @@ struct ShaderModule {
     std::vector<ShaderBinding> bindings;
     uint32_t pushSizeBytes = 0;
     glm::uvec3 workgroupSize{1};
-    std::vector<uint32_t> specConstantIds;
+    std::vector<SpecConstantInfo> specConstants;
     std::vector<ShaderStruct> structs;
 };
 

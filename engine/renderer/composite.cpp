@@ -22,10 +22,10 @@ RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const gi::I
         .sample("emissiveMap", orAlbedo(gbuffer.emissive))
         .sample("specularMap", orAlbedo(bounce.gloss))
         .sample("depthMap", surfaces.depth)
-        .spec(0, bool(direct.image))
-        .spec(1, bool(bounce.irradiance.image))
-        .spec(2, bool(gbuffer.emissive))
-        .spec(3, bool(bounce.gloss))
+        .constant("kDirect", bool(direct.image))
+        .constant("kIndirect", bool(bounce.irradiance.image))
+        .constant("kEmissive", bool(gbuffer.emissive))
+        .constant("kSpecular", bool(bounce.gloss))
         .colorClear(out.radiance, glm::vec4(0));
 
     struct Push {

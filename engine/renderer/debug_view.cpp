@@ -48,7 +48,7 @@ ImageHandle addCopy(GraphScope scope, const SceneView& scene, ImageHandle first,
     scope.fullscreen("debug_view.copy_layer", "debug_view/copy_layer.frag")
         .sample("first", first)
         .sample("second", second ? second : first)
-        .spec(0, uint32_t(mode))
+        .constant("kMode", mode)
         .push(unit)
         .colorClear(out, glm::vec4(0));
     return out;
@@ -105,7 +105,7 @@ ImageHandle addIsmView(GraphScope scope, const SceneView& scene, const gi::IsmAt
     };
     scope.fullscreen("debug_view.ism", "debug_view/ism.frag")
         .read("planes", isms.planes)
-        .spec(3, isms.mapping == gi::IsmMapping::kParaboloid)
+        .constant("kParaboloid", isms.mapping == gi::IsmMapping::kParaboloid)
         .push(Push{isms.mapCount, isms.tileSize, columns, scene.units.length})
         .colorClear(out, glm::vec4(0));
     return out;
@@ -238,7 +238,7 @@ ImageHandle addLayerView(GraphScope scope, const SceneView& scene, const RenderF
     scope.fullscreen("debug_view.show_layer", "debug_view/show_layer.frag")
         .sample("layer", source ? source : frame.gbuffer.surfaces.depth)
         // Nothing to show is black, not whatever stands in for it.
-        .spec(0, uint32_t(source ? kLayers[size_t(layer)].show : Show::kLight))
+        .constant("kShow", uint32_t(source ? kLayers[size_t(layer)].show : Show::kLight))
         .push(Push{source ? std::exp2(settings.exposure) : 0.0f, uint32_t(settings.tonemap)})
         .colorClear(out, glm::vec4(0));
     return out;

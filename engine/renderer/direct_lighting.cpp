@@ -27,7 +27,7 @@ gi::Irradiance addSunLighting(GraphScope scope, const SceneView& scene, const gi
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)
             .read("camera", scene.camera)
-            .spec(1, first)
+            .constant("kFirst", first)
             .push(io::Sun{.direction = light.direction,
                           .firstView = shadows.suns[i].firstView,
                           .irradiance = light.intensity,

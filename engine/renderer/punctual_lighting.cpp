@@ -26,8 +26,8 @@ void bindShadows(PassBuilder& pass, const PunctualShadows& shadows,
                  const PunctualLightingSettings& settings) {
     pass.read("clusters", shadows.clusters)
         .sample("shadowAtlas", shadows.atlas)
-        .spec(1, shadows.softTaps)
-        .spec(2, std::bit_cast<uint32_t>(settings.shadowReach));
+        .constant("kSoftTaps", shadows.softTaps)
+        .constant("kShadowReach", settings.shadowReach);
 }
 
 struct PunctualQuads {  // at one pixel of each 2 x 2, W/m²
@@ -68,7 +68,7 @@ gi::Irradiance addPunctualLighting(GraphScope scope, const SceneView& scene, con
                                      : shadowed ? "direct_lighting/shade_punctual.comp"
                                                 : "direct_lighting/shade_punctual_unshadowed.comp",
                                      scene, gbuffer, lists);
-    shade.spec(0, !before.image);
+    shade.constant("kFirst", !before.image);
     shade.dispatchGroups(lists.tiles.x * lists.tiles.y);
     if (quads) shade.sample("shadowed", from.shadowed).sample("unshadowed", from.unshadowed);
     if (shadowed && !quads) bindShadows(shade, shadows, settings);

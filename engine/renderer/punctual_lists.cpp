@@ -65,7 +65,7 @@ PunctualLists addPunctualLists(GraphScope scope, const SceneView& scene, const g
         .read("lights", l.lights)
         .write("lists", l.lists)
         .write("counts", l.counts)
-        .spec(0, byRange)
+        .constant("kByRange", byRange)
         .push(io::PunctualPush{.lightCount = l.lightCount})
         .dispatchGroups(uint32_t(tileCount));
     return l;

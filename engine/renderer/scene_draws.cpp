@@ -33,9 +33,10 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
         if (!wanted || range.commandCount == 0) continue;
         RasterDraw draw;
         if (!shapes) {
-            draw.spec[draw.specCount++] = {0, uint32_t(bucket.textureClass)};
-            draw.spec[draw.specCount++] = {1, bucket.alphaMask};
-            if (camera) draw.spec[draw.specCount++] = {2, bucket.normalMap};
+            draw.spec[draw.specCount++] = gpu::specConstant("kTextureClass", uint32_t(bucket.textureClass));
+            draw.spec[draw.specCount++] = gpu::specConstant("kAlphaMask", bool(bucket.alphaMask));
+            if (camera)
+                draw.spec[draw.specCount++] = gpu::specConstant("kNormalMaps", bool(bucket.normalMap));
         }
         draw.cull = bucket.doubleSided || !camera ? gpu::CullMode::kNone : gpu::CullMode::kBack;
         draw.mirrored = bucket.mirrored;

@@ -13,10 +13,11 @@ Result<gpu::ShaderModule> embeddedShader(const std::string& path) {
         .stage = VkShaderStageFlagBits(found->stage),
         .spirv = {found->words, found->words + found->wordCount},
         .pushSizeBytes = found->pushSizeBytes,
-        .workgroupSize = {found->workgroupSize[0], found->workgroupSize[1], found->workgroupSize[2]},
-        .specConstantIds = {found->constantIds, found->constantIds + found->constantCount}};
+        .workgroupSize = {found->workgroupSize[0], found->workgroupSize[1], found->workgroupSize[2]}};
     for (const Binding& b : std::span(found->bindings, found->bindingCount))
         module.bindings.push_back({b.name, gpu::BindingKind(b.kind), b.set, b.binding, b.reads, b.writes});
+    for (const Constant& c : std::span(found->constants, found->constantCount))
+        module.specConstants.push_back({c.name, c.id, gpu::ScalarKind(c.kind)});
     return module;
 }
 

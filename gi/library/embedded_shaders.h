@@ -15,6 +15,12 @@ struct Binding {
     bool reads = false, writes = false;
 };
 
+struct Constant {
+    const char* name = nullptr;
+    uint32_t id = 0;
+    int kind = 0;
+};
+
 struct EmbeddedShader {
     const char* path;
     int stage;
@@ -22,7 +28,7 @@ struct EmbeddedShader {
     size_t wordCount;
     const Binding* bindings;
     size_t bindingCount;
-    const uint32_t* constantIds;
+    const Constant* constants;
     size_t constantCount;
     uint32_t pushSizeBytes;
     uint32_t workgroupSize[3];

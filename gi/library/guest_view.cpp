@@ -137,7 +137,7 @@ gi::Surfaces GuestView::readSurfaces(GraphScope scope, const AgiFrame& f, const 
         "guest.read_surfaces", glossy ? "guest/read_surfaces_glossy.frag" : "guest/read_surfaces.frag");
     pass.sample("hostDepth", import("guest.depth", images.depth, f.depth))
         .sample("hostNormal", import("guest.normal", images.normal, f.normal))
-        .spec(0, uint32_t(f.normalEncoding))
+        .constant("kNormalEncoding", uint32_t(f.normalEncoding))
         .push(push)
         .colorClear(s.depth, glm::vec4(0))
         .colorClear(s.normal, glm::vec4(0));
@@ -145,8 +145,8 @@ gi::Surfaces GuestView::readSurfaces(GraphScope scope, const AgiFrame& f, const 
         pass.sample("hostBaseColor", import("guest.base_color", images.baseColor, f.baseColor))
             .sample("hostMaterial",
                     import("guest.roughness_metallic", images.roughnessMetallic, f.roughnessMetallic))
-            .spec(1, f.roughnessChannel)
-            .spec(2, f.metallicChannel)
+            .constant("kRoughnessChannel", f.roughnessChannel)
+            .constant("kMetallicChannel", f.metallicChannel)
             .colorClear(s.albedo, glm::vec4(0))
             .colorClear(s.reflectance, glm::vec4(0));
     return s;
@@ -160,7 +160,7 @@ void writeLight(GraphScope scope, const char* name, ImageHandle light, ImageHand
     scope.compute(name, "guest/write_light.comp")
         .sample("light", light ? light : any)
         .write("result", to)
-        .spec(0, bool(light))
+        .constant("kLit", bool(light))
         .push(scale)
         .dispatchThreads(size.x, size.y);
 }

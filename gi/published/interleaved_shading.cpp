@@ -13,7 +13,7 @@ uint32_t tileSizeFor(uint32_t side) {
 PassBuilder partsPass(const ValTiles& t, uint32_t side, std::string_view name, std::string_view shader,
                       ValShape shape, uint32_t taps) {
     PassBuilder pass = gatherPass(t, name, shader, shape, taps);
-    pass.spec(2, side).spec(4, t.lights.isms.shared);
+    pass.constant("kSide", side).constant("kSharedMaps", t.lights.isms.shared);
     return pass;
 }
 

@@ -86,7 +86,7 @@ Ssvp addSsvp(GraphScope scope, const RsmSet& rsm, uint32_t firstCount, const Ssv
         .sample("albedos", maps.albedo)
         .write("vals", result.vals.vals)
         .write("shapes", result.vals.shapes)
-        .spec(0, s.disk)
+        .constant("kDisk", s.disk)
         .push(Push{firstCount, s.secondCount, result.vals.count, clusterCount, s.mapSize})
         .dispatchThreads(result.vals.count);
     return result;

@@ -39,7 +39,7 @@ Irradiance addTexelShading(GraphScope scope, const Surfaces& gbuffer, const RsmS
             .sample("depthMap", gbuffer.depth)
             .read("camera", gbuffer.camera)
             .read("texels", rsm.texels)
-            .spec(0, slice == 0)
+            .constant("kFirst", slice == 0)
             .push(glm::uvec2(first, std::min(first + kSliceTexels, count)))
             .dispatchGroups((gbuffer.size.x + 15) / 16, (gbuffer.size.y + 15) / 16);
         if (slice == 0)

@@ -32,8 +32,8 @@ const std::map<std::string, Layout>& layouts() {
 
 // What shaders read by the word, from texel buffers: the loader beside the struct knows where its members
 // lie.
-const std::set<std::string> kLoadedByWord = {"Instance", "Lamp",          "LampCluster",
-                                             "Material", "SkinnedSample", "SurfaceSample"};
+const std::set<std::string> kLoadedByWord = {"Instance",      "LightClusterRow", "Material",
+                                             "PunctualLight", "SkinnedSample",   "SurfaceSample"};
 
 TEST(IoLayout, CompiledShadersAgreeWithTheHeaders) {
     std::map<std::string, int> seen;
@@ -42,6 +42,7 @@ TEST(IoLayout, CompiledShadersAgreeWithTheHeaders) {
         if (entry.path().extension() != ".spv") continue;
         const std::string path =
             std::filesystem::relative(entry.path(), AFTERGLOW_SHADER_DIR).replace_extension().string();
+        if (!exists(std::filesystem::path(AFTERGLOW_SOURCE_DIR) / "shaders" / path)) continue;  // was once
         const auto module = gpu::loadShader(path);
         ASSERT_TRUE(module) << module.error().message;
         EXPECT_LE(module->pushSizeBytes, 128u) << path;

@@ -16,17 +16,17 @@ std::string rowsOf(const ShaderModule& module, size_t index) {
     for (const ShaderBinding& b : module.bindings)
         out += fmt::format("{{\"{}\", {}, {}, {}, {}, {}}}, ", b.name, int(b.kind), b.set, b.binding,
                            int(b.reads), int(b.writes));
-    out += fmt::format("{{}}}};\nconst uint32_t constants{}[] = {{", index);
-    for (const uint32_t id : module.specConstantIds)
-        out += fmt::format("{}, ", id);
-    return out + "0};\n";
+    out += fmt::format("{{}}}};\nconst Constant constants{}[] = {{", index);
+    for (const SpecConstantInfo& c : module.specConstants)
+        out += fmt::format("{{\"{}\", {}, {}}}, ", c.name, c.id, int(c.kind));
+    return out + "{}};\n";
 }
 
 std::string entryOf(const ShaderModule& module, size_t index) {
     return fmt::format(
         "    {{\"{}\", {}, afterglow_shader{}, {}, bindings{}, {}, constants{}, {}, {}, {{{}, {}, {}}}}},\n",
         module.path, int(module.stage), index, module.spirv.size(), index, module.bindings.size(), index,
-        module.specConstantIds.size(), module.pushSizeBytes, module.workgroupSize.x, module.workgroupSize.y,
+        module.specConstants.size(), module.pushSizeBytes, module.workgroupSize.x, module.workgroupSize.y,
         module.workgroupSize.z);
 }
 
