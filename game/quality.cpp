@@ -14,8 +14,8 @@ void trim(render::RenderSettings& gi) {
     gi.bounce.valClustering.settleFrames = 8;
     gi.bounce.ismAtlas.pointsPerMap = 768;
     gi.lightClusters.most = 16;
-    gi.lampShadows.faceResolution = 256;
-    gi.lampShadows.atlasSize = 2048;
+    gi.punctualShadows.faceResolution = 256;
+    gi.punctualShadows.atlasSize = 2048;
 }
 
 }  // namespace

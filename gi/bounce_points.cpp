@@ -6,7 +6,7 @@ namespace ag::gi {
 namespace {
 
 uint32_t sharpBitsOf(const io::SurfaceSample& s) {
-    return std::bit_cast<uint32_t>(s.bendLocal);  // in its place: see SkinnedSample
+    return std::bit_cast<uint32_t>(s.curvatureLocal);  // in its place: see SkinnedSample
 }
 
 }  // namespace
@@ -22,15 +22,16 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
         for (size_t k = size_t(i * share), end = size_t((i + 1) * share); k < end; ++k)
             area += double(samples.pointAreas[samples.samples[k].instance]);
         const io::SurfaceSample& s = samples.samples[at];
-        const bool bent = bool(instances[s.instance].deformed);
-        const bool cutOut = bent ? (sharpBitsOf(s) & io::kSharpCutOut) != 0 : s.edgesLocal[0].distance < 0;
+        const bool deformed = bool(instances[s.instance].deformed);
+        const bool cutOut =
+            deformed ? (sharpBitsOf(s) & io::kSharpCutOut) != 0 : s.edgesLocal[0].distance < 0;
         points.push_back({.positionLocal = s.positionLocal,
                           .instance = s.instance,
                           .normalLocal = s.normalLocal,
                           .area = cutOut ? 0 : float(area),
                           .albedo = albedoAt(s.instance, samples.uvs[at]),
                           .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}});
-        if (bent) points.back().edgesLocal[0].inward.x = s.bendLocal;
+        if (deformed) points.back().edgesLocal[0].inward.x = s.curvatureLocal;
     }
     return points;
 }

@@ -21,10 +21,10 @@ struct Surfaces {
         reflectance;     // rgba16f: specular, head on; at grazing angles; invalid when no material is glossy
     ImageHandle motion;  // rgba16f: m to where the surface was a frame ago; invalid when nothing moved
     glm::uvec2 size{0};
-    bool bent = false;     // normals of a surface differ from pixel to pixel: it has a normal map
-    uint32_t spacing = 1;  // of the camera's pixels from one of these to the next
-    RenderCamera view;     // of these pixels
-    BufferHandle camera;   // the same as io::CameraConstants
+    bool normalMapped = false;  // normals of a surface differ from pixel to pixel
+    uint32_t spacing = 1;       // of the camera's pixels from one of these to the next
+    RenderCamera view;          // of these pixels
+    BufferHandle camera;        // the same as io::CameraConstants
 };
 
 // A light whose reflective shadow map is drawn: its first bounce and all that follow are indirect light.
@@ -45,17 +45,17 @@ struct RsmLight {
 
 // Points on surfaces, carried by their instances: what visibility is made from, and where light bounces on.
 struct Occluders {
-    BufferHandle instances;         // io::Instance rows
-    BufferHandle samples;           // io::SurfaceSample; also a texel buffer of vec4
-    BufferHandle pointAreas;        // m² that a sample of each instance stands for: a texel buffer of float
-    uint32_t sampleCount = 0;       // 0: no surface
-    uint32_t stillSampleCount = 0;  // the first ones are on what stands still
-    BufferHandle bouncePoints;      // io::BouncePoint: some of the samples
-    uint32_t bouncePointCount = 0;  // a square of a power of two, or 0
+    BufferHandle instances;          // io::Instance rows
+    BufferHandle samples;            // io::SurfaceSample; also a texel buffer of vec4
+    BufferHandle pointAreas;         // m² that a sample of each instance stands for: a texel buffer of float
+    uint32_t sampleCount = 0;        // 0: no surface
+    uint32_t staticSampleCount = 0;  // the first ones are on what is static
+    BufferHandle bouncePoints;       // io::BouncePoint: some of the samples
+    uint32_t bouncePointCount = 0;   // a square of a power of two, or 0
     // Vertices of instances that joints bend, as they are now; none: there are no such.
     BufferHandle deformedPositions, deformedAttributes;
-    uint64_t stillVersion = 0;  // changes when an instance that is not movable may have moved
-    float extent = 0;           // m: no two points are farther apart
+    uint64_t staticVersion = 0;  // changes when an instance that is not movable may have moved
+    float extent = 0;            // m: no two points are farther apart
 };
 
 // Numbers that are equal as long as what they stand for is.

@@ -26,31 +26,31 @@ constexpr RegionNames kFinished = {
     "ism_atlas.list_finished",
     {"ism_atlas.finished", "ism_atlas.finished_groups", "ism_atlas.none_finished"}};
 
-// What still layers are made of and like, as a number; 0: none are kept.
+// What static layers are made of and like, as a number; 0: none are kept.
 uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const SurfacePoints& points,
-                    uint32_t stillEntries) {
+                    uint32_t staticEntries) {
     if (!s.keepMaps) return 0;
     const uint64_t size =
-        hashValue(glm::uvec4(atlas.mapCount, atlas.tileSize, atlas.pointsPerMap, stillEntries));
+        hashValue(glm::uvec4(atlas.mapCount, atlas.tileSize, atlas.pointsPerMap, staticEntries));
     const uint64_t like =
         combineHash(hashValue(glm::vec4(s.splatScale, float(s.mapping), float(s.nearMore), points.extent)),
                     uint64_t(s.planes) * 2 + s.pullPush);
-    return uint32_t(combineHash(combineHash(size, like), points.stillVersion)) | 1;
+    return uint32_t(combineHash(combineHash(size, like), points.staticVersion)) | 1;
 }
 
-// What makes the still layer of a map, kept for those whose light and points have not moved.
+// What makes the static layer of a map, kept for those whose light and points have not moved.
 struct MapHistories {
     HistoryBuffer places, chosen, keys;
 };
 
 // How many of a map's points movable surfaces get: their share of the area within bounds, as what moves is
 // looked at.
-uint32_t movingEntries(const SurfacePoints& points, uint32_t pointsPerMap) {
-    if (points.moving.count == 0) return 0;
-    if (points.still.count == 0) return pointsPerMap;
-    const float share = float(points.moving.count) / float(points.count);
+uint32_t movableEntries(const SurfacePoints& points, uint32_t pointsPerMap) {
+    if (points.movableLayer.count == 0) return 0;
+    if (points.staticLayer.count == 0) return pointsPerMap;
+    const float share = float(points.movableLayer.count) / float(points.count);
     const float wanted = std::clamp(share, 0.125f, 0.5f) * float(pointsPerMap);
-    return std::min({uint32_t(wanted), points.moving.count, pointsPerMap - 1});
+    return std::min({uint32_t(wanted), points.movableLayer.count, pointsPerMap - 1});
 }
 
 io::IsmSplatPush layerPush(io::IsmSplatPush push, const PointLayer& layer, uint32_t firstEntry,
@@ -98,12 +98,12 @@ PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle chosen,
     return pass;
 }
 
-// All that stands still: maps are kept where neither it nor the light has moved; a splat of those would cost
+// All that is static: maps are kept where neither it nor the light has moved; a splat of those would cost
 // its workgroups all the same, so the others are listed.
-void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
+void addStaticLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
     const WorkList anew = addWorkList(s.scope, kMapsAnew, s.atlas.mapCount, {splatGroups(push), 0, 1});
-    s.scope.compute("ism_atlas.choose", "ism_atlas/choose_still.comp")
-        .readPart("segments", s.points.segments, s.points.stillVersion)
+    s.scope.compute("ism_atlas.choose", "ism_atlas/choose_static.comp")
+        .readPart("segments", s.points.segments, s.points.staticVersion)
         .read("vals", s.vals.vals)
         .readPrevious("previousPlaces", kept.places)
         .readPrevious("previousChosen", kept.chosen)
@@ -122,7 +122,7 @@ void addStillLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatP
         .push(push)
         .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
     addSplat(s, "ism_atlas.splat", s.atlas.chosen, s.atlas.states, kept.keys.current, push)
-        .readPart("points", s.points.points, s.points.stillVersion)
+        .readPart("points", s.points.points, s.points.staticVersion)
         .readWrite("finishes", kept.keys.current)  // not looked at
         .read("listed", anew.items)
         .spec(4, true)
@@ -145,20 +145,20 @@ WorkList addRegions(const Splat& s, const RegionNames& names, BufferHandle place
     return regions;
 }
 
-struct MovingLayer {
+struct MovableLayer {
     BufferHandle keys, chosen;
 };
 
-// What may move, over the still layer: only where it shows or showed in the frame before is anything done.
-MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle finishes,
-                           const WorkList& restored, const io::IsmSplatPush& push) {
+// What may move, over the static layer: only where it shows or showed in the frame before is anything done.
+MovableLayer addMovableLayer(const Splat& s, BufferHandle staticKeys, BufferHandle finishes,
+                             const WorkList& restored, const io::IsmSplatPush& push) {
     const BufferHandle states =
         s.scope.buffer("ism_atlas.moving_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
-    const BufferHandle keys = s.scope.buffer("ism_atlas.all_keys", s.scope.info(stillKeys));
+    const BufferHandle keys = s.scope.buffer("ism_atlas.all_keys", s.scope.info(staticKeys));
     const BufferHandle chosen =
         s.scope.buffer("ism_atlas.moving_chosen",
                        {.sizeBytes = s.atlas.mapCount * push.entryCount * 4ull, .texelFormat = kUint});
-    s.scope.compute("ism_atlas.choose_moving", "ism_atlas/choose_moving.comp")
+    s.scope.compute("ism_atlas.choose_movable", "ism_atlas/choose_movable.comp")
         .read("segments", s.points.segments)
         .read("vals", s.vals.vals)
         .write("chosen", chosen)
@@ -168,11 +168,11 @@ MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle 
         .dispatchGroups(s.atlas.mapCount);
     s.scope.compute("ism_atlas.restore", "ism_atlas/restore_keys.comp")
         .read("listed", restored.items)
-        .read("still", stillKeys)
+        .read("staticKeys", staticKeys)
         .write("keys", keys)
         .push(push)
         .dispatchIndirect(restored.groups);
-    addSplat(s, "ism_atlas.splat_moving", chosen, states, keys, push)
+    addSplat(s, "ism_atlas.splat_movable", chosen, states, keys, push)
         .read("points", s.points.points)
         .readWrite("finishes", finishes)
         .read("listed", chosen)  // not looked at
@@ -182,7 +182,7 @@ MovingLayer addMovingLayer(const Splat& s, BufferHandle stillKeys, BufferHandle 
 }
 
 // From the nearest points to planes without holes, where maps may be otherwise than they were.
-void addFinish(const Splat& s, const MovingLayer& layer, const WorkList& finished,
+void addFinish(const Splat& s, const MovableLayer& layer, const WorkList& finished,
                const io::IsmSplatPush& push) {
     const BufferHandle resolved = s.settings.pullPush
                                       ? s.scope.buffer("ism_atlas.resolved", s.scope.info(s.atlas.planes))
@@ -191,8 +191,8 @@ void addFinish(const Splat& s, const MovingLayer& layer, const WorkList& finishe
         .read("points", s.points.points)
         .read("vals", s.vals.vals)
         .read("keys", layer.keys)
-        .read("stillChosen", s.atlas.chosen)
-        .read("movingChosen", layer.chosen)
+        .read("staticChosen", s.atlas.chosen)
+        .read("movableChosen", layer.chosen)
         .read("listed", finished.items)
         .write("planes", resolved)
         .spec(0, s.settings.planes)
@@ -226,33 +226,34 @@ IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Vals& 
     IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms), .mapping = settings.mapping};
     atlas.tileSize = tileSizeFor(settings.tileSize, atlas.mapCount);
     const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
-    const uint32_t moving = movingEntries(points, perMap), still = perMap - moving;
+    const uint32_t movableCount = movableEntries(points, perMap), staticCount = perMap - movableCount;
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
     atlas.planes = scope.buffer("ism_atlas.planes",
                                 {.sizeBytes = texels * 16, .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     const io::IsmSplatPush push{.pointCount = points.count,
                                 .tileSize = atlas.tileSize,
                                 .inverseExtent = 1 / points.extent,
-                                .contents = contentsOf(settings, atlas, points, still)};
+                                .contents = contentsOf(settings, atlas, points, staticCount)};
     const MapHistories kept{
         .places =
             scope.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
         .chosen = scope.historyBuffer(
             "ism_atlas.chosen",
-            {.sizeBytes = std::max(still, 1u) * atlas.mapCount * 4ull, .texelFormat = kUint}),
+            {.sizeBytes = std::max(staticCount, 1u) * atlas.mapCount * 4ull, .texelFormat = kUint}),
         .keys = scope.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = kUint})};
     atlas.chosen = kept.chosen.current;
     atlas.states = scope.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});
     const Splat splat{scope, points, vals, settings, atlas};
-    addStillLayer(splat, kept, layerPush(push, points.still, 0, still, settings.splatScale));
+    addStaticLayer(splat, kept, layerPush(push, points.staticLayer, 0, staticCount, settings.splatScale));
     const HistoryBuffer finishes =
         scope.historyBuffer("ism_atlas.finishes", {.sizeBytes = atlas.mapCount * sizeof(io::IsmFinish)});
     const WorkList restored = addRegions(splat, kRestored, kept.places.current, finishes, true, push);
-    const io::IsmSplatPush movingPush = layerPush(push, points.moving, still, moving, settings.splatScale);
-    MovingLayer all{kept.keys.current, atlas.chosen};
-    if (moving > 0) all = addMovingLayer(splat, all.keys, finishes.current, restored, movingPush);
+    const io::IsmSplatPush movablePush =
+        layerPush(push, points.movableLayer, staticCount, movableCount, settings.splatScale);
+    MovableLayer all{kept.keys.current, atlas.chosen};
+    if (movableCount > 0) all = addMovableLayer(splat, all.keys, finishes.current, restored, movablePush);
     const WorkList finished = addRegions(splat, kFinished, kept.places.current, finishes, false, push);
-    addFinish(splat, all, finished, movingPush);
+    addFinish(splat, all, finished, movablePush);
     return atlas;
 }
 

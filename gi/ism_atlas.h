@@ -52,7 +52,7 @@ struct IsmAtlasSettings {
 
 struct IsmAtlas {
     BufferHandle planes;  // vec4; also a texel buffer; invalid: no visibility
-    BufferHandle chosen;  // per map its points that stand still, see ism_light.glsl
+    BufferHandle chosen;  // per map its static points, see ism_light.glsl
     BufferHandle states;  // io::IsmMapState
     uint32_t pointsPerMap = 0;
     uint32_t mapCount = 0;

@@ -9,8 +9,8 @@
 
 namespace ag::gi {
 
-// The near plane of spots' and cubes' views over their far one: what a lamp nearly touches stands in its way
-// too. Reversed depth in floats is as exact however near it is.
+// The near plane of spots' and cubes' views over their far one: what a punctual light nearly touches stands
+// in its way too. Reversed depth in floats is as exact however near it is.
 constexpr float kNearOfFar = 1e-4f;
 
 struct LightView {

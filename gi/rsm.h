@@ -52,7 +52,7 @@ struct RsmSet {
 
 // Lives on the CPU from frame to frame: the flux by which each light has its share of the clusters. It
 // follows the light's own only when that has left it far behind, and a light that goes out keeps its share
-// for a while: so a lamp that flickers takes no clusters from the others.
+// for a while: so a punctual light that flickers takes no clusters from the others.
 struct ClusterShares {
     struct Light {
         uint64_t id = 0;

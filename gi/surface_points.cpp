@@ -17,21 +17,23 @@ PointLayer layerOf(uint32_t first, uint32_t count) {
 
 constexpr uint32_t kPlaceGroup = 64, kBoundGroup = 64;  // invocations
 
-// What stands still is worked on once, in groups of so many points; a group that has some of both counts as
-// moving.
-void addLayers(PassBuilder& pass, const SurfacePoints& p, uint64_t movingVersion, uint32_t groupPoints) {
-    const uint32_t still = p.still.count / groupPoints, all = (p.count + groupPoints - 1) / groupPoints;
-    if (still > 0) pass.part(0, still, p.stillVersion);
-    if (all > still) pass.part(still, all - still, combineHash(p.stillVersion, movingVersion));
+// What is static is worked on once, in groups of so many points; a group that has some of both counts as
+// movable.
+void addLayers(PassBuilder& pass, const SurfacePoints& p, uint64_t movableVersion, uint32_t groupPoints) {
+    const uint32_t staticGroups = p.staticLayer.count / groupPoints,
+                   all = (p.count + groupPoints - 1) / groupPoints;
+    if (staticGroups > 0) pass.part(0, staticGroups, p.staticVersion);
+    if (all > staticGroups)
+        pass.part(staticGroups, all - staticGroups, combineHash(p.staticVersion, movableVersion));
 }
 
 }  // namespace
 
 SurfacePoints addSurfacePoints(GraphScope scope, const Occluders& o, uint64_t instancesVersion) {
     if (o.sampleCount == 0) return {};
-    SurfacePoints p{.count = o.sampleCount, .stillVersion = o.stillVersion};
-    p.still = layerOf(0, o.stillSampleCount);
-    p.moving = layerOf(p.still.count, p.count - p.still.count);
+    SurfacePoints p{.count = o.sampleCount, .staticVersion = o.staticVersion};
+    p.staticLayer = layerOf(0, o.staticSampleCount);
+    p.movableLayer = layerOf(p.staticLayer.count, p.count - p.staticLayer.count);
     p.extent = o.extent;
     p.points = scope.buffer("surface_points.points", {.sizeBytes = p.count * sizeof(io::SurfacePoint),
                                                       .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
@@ -45,7 +47,7 @@ SurfacePoints addSurfacePoints(GraphScope scope, const Occluders& o, uint64_t in
         .push(io::PointPush{.pointCount = p.count});
     readDeformed(place, o);
     addLayers(place, p, instancesVersion, kPlaceGroup);
-    const uint32_t segments = p.still.segmentCount + p.moving.segmentCount;
+    const uint32_t segments = p.staticLayer.segmentCount + p.movableLayer.segmentCount;
     p.segments = scope.buffer("surface_points.segments", {.sizeBytes = segments * sizeof(io::SurfaceSegment),
                                                           .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     PassBuilder bound = scope.compute("surface_points.bound", "surface_points/bound_segments.comp");

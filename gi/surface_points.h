@@ -10,7 +10,7 @@
 
 namespace ag::gi {
 
-// Points that stand still, or those that may move.
+// Static points, or those that may move.
 struct PointLayer {
     uint32_t count = 0, firstSegment = 0, segmentCount = 0;
 };
@@ -19,9 +19,9 @@ struct SurfacePoints {
     BufferHandle points;    // io::SurfacePoint; also a texel buffer of vec4
     BufferHandle segments;  // io::SurfaceSegment; also a texel buffer of vec4
     uint32_t count = 0;
-    PointLayer still, moving;   // in this order; no segment has points of both
-    uint64_t stillVersion = 0;  // changes when a point of `still` may have moved
-    float extent = 0;           // m: no two points are farther apart
+    PointLayer staticLayer, movableLayer;  // in this order; no segment has points of both
+    uint64_t staticVersion = 0;            // changes when a point of `staticLayer` may have moved
+    float extent = 0;                      // m: no two points are farther apart
 };
 
 // `instancesVersion`: changes when any instance may have moved.

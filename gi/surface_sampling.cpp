@@ -16,11 +16,11 @@ namespace {
 
 struct Corners {
     std::array<glm::vec3, 3> local;
-    uint8_t sharpEdges = 0;  // bit i: the surface ends or bends at the edge from corner i on
-    float bend = 0;          // 1/m
+    uint8_t sharpEdges = 0;  // bit i: the surface ends or turns sharply at the edge from corner i on
+    float curvature = 0;     // 1/m
 };
 
-constexpr float kFlatCosine = 0.94f;  // 20 degrees: a bend that disks may span
+constexpr float kFlatCosine = 0.94f;  // 20 degrees: a curvature that disks may span
 
 std::array<glm::vec3, 3> cornersAmong(const Strided<glm::vec3>& vertices, const SampledMesh& mesh,
                                       uint32_t triangle) {
@@ -51,7 +51,7 @@ uint64_t sideOf(glm::vec3 a, glm::vec3 b) {
     return combineHash(std::min(ha, hb), std::max(ha, hb));
 }
 
-// Per triangle of a mesh, at which of its sides the surface ends or bends.
+// Per triangle of a mesh, at which of its sides the surface ends or turns sharply.
 std::vector<uint8_t> sharpEdges(const SampledMesh& mesh) {
     const uint32_t triangles = triangleCount(mesh);
     std::vector<Side> sides;
@@ -129,15 +129,16 @@ std::vector<CurveTriangle> curveOf(const SampledScene& scene, bool movable) {
 }
 
 // The most that smooth normals turn along a side of the triangle, over its length.
-float bendOf(const SampledMesh& mesh, uint32_t triangle, const std::array<glm::vec3, 3>& corners) {
+float curvatureOf(const SampledMesh& mesh, uint32_t triangle, const std::array<glm::vec3, 3>& corners) {
     if (!mesh.normals) return 0;
     const auto normals = cornersAmong(mesh.normals, mesh, triangle);
-    float bend = 0;
+    float curvature = 0;
     for (uint32_t i = 0; i < 3; ++i) {
         const float length = glm::length(corners[(i + 1) % 3] - corners[i]);
-        bend = std::max(bend, glm::length(normals[(i + 1) % 3] - normals[i]) / std::max(length, 1e-12f));
+        curvature =
+            std::max(curvature, glm::length(normals[(i + 1) % 3] - normals[i]) / std::max(length, 1e-12f));
     }
-    return bend;
+    return curvature;
 }
 
 // The two nearest of the triangle's sharp edges.
@@ -199,10 +200,10 @@ double weightOf(const std::vector<CurveTriangle>& curve) {
     return weight;
 }
 
-std::vector<double> areasOfInstances(const SampledScene& scene, const std::vector<CurveTriangle>& still,
+std::vector<double> areasOfInstances(const SampledScene& scene, const std::vector<CurveTriangle>& fixed,
                                      const std::vector<CurveTriangle>& movable) {
     std::vector<double> areas(scene.instances.size());
-    for (const auto* curve : {&still, &movable})
+    for (const auto* curve : {&fixed, &movable})
         for (const CurveTriangle& t : *curve)
             areas[t.instance] += t.area;
     return areas;
@@ -238,7 +239,7 @@ void addSample(const SampledScene& scene, const CurveTriangle& t, const Corners&
     io::SurfaceSample sample{.positionLocal = pointOn(c, share),
                              .instance = t.instance,
                              .normalLocal = faceNormal(c.local),
-                             .bendLocal = c.bend};
+                             .curvatureLocal = c.curvature};
     noteEdges(c, sample);
     const glm::vec3 weights = barycentrics(c.local, sample.positionLocal);
     const glm::vec2 uv = uvOn(mesh, t.triangle, weights);
@@ -265,7 +266,7 @@ void sampleCurve(const SampledScene& scene, const std::vector<CurveTriangle>& cu
         auto& edges = sharp[meshIndex];
         if (edges.empty()) edges = sharpEdges(mesh);
         Corners c{cornersAmong(mesh.positions, mesh, t.triangle), edges[t.triangle]};
-        c.bend = bendOf(mesh, t.triangle, c.local);
+        c.curvature = curvatureOf(mesh, t.triangle, c.local);
         for (; taken < count && ((taken + 0.5) * step < before || &t == &curve.back()); ++taken) {
             const double share = std::clamp(1 - (before - (taken + 0.5) * step) / t.weight, 0.0, 1.0);
             addSample(scene, t, c, share, out);
@@ -276,32 +277,32 @@ void sampleCurve(const SampledScene& scene, const std::vector<CurveTriangle>& cu
 }  // namespace
 
 SurfaceSamples sampleSurfaces(const SampledScene& scene, uint32_t count) {
-    std::vector<CurveTriangle> still = curveOf(scene, false), movable = curveOf(scene, true);
-    const std::vector<double> areas = areasOfInstances(scene, still, movable),
+    std::vector<CurveTriangle> fixed = curveOf(scene, false), movable = curveOf(scene, true);
+    const std::vector<double> areas = areasOfInstances(scene, fixed, movable),
                               densities = densitiesOf(areas, count);
-    for (auto* curve : {&still, &movable})
+    for (auto* curve : {&fixed, &movable})
         for (CurveTriangle& t : *curve)
             t.weight *= densities[t.instance];
-    const double stillWeight = weightOf(still), movableWeight = weightOf(movable),
-                 total = stillWeight + movableWeight;
+    const double staticWeight = weightOf(fixed), movableWeight = weightOf(movable),
+                 total = staticWeight + movableWeight;
     SurfaceSamples out;
     if (!(total > 0) || count == 0) return out;
-    out.stillCount = count;
+    out.staticCount = count;
     if (movableWeight > 0) {
-        const double segments = stillWeight / total * count / io::kSegmentPoints;
-        out.stillCount =
+        const double segments = staticWeight / total * count / io::kSegmentPoints;
+        out.staticCount =
             std::min(uint32_t(std::lround(segments)), (count - 1) / io::kSegmentPoints) * io::kSegmentPoints;
-        if (stillWeight > 0) out.stillCount = std::max(out.stillCount, io::kSegmentPoints);
+        if (staticWeight > 0) out.staticCount = std::max(out.staticCount, io::kSegmentPoints);
     }
     const uint32_t movableCount =
-        movableWeight > 0 ? std::max(count, out.stillCount + io::kSegmentPoints) - out.stillCount : 0;
+        movableWeight > 0 ? std::max(count, out.staticCount + io::kSegmentPoints) - out.staticCount : 0;
     for (size_t i = 0; i < densities.size(); ++i) {
         const double step =
-            scene.instances[i].movable ? movableWeight / movableCount : stillWeight / out.stillCount;
+            scene.instances[i].movable ? movableWeight / movableCount : staticWeight / out.staticCount;
         out.pointAreas.push_back(float(step / densities[i]));
     }
     out.samples.reserve(count);
-    if (out.stillCount > 0) sampleCurve(scene, still, stillWeight, out.stillCount, out);
+    if (out.staticCount > 0) sampleCurve(scene, fixed, staticWeight, out.staticCount, out);
     if (movableCount > 0) sampleCurve(scene, movable, movableWeight, movableCount, out);
     return out;
 }

@@ -38,11 +38,11 @@ struct SampledScene {
 };
 
 struct SurfaceSamples {
-    // Along two curves: neighbours in the list are neighbours in space. First those of all that stands still,
+    // Along two curves: neighbours in the list are neighbours in space. First those of all that is static,
     // whole segments of kSegmentPoints, then those of movable instances.
     std::vector<io::SurfaceSample> samples;
     std::vector<glm::vec2> uvs;  // of the vertices, parallel to the samples
-    uint32_t stillCount = 0;
+    uint32_t staticCount = 0;
     std::vector<float> pointAreas;  // m², one side: what a point of each of the scene's instances stands for
 };
 

@@ -44,7 +44,7 @@ Surfaces addDownsampled(GraphScope scope, const Surfaces& all, uint32_t spacing,
         .depth = scope.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
         .normal = addDownsampledImage(scope, names.normal, all.normal, spacing),
         .size = size,
-        .bent = all.bent,
+        .normalMapped = all.normalMapped,
         .spacing = all.spacing * spacing,
         .view = downsampled(all.view, all.size, spacing),
     };

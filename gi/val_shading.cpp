@@ -175,7 +175,7 @@ Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Shadow
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle parts = scope.image(names.parts, info);
     // Pixels that take another's light want to know where it comes from if they are turned otherwise.
-    const bool directed = gbuffer.spacing > 1 && gbuffer.bent && n == 1;
+    const bool directed = gbuffer.spacing > 1 && gbuffer.normalMapped && n == 1;
     const ImageHandle partsToward = directed ? scope.image(names.partsToward, info) : ImageHandle{};
     const Irradiance result{scope.image(names.irradiance, info),
                             directed ? scope.image(names.toward, info) : ImageHandle{}};

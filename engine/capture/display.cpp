@@ -136,7 +136,7 @@ Shown howShown(const Picture& picture) {
     if (endsWith(name, ".normal") || endsWith(name, ".surface")) return Shown::kDirection;
     if (endsWith(name, ".motion")) return Shown::kMotion;
     if (endsWith(name, ".albedo")) return Shown::kReflectance;
-    const bool drawn = name == "view.clusters" || name == "view.vals" || name == "view.lamp_clusters" ||
+    const bool drawn = name == "view.clusters" || name == "view.vals" || name == "view.light_clusters" ||
                        name == "view.importance";
     return drawn || picture.format == "rgba8" ? Shown::kDisplay : Shown::kLight;
 }

@@ -53,8 +53,8 @@ uint64_t entitiesChanged(const RenderScene& scene) {
 std::vector<Counter> countersOf(render::Renderer& renderer, const RenderScene& scene,
                                 const render::RenderFrame& declared, const Frame& frame) {
     return {{"shadow map tiles of area lights", double(declared.bounce.isms.mapCount)},
-            {"lamps in view", double(declared.lampLists.lampCount)},
-            {"lamp shadow faces redrawn", double(facesDrawn(frame))},
+            {"punctual lights in view", double(declared.punctualLists.lightCount)},
+            {"punctual light shadow faces redrawn", double(facesDrawn(frame))},
             {"entities changed", double(entitiesChanged(scene))},
             {"bytes uploaded", double(renderer.scene().uploadedBytes())},
             {"passes run", countOf(frame, PassOutcome::kRan)},
@@ -130,7 +130,7 @@ void FrameRecorder::takeReadBack(GraphScope scope, const render::RenderFrame& de
     if (ran(*frame, "ism_atlas.splat"))
         splatted = double(countRows<io::IsmMapState>(
             maps, [](const io::IsmMapState& map) { return map.pointCount > 0 && map.kept == 0; }));
-    if (ran(*frame, "ism_atlas.splat_moving"))
+    if (ran(*frame, "ism_atlas.splat_movable"))
         splatted = double(declared.bounce.isms.mapCount);  // over the others
     frame->counters.push_back({"shadow map tiles splatted", splatted});
 }

@@ -29,8 +29,8 @@ constexpr std::array<Row, size_t(Layer::kCount)> kLayers = {
      {{"importance", "0 to 1", "importance over the RSMs"}, Show::kDisplay},
      {{"clusters", "display values, 0 to 1", "clusters as colours over the scene"}, Show::kDisplay},
      {{"vals", "display values, 0 to 1", "area lights as polygons over the scene"}, Show::kDisplay},
-     {{"lamp_clusters", "display values, 0 to 1",
-       "lamps and what they light in the colours of shared shadow maps"},
+     {{"light_clusters", "display values, 0 to 1",
+       "punctual lights and what they light in the colours of shared shadow maps"},
       Show::kDisplay},
      {{"ism", "m", "imperfect shadow maps side by side"}, Show::kDistance}}};
 
@@ -86,11 +86,11 @@ ImageHandle addVals(GraphScope scope, const SceneView& scene, const RenderFrame&
     return out;
 }
 
-ImageHandle addLampClusters(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
+ImageHandle addLightClusters(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
     const ImageHandle out = layerImage(scope, scene.size);
-    beginSurfaceView(scope, "debug_view.lamp_clusters", "debug_view/lamp_clusters.frag", scene, f)
-        .read("lamps", f.lampLists.lamps)
-        .push(f.lampLists.lampCount)
+    beginSurfaceView(scope, "debug_view.light_clusters", "debug_view/light_clusters.frag", scene, f)
+        .read("lights", f.punctualLists.lights)
+        .push(f.punctualLists.lightCount)
         .colorClear(out, glm::vec4(0));
     return out;
 }
@@ -173,8 +173,8 @@ bool hasLayer(const RenderFrame& f, Layer layer) {
             return bool(f.bounce.clusters.slotOfTexel);
         case Layer::kVals:
             return f.bounce.vals.vals && f.bounce.vals.shapes;
-        case Layer::kLampClusters:
-            return bool(f.lampLists.lamps);
+        case Layer::kLightClusters:
+            return bool(f.punctualLists.lights);
         case Layer::kIsm:
             return bool(f.bounce.isms.planes);
         default:
@@ -216,8 +216,8 @@ ImageHandle addLayer(GraphScope scope, const SceneView& scene, const RenderFrame
             return addClusters(scope, scene, f);
         case Layer::kVals:
             return addVals(scope, scene, f);
-        case Layer::kLampClusters:
-            return addLampClusters(scope, scene, f);
+        case Layer::kLightClusters:
+            return addLightClusters(scope, scene, f);
         case Layer::kIsm:
             return addIsmView(scope, scene, f.bounce.isms);
         case Layer::kCount:

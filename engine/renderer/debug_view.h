@@ -24,7 +24,7 @@ enum class Layer : uint32_t {
     kImportance,
     kClusters,
     kVals,
-    kLampClusters,
+    kLightClusters,
     kIsm,
     kCount
 };

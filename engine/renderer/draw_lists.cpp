@@ -156,7 +156,7 @@ uint64_t DrawLists::addCommands(const RenderScene& scene, const ViewRequest& req
             BucketRange& range = view.draws.buckets[instanceBucket_[i]];
             commands_[range.firstCommand + range.commandCount++] = {
                 p.indexCount, 1, p.firstIndex, firstVertexOf(scene, scene.instances[i]), i};
-            range.stillCount += !movable;
+            range.staticCount += !movable;
             view.draws.movableCount += movable;
             version = combineHash(combineHash(version, i), transformHash_[i]);
             ++view.draws.instanceCount;
@@ -176,9 +176,9 @@ void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
         view.draws.buckets[b] = {.firstCommand = first + bucketFirst_[b]};
     view.draws.instanceCount = view.draws.movableCount = 0;
     bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
-    view.draws.stillVersion = addCommands(scene, request, false, view);
+    view.draws.staticVersion = addCommands(scene, request, false, view);
     view.draws.movableVersion = addCommands(scene, request, true, view);
-    const uint64_t version = combineHash(view.draws.stillVersion, view.draws.movableVersion);
+    const uint64_t version = combineHash(view.draws.staticVersion, view.draws.movableVersion);
     view.dirty = view.dirty || version != view.draws.version;
     view.draws.version = version;
     view.clipFromWorld = request.clipFromWorld;
@@ -197,7 +197,7 @@ const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
         range = {.firstCommand = slot * commandsPerView() + bucketFirst_[b]};
         auto row = rows.begin();  // commands of a bucket ascend too, those of each layer
         for (uint32_t c = 0; c < from.buckets[b].commandCount; ++c) {
-            if (c == from.buckets[b].stillCount) row = rows.begin();
+            if (c == from.buckets[b].staticCount) row = rows.begin();
             const VkDrawIndexedIndirectCommand& command = commands_[from.buckets[b].firstCommand + c];
             while (row != rows.end() && row->end <= command.firstInstance)
                 ++row;

@@ -29,24 +29,24 @@ struct DrawBucket {
 };
 
 // Of the instances, by RenderInstance::movable.
-enum class DrawLayer { kAll, kStill, kMovable };
+enum class DrawLayer { kAll, kStatic, kMovable };
 
 struct BucketRange {
     uint32_t firstCommand = 0;  // within the whole command array
     uint32_t commandCount = 0;
-    uint32_t stillCount = 0;  // the first ones are of what stands still
+    uint32_t staticCount = 0;  // the first ones are of what is static
 };
 
 struct ViewDraws {
     std::vector<BucketRange> buckets;  // parallel to DrawLists::buckets()
     // Of the commands, the transforms and the geometry behind them.
-    uint64_t version = 0, stillVersion = 0, movableVersion = 0;
+    uint64_t version = 0, staticVersion = 0, movableVersion = 0;
     uint32_t instanceCount = 0, movableCount = 0;
 
     uint64_t versionOf(DrawLayer layer) const {
-        return layer == DrawLayer::kAll     ? version
-               : layer == DrawLayer::kStill ? stillVersion
-                                            : movableVersion;
+        return layer == DrawLayer::kAll      ? version
+               : layer == DrawLayer::kStatic ? staticVersion
+                                             : movableVersion;
     }
 };
 

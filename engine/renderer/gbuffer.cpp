@@ -22,7 +22,7 @@ GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
                    .normal = target("gbuffer.normal", VK_FORMAT_R16G16B16A16_SFLOAT),
                    .albedo = target("gbuffer.albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
                    .size = scene.size,
-                   .bent = scene.hasNormalMaps,
+                   .normalMapped = scene.hasNormalMaps,
                    .view = scene.scene->camera,
                    .camera = scene.camera};
     ImageHandle emissive;

@@ -40,12 +40,12 @@ gi::Occluders occludersOf(const SceneView& scene) {
             .samples = scene.surfaceSamples,
             .pointAreas = scene.pointAreas,
             .sampleCount = scene.surfaceSampleCount,
-            .stillSampleCount = scene.stillSampleCount,
+            .staticSampleCount = scene.staticSampleCount,
             .bouncePoints = scene.bouncePoints,
             .bouncePointCount = scene.bouncePointCount,
             .deformedPositions = scene.skin.deformedPositions,
             .deformedAttributes = scene.skin.deformedAttributes,
-            .stillVersion = scene.stillVersion,
+            .staticVersion = scene.staticVersion,
             .extent = scene.extent};
 }
 

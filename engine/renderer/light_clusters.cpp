@@ -14,54 +14,55 @@ namespace ag::render {
 namespace {
 
 constexpr int kBudgetRounds = 24;
-constexpr float kLeastWeight = 1e-3f;  // of the mean: lamps that add less need no shadow
+constexpr float kLeastWeight = 1e-3f;  // of the mean: punctual lights that add less need no shadow
 
 float strengthOf(const RenderLight& light) {
     return (light.intensity.x + light.intensity.y + light.intensity.z) / 3;
 }
 
-float meanStrength(const RenderScene& scene, std::span<const uint32_t> lamps) {
+float meanStrength(const RenderScene& scene, std::span<const uint32_t> lights) {
     double sum = 0;
-    for (const uint32_t lamp : lamps)
-        sum += double(strengthOf(scene.lights[lamp]));
-    return float(sum / double(std::max<size_t>(lamps.size(), 1)));
+    for (const uint32_t light : lights)
+        sum += double(strengthOf(scene.lights[light]));
+    return float(sum / double(std::max<size_t>(lights.size(), 1)));
 }
 
-void takeSeenLamps(const RenderScene& scene, LightClusters& out) {
-    out.lamps.clear();
+void takeSeenLights(const RenderScene& scene, LightClusters& out) {
+    out.lights.clear();
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
         const RenderLight& light = scene.lights[i];
         if (light.kind == LightKind::kDirectional || strengthOf(light) <= 0) continue;
         const bool reaches =
             light.range <= 0 || sphereInView(scene.camera.clipFromWorld, light.position, light.range);
-        if (reaches) out.lamps.push_back(i);
+        if (reaches) out.lights.push_back(i);
     }
-    if (out.lamps.size() <= kMostLamps) {
+    if (out.lights.size() <= kMostPunctualLights) {
         out.leftOut = 0;
         return;
     }
-    const uint32_t before = std::exchange(out.leftOut, uint32_t(out.lamps.size()) - kMostLamps);
+    const uint32_t before = std::exchange(out.leftOut, uint32_t(out.lights.size()) - kMostPunctualLights);
     if (before == 0)
-        spdlog::warn("{} lamps reach into view: {} of them, the brightest from here, are lit",
-                     out.lamps.size(), kMostLamps);
+        spdlog::warn("{} lights reach into view: {} of them, the brightest from here, are lit",
+                     out.lights.size(), kMostPunctualLights);
     const auto brightness = [&](uint32_t i) {
         const glm::vec3 d = scene.lights[i].position - scene.camera.position;
         return strengthOf(scene.lights[i]) / std::max(glm::dot(d, d), 1.0f);
     };
-    std::ranges::nth_element(out.lamps, out.lamps.begin() + kMostLamps, std::greater(), brightness);
-    out.lamps.resize(kMostLamps);
-    std::ranges::sort(out.lamps);
+    std::ranges::nth_element(out.lights, out.lights.begin() + kMostPunctualLights, std::greater(),
+                             brightness);
+    out.lights.resize(kMostPunctualLights);
+    std::ranges::sort(out.lights);
 }
 
-// The distance that centres keep from each lamp. Shadows from another place than the lamp's are wrong by an
-// angle that shrinks with the distance to the camera, and matter as much as the lamp does.
+// The distance that centres keep from each light. Shadows from another place than the light's are wrong by an
+// angle that shrinks with the distance to the camera, and matter as much as the light does.
 void keepDistances(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
     const LightClusters& c = h.clusters;
-    const float strength = meanStrength(scene, c.lamps);
-    h.distances.resize(c.lamps.size());
-    h.weights.resize(c.lamps.size());
-    for (size_t i = 0; i < c.lamps.size(); ++i) {
-        const RenderLight& light = scene.lights[c.lamps[i]];
+    const float strength = meanStrength(scene, c.lights);
+    h.distances.resize(c.lights.size());
+    h.weights.resize(c.lights.size());
+    for (size_t i = 0; i < c.lights.size(); ++i) {
+        const RenderLight& light = scene.lights[c.lights[i]];
         const std::optional<float> measured = h.relevance.of(light.id);
         h.weights[i] = !s.strongFirst ? 1
                        : measured     ? *measured / h.relevance.mean()
@@ -74,31 +75,31 @@ void keepDistances(const RenderScene& scene, const LightClusterSettings& s, Ligh
 }
 
 // Centres of before come first, so that the others arrange themselves round them; then the strong ones.
-void orderLamps(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
-    h.order.resize(h.clusters.lamps.size());
+void orderLights(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
+    h.order.resize(h.clusters.lights.size());
     for (uint32_t i = 0; i < h.order.size(); ++i)
         h.order[i] = i;
     const auto rank = [&](uint32_t i) {
-        const RenderLight& light = scene.lights[h.clusters.lamps[i]];
+        const RenderLight& light = scene.lights[h.clusters.lights[i]];
         const bool before = s.hysteresis < 1 && std::ranges::binary_search(h.centers, light.id);
         return std::tuple(!before, -h.weights[i], i);
     };
     std::ranges::sort(h.order, {}, rank);
 }
 
-// Whether a lamp takes part in clusters at all: those that add next to nothing would make one large.
+// Whether a light takes part in clusters at all: those that add next to nothing would make one large.
 bool takesPart(const RenderLight& light, float weight) {
     return light.castsShadow && weight >= kLeastWeight;
 }
 
-// First pass: in order, every lamp that is far enough from all centres becomes one. Returns false as soon as
+// First pass: in order, every light that is far enough from all centres becomes one. Returns false as soon as
 // there are more than the budget.
 bool chooseCenters(const RenderScene& scene, const LightClusterSettings& s, float stretch,
                    LightClusterHistory& h) {
     LightClusters& c = h.clusters;
     c.clusters.clear();
     for (const uint32_t i : h.order) {
-        const RenderLight& light = scene.lights[c.lamps[i]];
+        const RenderLight& light = scene.lights[c.lights[i]];
         if (!takesPart(light, h.weights[i])) continue;
         const float apart = stretch * h.distances[i];
         const bool alone = std::ranges::none_of(c.clusters, [&](const LightCluster& other) {
@@ -106,7 +107,7 @@ bool chooseCenters(const RenderScene& scene, const LightClusterSettings& s, floa
         });
         if (!alone) continue;
         if (c.clusters.size() == s.most) return false;
-        c.clusters.push_back({.center = c.lamps[i]});
+        c.clusters.push_back({.center = c.lights[i]});
     }
     return true;
 }
@@ -130,11 +131,11 @@ void fitBudget(const RenderScene& scene, const LightClusterSettings& s, LightClu
 }
 
 // Second pass: to the nearest centre; the lowest index settles ties.
-void assignLamps(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
+void assignLights(const RenderScene& scene, const LightClusterSettings& s, LightClusterHistory& h) {
     LightClusters& c = h.clusters;
-    c.clusterOf.assign(c.lamps.size(), LightClusters::kNoCluster);
-    for (size_t i = 0; i < c.lamps.size(); ++i) {
-        const RenderLight& light = scene.lights[c.lamps[i]];
+    c.clusterOf.assign(c.lights.size(), LightClusters::kNoCluster);
+    for (size_t i = 0; i < c.lights.size(); ++i) {
+        const RenderLight& light = scene.lights[c.lights[i]];
         if (!takesPart(light, h.weights[i])) continue;
         float best = std::numeric_limits<float>::max();
         uint32_t nearest = LightClusters::kNoCluster;
@@ -149,9 +150,9 @@ void assignLamps(const RenderScene& scene, const LightClusterSettings& s, LightC
         c.clusterOf[i] = nearest;
         LightCluster& cluster = c.clusters[nearest];
         cluster.radius = std::max(cluster.radius, best);
-        const bool limited = light.range > 0 && (cluster.reach > 0 || cluster.lampCount == 0);
+        const bool limited = light.range > 0 && (cluster.reach > 0 || cluster.lightCount == 0);
         cluster.reach = limited ? std::max(cluster.reach, best + light.range) : 0;
-        ++cluster.lampCount;
+        ++cluster.lightCount;
     }
 }
 
@@ -175,8 +176,8 @@ uint32_t mostClustersNeeded(const RenderScene& scene, uint32_t most) {
     return std::min(std::bit_ceil(casters), most);
 }
 
-const LightClusters& clusterLamps(const RenderScene& scene, const LampRelevance& relevance,
-                                  const LightClusterSettings& settings, LightClusterHistory& history) {
+const LightClusters& clusterLights(const RenderScene& scene, const PunctualRelevance& relevance,
+                                   const LightClusterSettings& settings, LightClusterHistory& history) {
     if (history.lights == scene.lights && history.clipFromWorld == scene.camera.clipFromWorld &&
         history.settings == settings && history.relevance == relevance)
         return history.clusters;
@@ -184,11 +185,11 @@ const LightClusters& clusterLamps(const RenderScene& scene, const LampRelevance&
     history.clipFromWorld = scene.camera.clipFromWorld;
     history.settings = settings;
     history.relevance = relevance;
-    takeSeenLamps(scene, history.clusters);
+    takeSeenLights(scene, history.clusters);
     keepDistances(scene, settings, history);
-    orderLamps(scene, settings, history);
+    orderLights(scene, settings, history);
     fitBudget(scene, settings, history);
-    assignLamps(scene, settings, history);
+    assignLights(scene, settings, history);
     history.centers.clear();
     for (const LightCluster& cluster : history.clusters.clusters)
         history.centers.push_back(scene.lights[cluster.center].id);

@@ -22,13 +22,16 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     // Direct light
     f.shadows = addSunShadows(scope, scene, s.shadowMaps, h.sunShadows);
     f.direct = addSunLighting(scope, scene, surfaces, f.shadows);
-    const LightClusters& lamps =
-        clusterLamps(*scene.scene, h.lampRelevance, s.lightClusters, h.lightClusters);
-    f.lampShadows = addLampShadows(scope, scene, lamps, s.lightClusters.most, s.lampShadows, h.lampShadows);
-    f.lampLists = addLampLists(scope, scene, surfaces, lamps, s.lampLighting.tiles, h.lampLists);
-    f.direct = addLampLighting(scope, scene, surfaces, f.lampLists, f.lampShadows, f.direct, s.lampLighting);
+    const LightClusters& lights =
+        clusterLights(*scene.scene, h.punctualRelevance, s.lightClusters, h.lightClusters);
+    f.punctualShadows =
+        addPunctualShadows(scope, scene, lights, s.lightClusters.most, s.punctualShadows, h.punctualShadows);
+    f.punctualLists =
+        addPunctualLists(scope, scene, surfaces, lights, s.punctualLighting.tiles, h.punctualLists);
+    f.direct = addPunctualLighting(scope, scene, surfaces, f.punctualLists, f.punctualShadows, f.direct,
+                                   s.punctualLighting);
     if (s.lightClusters.strongFirst)
-        addLampRelevance(scope, f.bounce.viewPoints, f.lampLists, h.lampRelevance);
+        addPunctualRelevance(scope, f.bounce.viewPoints, f.punctualLists, h.punctualRelevance);
 
     // To the eye
     f.outputs = addComposite(scope, f.gbuffer, f.direct, f.bounce, s.composite);

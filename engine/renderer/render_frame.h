@@ -5,7 +5,7 @@
 #include "engine/renderer/composite.h"
 #include "engine/renderer/direct_lighting.h"
 #include "engine/renderer/gbuffer.h"
-#include "engine/renderer/lamp_lighting.h"
+#include "engine/renderer/punctual_lighting.h"
 #include "engine/renderer/render_settings.h"
 #include "gi/bounce_light.h"
 
@@ -17,9 +17,9 @@ struct RenderHistory {
     gi::BounceLightHistory bounce;
     SunShadowHistory sunShadows;
     LightClusterHistory lightClusters;
-    LampShadowHistory lampShadows;
-    LampListsHistory lampLists;
-    LampRelevance lampRelevance;
+    PunctualShadowHistory punctualShadows;
+    PunctualListsHistory punctualLists;
+    PunctualRelevance punctualRelevance;
     // Scratch, so that a steady frame allocates nothing
     std::vector<gi::RsmLight> lights;
     std::vector<gi::MovedThing> moved;
@@ -30,8 +30,8 @@ struct RenderFrame {
     GBuffer gbuffer;
     gi::BounceLight bounce;
     ShadowMaps shadows;
-    LampShadows lampShadows;
-    LampLists lampLists;
+    PunctualShadows punctualShadows;
+    PunctualLists punctualLists;
     gi::Irradiance direct;
     RenderOutputs outputs;
 };

@@ -131,11 +131,11 @@ void setUltra(RenderSettings& s) {
     gi::applyQuality("ultra", s.bounce);
 }
 
-// Direct light of many lamps: a shadow map each; as published; ours.
+// Direct light of many punctual lights: a shadow map each; as published; ours.
 void setLightsReference(RenderSettings& s) {
     s.technique = Technique::kNone;
-    s.lightClusters = {.growth = 0, .most = kMostLampClusters, .strongFirst = false, .hysteresis = 1};
-    s.lampLighting = {.tiles = false, .quads = false, .shadowReach = 0};
+    s.lightClusters = {.growth = 0, .most = kMostLightClusters, .strongFirst = false, .hysteresis = 1};
+    s.punctualLighting = {.tiles = false, .quads = false, .shadowReach = 0};
 }
 
 void setLightCluster(RenderSettings& s) {
@@ -144,8 +144,8 @@ void setLightCluster(RenderSettings& s) {
     s.lightClusters.strongFirst = false;
     s.lightClusters.hysteresis = 1;
     s.lightClusters.shareWithin = 0;
-    s.lampShadows.softTaps = 12;
-    s.lampLighting = {.tiles = false, .quads = false, .shadowReach = 0};
+    s.punctualShadows.softTaps = 12;
+    s.punctualLighting = {.tiles = false, .quads = false, .shadowReach = 0};
 }
 
 void setAfterglowLights(RenderSettings& s) {
@@ -213,8 +213,8 @@ void registerSettings(Settings& settings, RenderSettings& s) {
     registerFields(settings, "ssvp", s.ssvp);
     registerFields(settings, "shadow_maps", s.shadowMaps);
     registerFields(settings, "light_clusters", s.lightClusters);
-    registerFields(settings, "lamp_shadows", s.lampShadows);
-    registerFields(settings, "lamp_lighting", s.lampLighting);
+    registerFields(settings, "punctual_shadows", s.punctualShadows);
+    registerFields(settings, "punctual_lighting", s.punctualLighting);
     registerFields(settings, "composite", s.composite);
 }
 

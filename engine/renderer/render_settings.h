@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "engine/renderer/composite.h"
-#include "engine/renderer/lamp_lighting.h"
+#include "engine/renderer/punctual_lighting.h"
 #include "engine/renderer/shadow_maps.h"
 #include "gi/published/ssvp.h"
 #include "gi/settings.h"
@@ -37,8 +37,8 @@ struct RenderSettings {
     gi::SsvpSettings ssvp;
     ShadowMapSettings shadowMaps;
     LightClusterSettings lightClusters;
-    LampShadowSettings lampShadows;
-    LampLightingSettings lampLighting;
+    PunctualShadowSettings punctualShadows;
+    PunctualLightingSettings punctualLighting;
     CompositeSettings composite;
 
     bool operator==(const RenderSettings&) const = default;
@@ -49,8 +49,8 @@ struct RenderSettings {
 // (that, ours), "ism" (Ritschel et al. 2008), "ssvp" (two bounces, as published), "rsmc" (RSM clustering) and
 // "acrsm" (with adaption and shadows) as published, "afterglow" (the default), "afterglow-bounces" (with
 // every later bounce), and the default by budget: "low", "medium" (the same), "high", "ultra". For the direct
-// light of lamps, without bounces: "lights-reference" (a shadow map each), "lightcluster" as published,
-// "afterglow-lights" (the default's). False if there is no such preset.
+// light of punctual lights, without bounces: "lights-reference" (a shadow map each), "lightcluster" as
+// published, "afterglow-lights" (the default's). False if there is no such preset.
 bool applyPreset(std::string_view name, RenderSettings& s);
 std::span<const std::string_view> presetNames();
 

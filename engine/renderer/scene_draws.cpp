@@ -7,8 +7,8 @@ namespace {
 
 BucketRange rangeOf(const BucketRange& all, DrawLayer layer) {
     if (layer == DrawLayer::kAll) return all;
-    if (layer == DrawLayer::kStill) return {all.firstCommand, all.stillCount, all.stillCount};
-    return {all.firstCommand + all.stillCount, all.commandCount - all.stillCount, 0};
+    if (layer == DrawLayer::kStatic) return {all.firstCommand, all.staticCount, all.staticCount};
+    return {all.firstCommand + all.staticCount, all.commandCount - all.staticCount, 0};
 }
 
 }  // namespace

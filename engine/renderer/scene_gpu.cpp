@@ -172,7 +172,7 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
     sampledSet_ = set;
     const gi::SurfaceSamples chosen = sampleSurfaces(scene, kSurfaceSamples);
     sampleCount_ = uint32_t(chosen.samples.size());
-    stillSampleCount_ = chosen.stillCount;
+    staticSampleCount_ = chosen.staticCount;
     for (auto* old : {&samples_, &pointAreas_, &bouncePoints_})
         gpu::retire(device_, std::move(*old));
     bouncePointCount_ = 0;
@@ -192,7 +192,7 @@ void SceneGpu::noteMovements(const RenderScene& scene) {
     for (const RenderScene::Range& range : scene.changedInstances)
         for (uint32_t i = range.begin; i < range.end && !moved; ++i)
             moved = !scene.instances[i].movable;
-    if (moved) ++stillVersion_;
+    if (moved) ++staticVersion_;
     notedVersion_ = scene.instancesVersion;
 }
 
@@ -204,8 +204,8 @@ ViewSlots viewSlots(const RenderScene& scene) {
     }
     ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .firstRsm = 3};
     s.firstCascade = s.firstRsm + rsms;
-    s.firstLamp = s.firstCascade + cascades;
-    s.count = s.firstLamp + 6 * mostClustersNeeded(scene, kMostLampClusters);
+    s.firstLight = s.firstCascade + cascades;
+    s.count = s.firstLight + 6 * mostClustersNeeded(scene, kMostLightClusters);
     return s;
 }
 
@@ -248,8 +248,8 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
         view.surfaceSampleCount = sampleCount_;
         view.bouncePoints = scope.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
         view.bouncePointCount = bouncePointCount_;
-        view.stillSampleCount = stillSampleCount_;
-        view.stillVersion = combineHash(combineHash(sampledSet_, stillVersion_), scene.originVersion);
+        view.staticSampleCount = staticSampleCount_;
+        view.staticVersion = combineHash(combineHash(sampledSet_, staticVersion_), scene.originVersion);
     }
     view.camera = gi::addCamera(scope, "scene.camera", scene.camera, size);
     return view;

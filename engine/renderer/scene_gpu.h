@@ -22,7 +22,7 @@ namespace ag::render {
 // is culled for them lasts.
 struct ViewSlots {
     uint32_t camera = 0, moved = 0, everything = 0;
-    uint32_t firstRsm = 0, firstCascade = 0, firstLamp = 0;  // a row each
+    uint32_t firstRsm = 0, firstCascade = 0, firstLight = 0;  // a row each
     uint32_t count = 0;
 };
 // For each light at most a cube of RSMs and one of shadow views.
@@ -53,10 +53,10 @@ struct SceneView {
     BufferHandle surfaceSamples;  // io::SurfaceSample; also a texel buffer of vec4
     BufferHandle pointAreas;      // m² that a sample of each instance stands for: a texel buffer of float
     uint32_t surfaceSampleCount = 0;  // 0: no surface
-    uint32_t stillSampleCount = 0;    // the first ones are on what stands still
+    uint32_t staticSampleCount = 0;   // the first ones are on what is static
     BufferHandle bouncePoints;        // io::BouncePoint: some of the samples
     uint32_t bouncePointCount = 0;    // a square of a power of two, or 0
-    uint64_t stillVersion = 0;        // changes when an instance that is not movable may have moved
+    uint64_t staticVersion = 0;       // changes when an instance that is not movable may have moved
 };
 
 class SceneGpu {
@@ -114,11 +114,11 @@ class SceneGpu {
     std::unique_ptr<gpu::Buffer> samples_, pointAreas_, bouncePoints_;
     uint32_t bouncePointCount_ = 0;
     uint32_t sampleCount_ = 0;
-    uint32_t stillSampleCount_ = 0;
-    uint64_t stillVersion_ = 0, notedVersion_ = 0;  // notedVersion_: of the instances it is about
-    uint64_t sampledVersion_ = 0, sampledSet_ = 0;  // of the instances the samples are on
-    std::vector<io::Instance> rows_;                // scratch for the conversion
-    uint64_t instancesVersion_ = 0;                 // last uploaded
+    uint32_t staticSampleCount_ = 0;
+    uint64_t staticVersion_ = 0, notedVersion_ = 0;  // notedVersion_: of the instances it is about
+    uint64_t sampledVersion_ = 0, sampledSet_ = 0;   // of the instances the samples are on
+    std::vector<io::Instance> rows_;                 // scratch for the conversion
+    uint64_t instancesVersion_ = 0;                  // last uploaded
     std::array<Staging, kFramesInFlight> staging_;
     uint64_t uploadedBytes_ = 0;
 };

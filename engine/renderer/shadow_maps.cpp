@@ -87,7 +87,7 @@ struct LayerNames {
     std::string_view opaque, masked;
 };
 constexpr LayerNames kAllNames = {"shadow_maps.cascades", "shadow_maps.cascades_masked"};
-constexpr LayerNames kStillNames = {"shadow_maps.still", "shadow_maps.still_masked"};
+constexpr LayerNames kStaticNames = {"shadow_maps.static", "shadow_maps.static_masked"};
 constexpr LayerNames kMovableNames = {"shadow_maps.movable", "shadow_maps.movable_masked"};
 
 void drawCascades(PassBuilder& pass, const SceneView& scene, const Cascades& c, DrawFilter filter,
@@ -103,7 +103,7 @@ void addLayer(GraphScope scope, const SceneView& scene, const Cascades& c, DrawL
     PassBuilder opaque =
         scope.raster(names.opaque, "shadow_maps/depth.vert", "", gpu::VertexLayout::kPositions);
     if (layer == DrawLayer::kMovable)
-        opaque.depth(image);  // over what stands still
+        opaque.depth(image);  // over what is static
     else
         opaque.depthClear(image);
     opaque.geometry(scene.geometry).read("instances", scene.instances);
@@ -116,19 +116,19 @@ void addLayer(GraphScope scope, const SceneView& scene, const Cascades& c, DrawL
     drawCascades(masked, scene, c, DrawFilter::kMaskedOnly, layer);
 }
 
-// Where the views or what stands still changes from frame to frame, a layer of it would not last.
+// Where the views or what is static changes from frame to frame, a layer of it would not last.
 bool chooseLayered(const Cascades& c, SunShadowHistory& h) {
-    uint64_t still = hashBytes(std::as_bytes(c.views)), movable = 0;
+    uint64_t staticHash = hashBytes(std::as_bytes(c.views)), movable = 0;
     for (size_t v = 0; v < c.views.size(); ++v) {
-        still = combineHash(still, c.draws[v]->stillVersion);
+        staticHash = combineHash(staticHash, c.draws[v]->staticVersion);
         movable = combineHash(movable, c.draws[v]->movableVersion);
     }
-    if (still != h.still)
+    if (staticHash != h.staticHash)
         h.layered = false;
-    else if (movable != h.movable)
+    else if (movable != h.movableHash)
         h.layered = true;
-    h.still = still;
-    h.movable = movable;
+    h.staticHash = staticHash;
+    h.movableHash = movable;
     return h.layered;
 }
 
@@ -139,9 +139,9 @@ ImageHandle addAtlas(GraphScope scope, const SceneView& scene, const Cascades& c
         addLayer(scope, scene, c, DrawLayer::kAll, kAllNames, atlas);
         return atlas;
     }
-    const ImageHandle still = scope.image("shadow_maps.still_atlas", info);
-    addLayer(scope, scene, c, DrawLayer::kStill, kStillNames, still);
-    scope.copyImage("shadow_maps.copy", still, atlas);
+    const ImageHandle staticAtlas = scope.image("shadow_maps.static_atlas", info);
+    addLayer(scope, scene, c, DrawLayer::kStatic, kStaticNames, staticAtlas);
+    scope.copyImage("shadow_maps.copy", staticAtlas, atlas);
     addLayer(scope, scene, c, DrawLayer::kMovable, kMovableNames, atlas);
     return atlas;
 }

@@ -45,9 +45,9 @@ struct ShadowMaps {
     uint32_t sunCount = 0;
 };
 
-// What stands still has a layer of its own while nothing else of the maps changes than what may move.
+// What is static has a layer of its own while nothing else of the maps changes than what may move.
 struct SunShadowHistory {
-    uint64_t still = 0, movable = 0;  // what each layer was made of
+    uint64_t staticHash = 0, movableHash = 0;  // what each layer was made of
     bool layered = false;
 };
 

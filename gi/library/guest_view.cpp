@@ -121,7 +121,7 @@ gi::Surfaces GuestView::readSurfaces(GraphScope scope, const AgiFrame& f, const 
     gi::Surfaces s{.depth = scope.image("guest.read_depth", {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
                    .normal = scope.image("guest.read_normal", {.format = kHalf4, .size = size}),
                    .size = size,
-                   .bent = true,
+                   .normalMapped = true,
                    .view = camera_};
     if (glossy) {
         s.albedo = scope.image("guest.read_albedo", {.format = kHalf4, .size = size});

@@ -102,7 +102,7 @@ void SceneOnDevice::takePoints(GuestScene& scene) {
     for (io::BouncePoint& b : bounces)
         b.area *= area;
     sampleCount_ = uint32_t(points.samples.samples.size());
-    stillCount_ = points.samples.stillCount;
+    staticCount_ = points.samples.staticCount;
     bounceCount_ = uint32_t(bounces.size());
     for (auto* buffer : {&samples_, &pointAreas_, &bouncePoints_})
         gpu::retire(context_, std::move(*buffer));
@@ -126,14 +126,14 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
     }
     rowBounds_.resize(instances.size());
     rowVersions_.resize(instances.size());
-    bool stillMoved = allAnew_;
+    bool staticMoved = allAnew_;
     size_t movedCount = 0;
     const float perMetre = 1 / units_.length;
     for (size_t row = 0; row < instances.size(); ++row) {
         const GuestInstance& instance = instances[row];
         if (!allAnew_ && instance.moved <= movedVersion_) continue;
         ++movedCount;
-        stillMoved = stillMoved || !instance.movable;
+        staticMoved = staticMoved || !instance.movable;
         const GuestMesh& mesh = scene.meshes()[instance.mesh];
         const io::Instance packed = rowOf(instance, mesh.given.material, toOurs(instance.position), perMetre);
         stage(std::as_bytes(std::span(&packed, 1)), *instances_, row * sizeof packed);
@@ -145,7 +145,7 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
                               0.5f * glm::length(rowBounds_[row].max - rowBounds_[row].min)});
     }
     if (allAnew_ || movedCount > gi::kMostMovedThings) moved_.clear();
-    if (stillMoved) ++stillVersion_;
+    if (staticMoved) ++staticVersion_;
     allAnew_ = false;
     setVersion_ = scene.setVersion();
     movedVersion_ = scene.movedVersion();
@@ -212,8 +212,8 @@ gi::World SceneOnDevice::world() const {
 gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
     gi::Occluders o{.instances = scope.importBuffer("guest.instances", *instances_, 1),
                     .sampleCount = sampleCount_,
-                    .stillSampleCount = stillCount_,
-                    .stillVersion = combineHash(combineHash(pointsSet_, stillVersion_), origins_),
+                    .staticSampleCount = staticCount_,
+                    .staticVersion = combineHash(combineHash(pointsSet_, staticVersion_), origins_),
                     .extent = extent_};
     if (sampleCount_ == 0) return o;
     o.samples = scope.importBuffer("guest.samples", *samples_, pointsSet_);

@@ -49,7 +49,7 @@ class SceneOnDevice {
 
     gpu::Context& context_;
     uint64_t scene_ = 0;  // GuestScene::id
-    uint64_t setVersion_ = 0, movedVersion_ = 0, lightsVersion_ = 0, stillVersion_ = 0;
+    uint64_t setVersion_ = 0, movedVersion_ = 0, lightsVersion_ = 0, staticVersion_ = 0;
     glm::dvec3 origin_{0};
     bool originIsChosen_ = false;
     gi::RenderUnits units_;
@@ -60,7 +60,7 @@ class SceneOnDevice {
     bool allAnew_ = true;  // every row: origin, units or set are others
 
     std::unique_ptr<gpu::Buffer> instances_, samples_, pointAreas_, bouncePoints_;
-    uint32_t sampleCount_ = 0, stillCount_ = 0, bounceCount_ = 0;
+    uint32_t sampleCount_ = 0, staticCount_ = 0, bounceCount_ = 0;
     uint64_t pointsSet_ = 0;
     std::vector<Bounds> rowBounds_;
     std::vector<uint64_t> rowVersions_;

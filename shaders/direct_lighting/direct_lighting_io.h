@@ -1,5 +1,5 @@
-// Lights as direct lighting takes them: suns one by one, lamps (spots and points) by tiles of the screen and
-// in clusters that share a shadow map.
+// Lights as direct lighting takes them: suns one by one, punctual lights (spots and points) by tiles of the
+// screen and in clusters that share a shadow map.
 #ifndef AG_DIRECT_LIGHTING_IO_H
 #define AG_DIRECT_LIGHTING_IO_H
 
@@ -9,9 +9,9 @@
 namespace ag::io {
 #endif
 
-const uint kMaxLampsPerTile = 1024;  // further ones, in the order of clusters, are left out
-const uint kLampTileSize = 16;       // pixels
-const uint kNoLampCluster = 0xffffffffu;
+const uint kMaxPunctualLightsPerTile = 1024;  // further ones, in the order of clusters, are left out
+const uint kPunctualTileSize = 16;            // pixels
+const uint kNoLightCluster = 0xffffffffu;
 
 struct Sun {
     vec3 direction;   // the way the light travels, unit
@@ -20,11 +20,11 @@ struct Sun {
     uint viewCount;   // 0: casts no shadow
 };
 
-struct Lamp {             // 4 vec4; sorted by cluster
+struct PunctualLight {    // 4 vec4; sorted by cluster
     vec3 position;        // m
     float inverseRange2;  // 1/m², 0: no limit
     vec3 intensity;       // W/sr
-    uint cluster;         // kNoLampCluster: casts no shadow
+    uint cluster;         // kNoLightCluster: casts no shadow
     vec3 axis;  // of a spot, against the way the light travels, over the span of cosines it fades in
     float
         coneOffset;  // the share of the axial intensity is (dot(axis, to the light) + this)², within 0 and 1
@@ -33,29 +33,29 @@ struct Lamp {             // 4 vec4; sorted by cluster
     uint unused;
 };
 
-struct LampRelevance {
+struct PunctualRelevance {
     uvec2 id;
-    float relevance;  // W/m² without shadows, summed over channels and points of the view; 0: not a lamp
+    float relevance;  // W/m² without shadows, summed over channels and points of the view; 0: not a light
 };
 
-struct LampCluster {     // 4 vec4
-    vec3 center;         // m
-    float radius;        // m, of the light its shadows have
-    vec3 direction;      // of a spot's single view; zero: six faces of a cube
-    float tanHalf;       // of a view's half angle
-    uvec2 origin;        // first texel of the first view; the others' lie beside it, three a row
-    uint size;           // texels along a view's side
-    float nearDistance;  // m, of the views' planes
+struct LightClusterRow {  // 4 vec4
+    vec3 center;          // m
+    float radius;         // m, of the light its shadows have
+    vec3 direction;       // of a spot's single view; zero: six faces of a cube
+    float tanHalf;        // of a view's half angle
+    uvec2 origin;         // first texel of the first view; the others' lie beside it, three a row
+    uint size;            // texels along a view's side
+    float nearDistance;   // m, of the views' planes
     float farDistance;
     uint unused[3];
 };
 
-struct LampPush {
-    uint lampCount;
+struct PunctualPush {
+    uint lightCount;
 };
 
 struct MeasurePush {
-    uint lampCount, pointCount;  // of the view's points, the first so many
+    uint lightCount, pointCount;  // of the view's points, the first so many
 };
 
 #ifdef __cplusplus

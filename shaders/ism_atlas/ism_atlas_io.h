@@ -20,18 +20,18 @@ const float kIsmHalfTexel = 1.2533141f;
 const uint kIsmPointBits = 17;
 const uint kIsmNoPoint = 0xffffffffu;
 
-// Of one layer: the points that stand still or those that may move.
+// Of one layer: the static points or those that may move.
 struct IsmSplatPush {
     uint pointCount;                // of both layers
     uint firstSegment, endSegment;  // the layer's
     uint tileSize;                  // texels along a map's side
-    uint firstEntry, entryCount;    // the layer's among a map's points: the still ones come first
+    uint firstEntry, entryCount;    // the layer's among a map's points: the static ones come first
     float diskRadius;               // over that of disks with the surfaces' area together
     float inverseExtent;            // 1/m: of the greatest distance
-    uint contents;                  // changes with the still points and with what maps are made like
+    uint contents;                  // changes with the static points and with what maps are made like
 };
 
-struct IsmPlace {   // what the still layer of a map was last made for
+struct IsmPlace {   // what the static layer of a map was last made for
     vec3 position;  // m
     uint contents;  // as above; 0: never made
     vec3 normal;
@@ -49,7 +49,7 @@ const uint kIsmRegionSide = 16;  // a map of the largest has 8 by 8
 const int kIsmWidestHole = 2;    // texels to either side that close one
 
 struct IsmFinish {    // what a map was last finished from
-    uint made;        // the number of its still layer
+    uint made;        // the number of its static layer
     uint touched[2];  // a bit a region: movable surfaces may show in it
 };
 

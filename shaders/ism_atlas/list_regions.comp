@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Before movable surfaces are splatted: the regions where the still layer is to show again. After it: those to finish anew.
+// Before movable surfaces are splatted: the regions where the static layer is to show again. After it: those to finish anew.
 // Both are where movable surfaces showed when the map was finished last (after it also where they show now), and all where
-// the still layer is another.
+// the static layer is another.
 #include "ism_atlas/regions.glsl"
 
 layout(local_size_x = 64) in;

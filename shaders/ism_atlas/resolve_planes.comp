@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Of listed regions the nearest points' planes and distances, for the lookup. Where the surface is bent, the plane is moved behind it, so
+// Of listed regions the nearest points' planes and distances, for the lookup. Where the surface is curved, the plane is moved behind it, so
 // that a fold does not shadow itself.
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
@@ -11,29 +11,29 @@ layout(local_size_x = 256) in;  // a region
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
 layout(constant_id = 0) const bool kPlanes = true;  // else distances
-layout(constant_id = 2) const bool kMoving = false;  // some points may move
+layout(constant_id = 2) const bool kMovable = false;  // some points may move
 layout(constant_id = 1) const bool kLast = false;   // nothing is closed: maps row by row
 
 layout(set = 0, binding = 0) uniform samplerBuffer points;
 layout(set = 0, binding = 1) uniform samplerBuffer vals;
 layout(set = 0, binding = 2) uniform usamplerBuffer keys;
-layout(set = 0, binding = 4) uniform usamplerBuffer stillChosen;
-layout(set = 0, binding = 6) uniform usamplerBuffer movingChosen;
+layout(set = 0, binding = 4) uniform usamplerBuffer staticChosen;
+layout(set = 0, binding = 6) uniform usamplerBuffer movableChosen;
 layout(set = 0, binding = 5, scalar) readonly buffer Listed { uint items[]; } listed;
 layout(set = 0, binding = 3, scalar) writeonly buffer Planes { vec4 items[]; } planes;
 
-// How far the surface may lie behind what the texel holds, within a disk or the texel, whichever is larger: a bend of k
+// How far the surface may lie behind what the texel holds, within a disk or the texel, whichever is larger: a curvature of k
 // gives k r² / 2; what is known by its distance alone may slope as it likes.
-float depthWithin(float bend, float radius, float distance_) {
+float depthWithin(float curvature, float radius, float distance_) {
     float r = max(radius, kIsmHalfTexel * distance_ / float(push.p.tileSize));
-    return kPlanes ? min(0.5 * bend * r * r, r) : r;
+    return kPlanes ? min(0.5 * curvature * r * r, r) : r;
 }
 
-// The push constants are the moving layer's.
+// The push constants are the movable layer's.
 uint chosenOf(uint map, uint entry) {
-    uint moving = min(entry - push.p.firstEntry, push.p.entryCount - 1u), still = min(entry, push.p.firstEntry - 1u);
-    return kMoving && entry >= push.p.firstEntry ? texelFetch(movingChosen, int(map * push.p.entryCount + moving)).x
-                                                 : texelFetch(stillChosen, int(map * push.p.firstEntry + still)).x;
+    uint movableEntry = min(entry - push.p.firstEntry, push.p.entryCount - 1u), staticEntry = min(entry, push.p.firstEntry - 1u);
+    return kMovable && entry >= push.p.firstEntry ? texelFetch(movableChosen, int(map * push.p.entryCount + movableEntry)).x
+                                                 : texelFetch(staticChosen, int(map * push.p.firstEntry + staticEntry)).x;
 }
 
 void main() {

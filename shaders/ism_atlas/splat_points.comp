@@ -44,7 +44,7 @@ struct Splat {
 };
 
 // How far the disk extends along the map's axes, texels: its radius across the coordinates' gradients, within its plane.
-// A quarter texel is for what bends in between.
+// A quarter texel is for what curves in between.
 vec2 reachOf(Splat s, vec3 normal) {
     vec3 u, v;
     ismGradients(s.place, u, v);

@@ -23,7 +23,7 @@ SurfaceSample fetchSample(int i) {
     s.positionLocal = a.xyz;
     s.instance = floatBitsToUint(a.w);
     s.normalLocal = n.xyz;
-    s.bendLocal = n.w;
+    s.curvatureLocal = n.w;
     for (int k = 0; k < 2; ++k) s.edgesLocal[k] = edgeOf(texelFetch(samples, i * 4 + 2 + k));
     return s;
 }
@@ -36,12 +36,12 @@ void main() {
 #ifdef AG_SKINNED
     if (t.skinnedMesh != kNoSkinnedMesh)
         s = AG_DEFORMED_SAMPLE(deformedPositions, deformedAttributes, s.instance, s.positionLocal,
-                               floatBitsToUint(vec4(s.normalLocal, s.bendLocal)));
+                               floatBitsToUint(vec4(s.normalLocal, s.curvatureLocal)));
 #endif
     SurfacePoint p;
     p.position = transformPoint(t, s.positionLocal);
     p.normal = normalize(transformNormal(t, s.normalLocal));
-    p.bend = s.bendLocal / max(length(transformDirection(t, s.normalLocal)), 1e-20);
+    p.curvature = s.curvatureLocal / max(length(transformDirection(t, s.normalLocal)), 1e-20);
     p.radius = sqrt(texelFetch(areas, int(s.instance)).x / kPi);
     for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, s.edgesLocal[k]);
     points.items[i] = p;

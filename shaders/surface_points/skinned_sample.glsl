@@ -9,7 +9,7 @@ SurfaceSample deformedSample(vec3 a, vec3 b, vec3 c, vec3 normalA, vec3 normalB,
                              vec3 weights, uint sharp) {
     SurfaceSample s = sampleOfTriangle(a, b, c, weights, sharp);
     s.instance = instance;
-    s.bendLocal = bendOfTriangle(a, b, c, normalA, normalB, normalC);
+    s.curvatureLocal = curvatureOfTriangle(a, b, c, normalA, normalB, normalC);
     return s;
 }
 

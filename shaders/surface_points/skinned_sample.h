@@ -31,7 +31,7 @@ AG_FUNCTION SurfaceSample sampleOfTriangle(vec3 a, vec3 b, vec3 c, vec3 weights,
     s.instance = 0u;
     s.positionLocal = a * weights.x + b * weights.y + c * weights.z;
     s.normalLocal = normal * inversesqrt(max(dot(normal, normal), 1e-37f));
-    s.bendLocal = 0.0f;
+    s.curvatureLocal = 0.0f;
     s.edgesLocal[0].inward = vec3(0.0f);
     s.edgesLocal[0].distance = 1e30f;
     s.edgesLocal[1] = s.edgesLocal[0];
@@ -43,7 +43,7 @@ AG_FUNCTION SurfaceSample sampleOfTriangle(vec3 a, vec3 b, vec3 c, vec3 weights,
 }
 
 // The most that smooth normals turn along a side, over its length.
-AG_FUNCTION float bendOfTriangle(vec3 a, vec3 b, vec3 c, vec3 normalA, vec3 normalB, vec3 normalC) {
+AG_FUNCTION float curvatureOfTriangle(vec3 a, vec3 b, vec3 c, vec3 normalA, vec3 normalB, vec3 normalC) {
     float ab = length(normalB - normalA) / max(length(b - a), 1e-12f);
     float bc = length(normalC - normalB) / max(length(c - b), 1e-12f);
     float ca = length(normalA - normalC) / max(length(a - c), 1e-12f);

@@ -16,8 +16,8 @@ struct SurfaceEdge {  // where a flat piece of surface ends, seen from a point o
 struct SurfaceSample {  // 4 vec4: where on which instance, moving with it
     vec3 positionLocal;
     uint instance;
-    vec3 normalLocal;  // unit, of the triangle
-    float bendLocal;   // 1/m: how fast the smooth normal turns along the triangle
+    vec3 normalLocal;      // unit, of the triangle
+    float curvatureLocal;  // 1/m: how fast the smooth normal turns along the triangle
     SurfaceEdge edgesLocal[2];
 };
 
@@ -32,7 +32,7 @@ const uint kSharpCutOut = 8u;  // among corners.w: an alpha-masked surface is cu
 
 struct SurfacePoint {  // 4 vec4
     vec3 position;     // m
-    float bend;        // 1/m
+    float curvature;   // 1/m
     vec3 normal;       // unit
     float radius;      // m, of a disk as large as what it stands for
     SurfaceEdge edges[2];

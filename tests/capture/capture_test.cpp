@@ -85,8 +85,8 @@ TEST(Trace, HasReasonsCountersAndArrows) {
         EXPECT_FALSE(std::string(e.at("args").at("reason")).empty()) << e.at("name");
     }
     EXPECT_GT(leftOut, 0);
-    for (const char* name : {"area lights", "shadow map tiles splatted", "lamp shadow faces redrawn",
-                             "entities changed", "bytes uploaded"})
+    for (const char* name : {"area lights", "shadow map tiles splatted",
+                             "punctual light shadow faces redrawn", "entities changed", "bytes uploaded"})
         EXPECT_TRUE(counters.contains(name)) << name;
     EXPECT_TRUE(fromSystem);
     for (const auto& [id, balance] : arrows)

@@ -50,8 +50,8 @@ render::RenderSettings smallSettings() {
     gi.shadowMaps.resolution = 64;
     gi.shadowMaps.cascades = 2;
     gi.lightClusters.most = 4;
-    gi.lampShadows.faceResolution = 32;
-    gi.lampShadows.atlasSize = 512;
+    gi.punctualShadows.faceResolution = 32;
+    gi.punctualShadows.atlasSize = 512;
     gi.bounce.refresh = {.lightFrames = 5, .pixelFrames = 3, .small = 0.5f};
     return gi;
 }

@@ -11,7 +11,7 @@ struct Lit {
     operator World() const { return {.lights = lights, .bounds = {glm::vec3(-2), glm::vec3(2)}}; }
 };
 
-Lit threeLamps() {
+Lit threeLights() {
     Lit scene;
     for (uint64_t id = 1; id <= 3; ++id)
         scene.lights.push_back({.kind = LightKind::kSpot, .intensity = glm::vec3(10 * float(id)), .id = id});
@@ -32,7 +32,7 @@ Range rangeOf(const RsmLayout& layout, uint64_t id) {
 
 TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
     for (const uint32_t budget : {3u, 16u, 23u, 40u, 64u, 100u, 128u, 1024u}) {
-        Lit scene = threeLamps();
+        Lit scene = threeLights();
         ClusterShares shares;
         const RsmLayout layout = layoutRsm(scene, {}, budget, shares);
         uint32_t next = 0;
@@ -49,8 +49,8 @@ TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
     }
 }
 
-TEST(ClusterShares, ALampThatFlickersTakesNothingFromTheOthers) {
-    Lit scene = threeLamps();
+TEST(ClusterShares, ALightThatFlickersTakesNothingFromTheOthers) {
+    Lit scene = threeLights();
     ClusterShares shares;
     const RsmLayout before = layoutRsm(scene, {}, 128, shares);
     for (int frame = 0; frame < 100; ++frame) {
@@ -67,7 +67,7 @@ TEST(ClusterShares, ALampThatFlickersTakesNothingFromTheOthers) {
 }
 
 TEST(ClusterShares, FollowLightThatStaysChanged) {
-    Lit scene = threeLamps();
+    Lit scene = threeLights();
     ClusterShares shares;
     const uint32_t before = rangeOf(layoutRsm(scene, {}, 128, shares), 1).count;
     scene.lights[0].intensity *= 9.0f;
@@ -78,7 +78,7 @@ TEST(ClusterShares, FollowLightThatStaysChanged) {
 }
 
 TEST(ClusterShares, OfALightThatStaysDarkGoToTheOthers) {
-    Lit scene = threeLamps();
+    Lit scene = threeLights();
     ClusterShares shares;
     layoutRsm(scene, {}, 128, shares);
     scene.lights[2].intensity = glm::vec3(0);
@@ -102,7 +102,7 @@ uint64_t texelsOf(const RsmLayout& layout) {
 }
 
 TEST(RsmSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
-    Lit scene = threeLamps();
+    Lit scene = threeLights();
     ClusterShares shares;
     EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), 3u * 512 * 512);
     EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 64}, 128, shares)), 3u * 64 * 64);
@@ -112,7 +112,7 @@ TEST(RsmSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
 }
 
 TEST(RsmSizes, OfManyLightsAreHalvedAndDarkOnesCount) {
-    Lit scene = threeLamps();
+    Lit scene = threeLights();
     for (uint64_t id = 4; id <= 8; ++id)
         scene.lights.push_back({.kind = LightKind::kPoint, .intensity = glm::vec3(1), .id = id});
     ClusterShares shares;

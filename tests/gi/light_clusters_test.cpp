@@ -1,4 +1,4 @@
-// Clusters of lamps against the plain definition of both passes.
+// Clusters of punctual lights against the plain definition of both passes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-RenderScene sceneWithLamps(uint32_t count) {
+RenderScene sceneWithLights(uint32_t count) {
     RenderScene scene;
     for (uint32_t i = 0; i < count; ++i)
         scene.lights.push_back({.kind = i % 5 == 4 ? LightKind::kSpot : LightKind::kPoint,
@@ -31,47 +31,47 @@ LightClusterSettings published() {
 }
 
 TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
-    const RenderScene scene = sceneWithLamps(300);
+    const RenderScene scene = sceneWithLights(300);
     const LightClusterSettings s = published();
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, s, history);
+    const LightClusters& c = clusterLights(scene, {}, s, history);
     ASSERT_GT(c.clusters.size(), 5u);
     EXPECT_EQ(c.stretch, 1);
-    // First pass: in order, each lamp that keeps its distance from all centres before it.
+    // First pass: in order, each light that keeps its distance from all centres before it.
     std::vector<uint32_t> centers;
-    for (const uint32_t lamp : c.lamps) {
-        const glm::vec3 p = scene.lights[lamp].position;
+    for (const uint32_t light : c.lights) {
+        const glm::vec3 p = scene.lights[light].position;
         const float apart = s.growth * glm::distance(p, scene.camera.position);
         bool alone = true;
         for (const uint32_t center : centers)
             alone = alone && glm::distance(scene.lights[center].position, p) >= apart;
-        if (alone) centers.push_back(lamp);
+        if (alone) centers.push_back(light);
     }
     ASSERT_EQ(centers.size(), c.clusters.size());
     for (size_t k = 0; k < centers.size(); ++k)
         EXPECT_EQ(c.clusters[k].center, centers[k]);
     // Second pass: the nearest centre.
-    uint32_t lamps = 0;
-    for (size_t i = 0; i < c.lamps.size(); ++i) {
+    uint32_t lights = 0;
+    for (size_t i = 0; i < c.lights.size(); ++i) {
         ASSERT_LT(c.clusterOf[i], c.clusters.size());
-        const glm::vec3 p = scene.lights[c.lamps[i]].position;
+        const glm::vec3 p = scene.lights[c.lights[i]].position;
         const float mine = glm::distance(p, scene.lights[c.clusters[c.clusterOf[i]].center].position);
         for (const uint32_t center : centers)
             EXPECT_LE(mine, glm::distance(p, scene.lights[center].position));
         EXPECT_LE(mine, c.clusters[c.clusterOf[i]].radius);
     }
     for (const LightCluster& cluster : c.clusters)
-        lamps += cluster.lampCount;
-    EXPECT_EQ(lamps, c.lamps.size());
+        lights += cluster.lightCount;
+    EXPECT_EQ(lights, c.lights.size());
 }
 
-TEST(LightClusters, LampsThatCannotReachTheViewAreLeftOut) {
-    RenderScene scene = sceneWithLamps(300);
+TEST(LightClusters, PunctualThatCannotReachTheViewAreLeftOut) {
+    RenderScene scene = sceneWithLights(300);
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, published(), history);
-    std::set<uint32_t> seen(c.lamps.begin(), c.lamps.end());
+    const LightClusters& c = clusterLights(scene, {}, published(), history);
+    std::set<uint32_t> seen(c.lights.begin(), c.lights.end());
     EXPECT_LT(seen.size(), 300u);
-    // Every lamp with a point of its sphere in the view is there: corners of the view at many distances.
+    // Every light with a point of its sphere in the view is there: corners of the view at many distances.
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
         for (uint32_t k = 0; k < 2000 && !seen.contains(i); ++k) {
             const glm::vec2 at = io::hammersley(k, 2000) * 2.0f - 1.0f;
@@ -82,37 +82,37 @@ TEST(LightClusters, LampsThatCannotReachTheViewAreLeftOut) {
         }
     for (RenderLight& light : scene.lights)
         light.position.z += 100;
-    EXPECT_TRUE(clusterLamps(scene, {}, published(), history).lamps.empty());
+    EXPECT_TRUE(clusterLights(scene, {}, published(), history).lights.empty());
     EXPECT_TRUE(history.clusters.clusters.empty());
 }
 
 TEST(LightClusters, TheBudgetIsKeptByStretchingDistances) {
-    const RenderScene scene = sceneWithLamps(1000);
+    const RenderScene scene = sceneWithLights(1000);
     for (const uint32_t most : {1u, 4u, 10u, 26u, 100u}) {
         LightClusterHistory history;
         LightClusterSettings s = published();
         s.most = most;
-        const LightClusters& c = clusterLamps(scene, {}, s, history);
+        const LightClusters& c = clusterLights(scene, {}, s, history);
         EXPECT_LE(c.clusters.size(), most);
         EXPECT_GE(c.clusters.size(), most - most / 4) << "little of the budget is left";
         EXPECT_GE(c.stretch, 1);
     }
 }
 
-TEST(LightClusters, WithoutADistanceEachLampStandsForItself) {
-    const RenderScene scene = sceneWithLamps(100);
+TEST(LightClusters, WithoutADistanceEachPunctualStandsForItself) {
+    const RenderScene scene = sceneWithLights(100);
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, {.growth = 0, .most = 256, .hysteresis = 1}, history);
-    EXPECT_EQ(c.clusters.size(), c.lamps.size());
+    const LightClusters& c = clusterLights(scene, {}, {.growth = 0, .most = 256, .hysteresis = 1}, history);
+    EXPECT_EQ(c.clusters.size(), c.lights.size());
     for (const LightCluster& cluster : c.clusters) {
-        EXPECT_EQ(cluster.lampCount, 1u);
+        EXPECT_EQ(cluster.lightCount, 1u);
         EXPECT_EQ(cluster.radius, 0);
     }
 }
 
 // Along a walk, how many centres are new from step to step.
 int newCenters(const LightClusterSettings& settings) {
-    RenderScene scene = sceneWithLamps(300);
+    RenderScene scene = sceneWithLights(300);
     LightClusterHistory history;
     std::vector<uint64_t> before;
     int fresh = 0;
@@ -120,7 +120,7 @@ int newCenters(const LightClusterSettings& settings) {
         const float t = float(step) / 120;
         setCamera(scene, {.position = {8 * t - 4, 2, 12 - 4 * t}, .forward = {0, 0, -1}, .verticalFov = 1},
                   {160, 90});
-        clusterLamps(scene, {}, settings, history);
+        clusterLights(scene, {}, settings, history);
         for (const uint64_t id : history.centers)
             fresh += step > 0 && !std::ranges::binary_search(before, id);
         before = history.centers;
@@ -138,36 +138,36 @@ TEST(LightClusters, CentresKeepTheirRoleAlongAWalk) {
 
 // Where nothing changes nothing may: a budget, hysteresis and a second look must not shift centres.
 TEST(LightClusters, NothingMovesNothingChanges) {
-    RenderScene scene = sceneWithLamps(300);
+    RenderScene scene = sceneWithLights(300);
     for (const uint32_t most : {10u, 26u, 100u}) {
         LightClusterSettings s;
         s.most = most;
         LightClusterHistory history;
-        const std::vector<uint32_t> first = clusterLamps(scene, {}, s, history).clusterOf;
+        const std::vector<uint32_t> first = clusterLights(scene, {}, s, history).clusterOf;
         for (int i = 0; i < 5; ++i)
-            EXPECT_EQ(clusterLamps(scene, {}, s, history).clusterOf, first);
-        // A lamp that moves or a camera that turns is looked at again.
-        const uint32_t seen = history.clusters.lamps[0];
+            EXPECT_EQ(clusterLights(scene, {}, s, history).clusterOf, first);
+        // A light that moves or a camera that turns is looked at again.
+        const uint32_t seen = history.clusters.lights[0];
         const glm::vec3 before = scene.lights[seen].position;
         scene.lights[seen].position += glm::vec3(0, 100, 0);
-        const LightClusters& moved = clusterLamps(scene, {}, s, history);
-        EXPECT_EQ(std::ranges::count(moved.lamps, seen), 0);
+        const LightClusters& moved = clusterLights(scene, {}, s, history);
+        EXPECT_EQ(std::ranges::count(moved.lights, seen), 0);
         scene.lights[seen].position = before;
     }
 }
 
-TEST(LightClusters, LampsWithoutShadowHaveNoCluster) {
-    RenderScene scene = sceneWithLamps(50);
+TEST(LightClusters, PunctualWithoutShadowHaveNoCluster) {
+    RenderScene scene = sceneWithLights(50);
     for (RenderLight& light : scene.lights)
         light.castsShadow = light.id % 2 == 0;
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, {.shareWithin = 0}, history);
-    for (size_t i = 0; i < c.lamps.size(); ++i)
-        EXPECT_EQ(c.clusterOf[i] == LightClusters::kNoCluster, !scene.lights[c.lamps[i]].castsShadow);
+    const LightClusters& c = clusterLights(scene, {}, {.shareWithin = 0}, history);
+    for (size_t i = 0; i < c.lights.size(); ++i)
+        EXPECT_EQ(c.clusterOf[i] == LightClusters::kNoCluster, !scene.lights[c.lights[i]].castsShadow);
     // Nor do those far from the centre they would share with, measured by their range.
-    const LightClusters& few = clusterLamps(scene, {}, {.most = 3, .shareWithin = 1}, history);
-    for (size_t i = 0; i < few.lamps.size(); ++i) {
-        const RenderLight& light = scene.lights[few.lamps[i]];
+    const LightClusters& few = clusterLights(scene, {}, {.most = 3, .shareWithin = 1}, history);
+    for (size_t i = 0; i < few.lights.size(); ++i) {
+        const RenderLight& light = scene.lights[few.lights[i]];
         float nearest = 1e30f;
         for (const LightCluster& cluster : few.clusters)
             nearest = std::min(nearest, glm::distance(scene.lights[cluster.center].position, light.position));
@@ -175,10 +175,10 @@ TEST(LightClusters, LampsWithoutShadowHaveNoCluster) {
     }
 }
 
-// Lamps that light nothing seen get no map, however strong they are.
-TEST(LightClusters, LampsThatMatterBecomeCentres) {
-    RenderScene scene = sceneWithLamps(60);
-    std::vector<io::LampRelevance> rows;
+// Lights that light nothing seen get no map, however strong they are.
+TEST(LightClusters, PunctualThatMatterBecomeCentres) {
+    RenderScene scene = sceneWithLights(60);
+    std::vector<io::PunctualRelevance> rows;
     std::set<uint32_t> matter;
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
         const bool matters = i % 6 == 1;
@@ -187,23 +187,23 @@ TEST(LightClusters, LampsThatMatterBecomeCentres) {
         scene.lights[i].intensity = glm::vec3(matters ? 1 : 100);
         rows.push_back({.id = {uint32_t(scene.lights[i].id), 0}, .relevance = matters ? 5.0f : 1e-6f});
     }
-    rows.push_back({.id = {7, 0}, .relevance = 0});  // no lamp
-    LampRelevance relevance;
+    rows.push_back({.id = {7, 0}, .relevance = 0});  // no light
+    PunctualRelevance relevance;
     relevance.set(std::as_bytes(std::span(rows)));
     EXPECT_NEAR(relevance.mean(), 5.0 / 6, 0.01);
     EXPECT_FALSE(relevance.of(1000).has_value());
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, relevance, {.most = 6}, history);
+    const LightClusters& c = clusterLights(scene, relevance, {.most = 6}, history);
     ASSERT_GE(c.clusters.size(), 4u);
     for (const LightCluster& cluster : c.clusters)
         EXPECT_TRUE(matter.contains(cluster.center)) << cluster.center;
 }
 
-TEST(LightClusters, AHundredThousandLampsAreLimitedToTheBrightest) {
-    RenderScene scene = sceneWithLamps(100'000);
+TEST(LightClusters, AHundredThousandLightsAreLimitedToTheBrightest) {
+    RenderScene scene = sceneWithLights(100'000);
     LightClusterHistory history;
-    const LightClusters& c = clusterLamps(scene, {}, {.shareWithin = 0}, history);
-    EXPECT_EQ(c.lamps.size(), kMostLamps);
+    const LightClusters& c = clusterLights(scene, {}, {.shareWithin = 0}, history);
+    EXPECT_EQ(c.lights.size(), kMostPunctualLights);
     EXPECT_GT(c.leftOut, 50'000u);
     EXPECT_LE(c.clusters.size(), LightClusterSettings{}.most);
     const auto brightness = [&](uint32_t i) {
@@ -211,7 +211,7 @@ TEST(LightClusters, AHundredThousandLampsAreLimitedToTheBrightest) {
         return scene.lights[i].intensity.x / std::max(d * d, 1.0f);
     };
     float least = 1e30f, mostLeftOut = 0;
-    std::set<uint32_t> taken(c.lamps.begin(), c.lamps.end());
+    std::set<uint32_t> taken(c.lights.begin(), c.lights.end());
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
         const bool seen =
             sphereInView(scene.camera.clipFromWorld, scene.lights[i].position, scene.lights[i].range);

@@ -11,7 +11,7 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-// A lamp over a room, a ball's worth of a box in it.
+// A light over a room, a ball's worth of a box in it.
 SceneAsset roomWithBox(float size) {
     scenegen::SceneBuilder room("room");
     const uint32_t white = room.material("white", glm::vec3(0.7f));
@@ -144,7 +144,7 @@ TEST(Refresh, CanBeTurnedOff) {
         EXPECT_TRUE(r.isAll(r.frame(true)));
 }
 
-// A box of 0.1 m in a ball, under a lamp that lights a cone of 60 degrees to either side.
+// A box of 0.1 m in a ball, under a light that lights a cone of 60 degrees to either side.
 TEST(Refresh, SharesAreOfDirections) {
     Refreshed r;
     r.frame(true);
@@ -163,10 +163,10 @@ TEST(Refresh, SharesAreOfDirections) {
     EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), ofPicture,
                 0.02 * ofPicture);
     r.scene.camera.forward = -r.scene.camera.forward;  // looks away
-    const double ofLamp = ofBall(3) / (1 - std::cos(glm::radians(60.0)));
-    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), ofLamp,
-                0.02 * ofLamp);
-    r.scene.lights[0].direction = {0, 1, 0};  // and so does the lamp
+    const double ofLight = ofBall(3) / (1 - std::cos(glm::radians(60.0)));
+    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), ofLight,
+                0.02 * ofLight);
+    r.scene.lights[0].direction = {0, 1, 0};  // and so does the light
     EXPECT_EQ(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), 0);
 }
 

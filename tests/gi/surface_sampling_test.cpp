@@ -1,5 +1,5 @@
 // Points on surfaces: spread by area along a curve whose every n-th point is spread too, aware of where
-// surfaces end and how they bend.
+// surfaces end and how they curve.
 #include "engine/renderer/scene_surfaces.h"
 
 #include <gtest/gtest.h>
@@ -107,7 +107,7 @@ TEST(SurfaceSampling, EveryNthLeavesNoLargeHoles) {
     }
 }
 
-// What moves has segments of its own, behind those of what stands still, and points by its share of the area.
+// What moves has segments of its own, behind those of what is static, and points by its share of the area.
 TEST(SurfaceSampling, MovableInstancesHaveTheirOwnSegments) {
     const SceneAsset asset = floorAndBox();
     for (const uint32_t moving : {0u, 1u}) {
@@ -115,16 +115,16 @@ TEST(SurfaceSampling, MovableInstancesHaveTheirOwnSegments) {
         scene.instances[moving].movable = true;
         const SurfaceSamples all = render::sampleSurfaces(scene, 8192);
         ASSERT_EQ(all.samples.size(), 8192u);
-        EXPECT_EQ(all.stillCount % io::kSegmentPoints, 0u);
+        EXPECT_EQ(all.staticCount % io::kSegmentPoints, 0u);
         EXPECT_NEAR(areaOf(all), 22, 1e-3);
         for (size_t i = 0; i < all.samples.size(); ++i)
-            ASSERT_EQ(all.samples[i].instance == moving, i >= all.stillCount) << i;
-        EXPECT_NEAR((moving ? 6 : 16) / 22.0, double(8192 - all.stillCount) / 8192, 0.01);
+            ASSERT_EQ(all.samples[i].instance == moving, i >= all.staticCount) << i;
+        EXPECT_NEAR((moving ? 6 : 16) / 22.0, double(8192 - all.staticCount) / 8192, 0.01);
     }
     RenderScene scene = staticScene(asset);
     for (RenderInstance& instance : scene.instances)
         instance.movable = true;
-    EXPECT_EQ(render::sampleSurfaces(scene, 8192).stillCount, 0u);
+    EXPECT_EQ(render::sampleSurfaces(scene, 8192).staticCount, 0u);
 }
 
 // A box of 6 m² beside a floor of 160,000 m² would get a point by its area alone.
@@ -198,21 +198,21 @@ TEST(SurfaceSampling, SegmentsOfTheCurveAreCompact) {
     EXPECT_LT(sum / double(segments), 12 * double(side));
 }
 
-TEST(SurfaceSampling, BendIsTheCurvatureOfASphereAndNoneOfABox) {
-    const auto bends = [](const RenderScene& scene) {
+TEST(SurfaceSampling, CurvatureIsASpheresAndNoneOfABox) {
+    const auto curvatures = [](const RenderScene& scene) {
         std::vector<float> all;
         for (const io::SurfaceSample& s : render::sampleSurfaces(scene, 1000).samples)
-            all.push_back(s.bendLocal);
+            all.push_back(s.curvatureLocal);
         std::ranges::sort(all);
         return all;
     };
     const SceneAsset flat = floorAndBox();
-    EXPECT_EQ(bends(staticScene(flat)).back(), 0);
+    EXPECT_EQ(curvatures(staticScene(flat)).back(), 0);
     const GeometryArrays sphere = sphereOf(0.5f);
     RenderScene scene{.geometry = &sphere};
     scene.instances.resize(1);
     scene.bounds = {glm::vec3(-0.5f), glm::vec3(0.5f)};
-    const auto ball = bends(scene);
+    const auto ball = curvatures(scene);
     EXPECT_NEAR(ball[ball.size() / 2], 2, 0.1) << "1/m on a sphere of 0.5 m";
 }
 

@@ -134,7 +134,7 @@ TEST(Upsampling, TakesLightAsEachPixelIsTurned) {
         b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.bounce1.image); };
         for (int frame = 0; frame < 8; ++frame)
             b.frame();
-        EXPECT_TRUE(b.last.gbuffer.surfaces.bent);
+        EXPECT_TRUE(b.last.gbuffer.surfaces.normalMapped);
         return readImage(b.renderer, b.last.bounce.bounce1.image);
     };
     const Image truth = bounce(1), image = bounce(2);
@@ -194,7 +194,7 @@ TEST(StochasticRsm, SamplesBehindAnObstacleDoNotArrive) {
 }
 
 TEST(Denoiser, LightThatChangesArrivesAndGoes) {
-    scenegen::SceneBuilder s("two lamps");
+    scenegen::SceneBuilder s("two lights");
     const uint32_t white = s.material("white", glm::vec3(0.7f));
     s.room("room", {-2, 0, -2}, {2, 3, 2}, {white, white, white, white, white, white});
     s.spot("steady", {0, 2.5f, 0}, {0.3f, -1, 0.1f}, glm::vec3(10), 30, 40);
@@ -215,7 +215,8 @@ TEST(Denoiser, LightThatChangesArrivesAndGoes) {
         b->frame();
     const double after8 = meanOf(bounceImage(*b));
     std::printf(
-        "two lamps %.3f; 64 frames after one goes %.3f of %.3f; 8 frames after it comes %.3f of the rise\n",
+        "two lights %.3f; 64 frames after one goes %.3f of %.3f; 8 frames after it comes %.3f of "
+        "the rise\n",
         both, after64, one, (after8 - one) / (both - one));
     EXPECT_LT(one, 0.7 * both);
     EXPECT_NEAR(after64, one, 0.01 * both);

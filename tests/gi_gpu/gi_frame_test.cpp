@@ -412,10 +412,10 @@ TEST(IsmAtlas, MapsOfLightsThatStandStillAreKept) {
     EXPECT_EQ(keptMaps(b).kept, 0);
 }
 
-// A box that moves is splatted over what stands still, whose maps are kept; the result is what splatting all
+// A box that moves is splatted over what is static, whose maps are kept; the result is what splatting all
 // of it gives.
-TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
-    // Above the lamp, so that the RSM and its clusters stay as they are.
+TEST(IsmAtlas, MovingBoxesLeaveTheStaticLayerAsItIs) {
+    // Above the light, so that the RSM and its clusters stay as they are.
     const auto bench = [](bool keep) {
         scenegen::SceneBuilder room("room");
         const uint32_t white = room.material("white", glm::vec3(0.7f));
@@ -447,8 +447,8 @@ TEST(IsmAtlas, MovingBoxesLeaveTheStillLayerAsItIs) {
             ++b->scene.instancesVersion;
             b->frame();
         }
-    EXPECT_EQ(kept->outcome("ism_atlas.choose"), PassOutcome::kSkipped) << "all still layers are kept";
-    EXPECT_EQ(kept->outcome("ism_atlas.splat_moving"), PassOutcome::kRan);
+    EXPECT_EQ(kept->outcome("ism_atlas.choose"), PassOutcome::kSkipped) << "all static layers are kept";
+    EXPECT_EQ(kept->outcome("ism_atlas.splat_movable"), PassOutcome::kRan);
     for (const float scale : {1.0f, 1.1f}) {  // as if there had been nothing to go on from
         anew->settings.bounce.ismAtlas.splatScale = scale;
         anew->frame();
@@ -529,7 +529,7 @@ double powerOnWall(Bench& b, glm::vec3 forward) {
     return sum * 4 / double(bounce.pixels.size());  // the image is the wall
 }
 
-// What the lamp's light leaves of itself on all walls arrives on them again.
+// What the light leaves of itself on all walls arrives on them again.
 TEST(Technique, ClosedRoomPowerAudit) {
     Bench b(*scenegen::buildScene("furnace", 50), {128, 128});
     const double wall = (powerOnWall(b, {1, 0, 0}) + powerOnWall(b, {0, 0, 1})) / 2;
@@ -647,7 +647,7 @@ TEST(Frame, CameraAloneLeavesTheRsmsAlone) {
         const auto ran = runByTheCamera(viewWeight);
         EXPECT_TRUE(anyStartsWith(ran, "gbuffer.fill"));
         EXPECT_FALSE(anyStartsWith(ran, "rsm."));
-        EXPECT_FALSE(anyStartsWith(ran, "lamp_shadows.faces"));
+        EXPECT_FALSE(anyStartsWith(ran, "punctual_shadows.faces"));
         for (const char* step : {"importance.", "val_clustering.", "ism_atlas."})
             EXPECT_EQ(anyStartsWith(ran, step), viewWeight > 0) << step;
     }
@@ -745,8 +745,8 @@ TEST(Frame, LightsThatGoOutStopAllThatIsAboutThem) {
             EXPECT_FALSE(pass.name.starts_with(step)) << pass.name << " is not even declared";
 }
 
-TEST(Frame, AFlickeringLampLeavesTheOthersClustersAlone) {
-    const auto oldClusters = [](bool flickers) {  // of the other lamp, after two dozen frames
+TEST(Frame, AFlickeringPunctualLeavesTheOthersClustersAlone) {
+    const auto oldClusters = [](bool flickers) {  // of the other light, after two dozen frames
         Bench b(*scenegen::buildScene("hall", 0), {64, 40});
         b.settings.bounce.valClustering.adaptive = false;
         const glm::vec3 bright = b.scene.lights[0].intensity;

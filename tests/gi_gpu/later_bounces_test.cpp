@@ -67,7 +67,7 @@ TEST(LaterBounces, ASceneLoadedAnewHasNoneOfTheLightBefore) {
 }
 
 TEST(LaterBounces, FurnaceConvergesToTheGeometricSeries) {
-    const double power = 4 * 3.14159265 * 1, area = 24;  // W of the lamp, m²
+    const double power = 4 * 3.14159265 * 1, area = 24;  // W of the light, m²
     for (const uint32_t percent : {50u, 90u}) {
         const double rho = percent / 100.0, first = rho * power / area;
         const double one = settledMean(percent, false), all = settledMean(percent, true);

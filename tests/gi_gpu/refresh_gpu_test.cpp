@@ -8,7 +8,7 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-// A box that shines a little moves before the camera, above the lamp's beam.
+// A box that shines a little moves before the camera, above the light's beam.
 std::unique_ptr<Bench> roomWithBox(uint32_t pixelFrames) {
     scenegen::SceneBuilder room("room");
     const uint32_t white = room.material("white", glm::vec3(0.7f));

@@ -130,7 +130,7 @@ TEST(Skinning, PointsOnSurfacesFollow) {
     const auto points = b.named<io::SurfacePoint>("surface_points.points");
     ASSERT_GE(points.size(), samples.samples.size());
     size_t checked = 0;
-    for (size_t i = samples.stillCount; i < samples.samples.size(); i += 7, ++checked) {
+    for (size_t i = samples.staticCount; i < samples.samples.size(); i += 7, ++checked) {
         io::SkinnedSample on;
         std::memcpy(&on, &samples.samples[i], sizeof on);
         const glm::mat4x3& m = b.scene.instances[on.instance].worldFromLocal;

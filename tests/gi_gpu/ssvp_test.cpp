@@ -65,16 +65,16 @@ double wastedShare(const std::vector<io::Val>& vals) {
 }
 
 TEST(Ssvp, EachBounceCarriesItsShareOfTheLight) {
-    const double lamp = 4 * 3.14159265;
+    const double light = 4 * 3.14159265;
     for (const uint32_t clusters : {4u, 32u})
         for (const bool disk : {true, false}) {
             const Lists lists = listsOf({.clusters = clusters, .secondCount = 1024, .disk = disk});
             const double first = fluxOf(lists.first), second = fluxOf(lists.second);
             std::printf("%u clusters, %s: first bounce %.3f of the truth, second %.3f, %.1f %% wasted\n",
-                        clusters, disk ? "disk" : "square", first / (kAlbedo * lamp),
-                        second / (kAlbedo * kAlbedo * lamp), 100 * wastedShare(lists.second));
-            EXPECT_NEAR(first / (kAlbedo * lamp), 1, 0.02);
-            EXPECT_NEAR(second / (kAlbedo * kAlbedo * lamp), 1, 0.03);
+                        clusters, disk ? "disk" : "square", first / (kAlbedo * light),
+                        second / (kAlbedo * kAlbedo * light), 100 * wastedShare(lists.second));
+            EXPECT_NEAR(first / (kAlbedo * light), 1, 0.02);
+            EXPECT_NEAR(second / (kAlbedo * kAlbedo * light), 1, 0.03);
         }
 }
 

@@ -56,10 +56,10 @@ TEST(SunShadows, ThingsThatMoveAreDrawnOverWhatStandsStill) {
     layered->frame();
     EXPECT_EQ(layered->outcome("shadow_maps.cascades"), PassOutcome::kRan);
     moveBall(*layered, 1);
-    EXPECT_EQ(layered->outcome("shadow_maps.still"), PassOutcome::kRan);
+    EXPECT_EQ(layered->outcome("shadow_maps.static"), PassOutcome::kRan);
     moveBall(*layered, 3);
-    EXPECT_EQ(layered->outcome("shadow_maps.still"), PassOutcome::kSkipped);
-    EXPECT_EQ(layered->outcome("shadow_maps.still_masked"), PassOutcome::kSkipped);
+    EXPECT_EQ(layered->outcome("shadow_maps.static"), PassOutcome::kSkipped);
+    EXPECT_EQ(layered->outcome("shadow_maps.static_masked"), PassOutcome::kSkipped);
     EXPECT_EQ(layered->outcome("shadow_maps.movable_masked"), PassOutcome::kRan);
     const auto whole = courtWithSun();
     whole->scene.instances = layered->scene.instances;

@@ -331,7 +331,7 @@ TEST(Parity, HolesBetweenDisksAreClosed) {
     EXPECT_LT(closed, 0.5 * holes);
 }
 
-// Two closed rooms with a wall 10 cm thick between them, a lamp in one: the other stays dark.
+// Two closed rooms with a wall 10 cm thick between them, a light in one: the other stays dark.
 TEST(Parity, ClosedRoomsKeepTheirLight) {
     scenegen::SceneBuilder b("rooms");
     const uint32_t white = b.material("white", glm::vec3(0.8f));

@@ -68,7 +68,7 @@ std::vector<Variant> qualityLadder() {
     return variants;
 }
 
-std::vector<Variant> lampBudgets() {
+std::vector<Variant> punctualBudgets() {
     std::vector<Variant> variants;
     for (const int count : {10, 26})
         variants.push_back(
@@ -129,17 +129,17 @@ std::vector<Technique> makeTechniques() {
          .onlyByName = true,
          .variants = qualityLadder()},
         {.name = "lights-reference",
-         .description = "direct light of lamps, a shadow map each",
+         .description = "direct light of punctual lights, a shadow map each",
          .term = "direct",
          .variants = {{"", {}}}},
         {.name = "lightcluster",
-         .description = "lamps in clusters that share a shadow map, as published (Wiesenhütter et al.)",
+         .description = "lights in clusters that share a shadow map, as published (Wiesenhütter et al.)",
          .term = "direct",
-         .variants = lampBudgets()},
+         .variants = punctualBudgets()},
         {.name = "afterglow-lights",
-         .description = "lamps in clusters and tiles, ours",
+         .description = "lights in clusters and tiles, ours",
          .term = "direct",
-         .variants = lampBudgets()},
+         .variants = punctualBudgets()},
     };
 }
 

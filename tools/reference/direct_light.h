@@ -1,4 +1,4 @@
-// Light straight from the punctual lights, for surfaces of many rays at once.
+// Light straight from the scene's lights, for surfaces of many rays at once.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ inline glm::vec3 leaveSurface(const RayScene& scene, const Surface& s) {
     return s.position + s.geometricNormal * scene.offset();
 }
 
-// From every punctual light, with shadow rays, for the lanes' surfaces. Looks materials up only where light
+// From every light, with shadow rays, for the lanes' surfaces. Looks materials up only where light
 // arrives. `weight(lane, light, irradiance)`: how much of it counts.
 template <class F>
 void directLight(const RayScene& scene, bool glossy, uint32_t lanes, Surface* surfaces,

@@ -12,7 +12,7 @@
 
 namespace ag::reference {
 
-// What each pixel's centre sees, and the light that falls there straight from the punctual lights.
+// What each pixel's centre sees, and the light that falls there straight from the lights.
 struct FirstHits {
     explicit FirstHits(glm::uvec2 size);
     glm::uvec2 size;

@@ -50,11 +50,11 @@ void settles(const Bench& bench, const std::string& name, double limit,
 void disturb(Stage& stage, uint32_t frame, std::mt19937& random) {
     std::uniform_real_distribution<float> unit(-1, 1);
     if (frame % 97 == 0) setCamera(stage.scene, randomPose(random), stage.size);  // a cut
-    RenderLight& lamp = stage.scene.lights[frame % stage.scene.lights.size()];
-    lamp.direction =
-        glm::normalize(lamp.direction + 0.2f * glm::vec3(unit(random), unit(random), unit(random)));
-    if (frame % 31 == 0) lamp.intensity = glm::vec3(std::exp(3 * unit(random)) * 40);
-    if (frame % 53 == 0) lamp.intensity = glm::vec3(0);
+    RenderLight& light = stage.scene.lights[frame % stage.scene.lights.size()];
+    light.direction =
+        glm::normalize(light.direction + 0.2f * glm::vec3(unit(random), unit(random), unit(random)));
+    if (frame % 31 == 0) light.intensity = glm::vec3(std::exp(3 * unit(random)) * 40);
+    if (frame % 53 == 0) light.intensity = glm::vec3(0);
     ++stage.scene.lightsVersion;
     RenderInstance& box = stage.scene.instances[stage.scene.instances.size() - 1 - frame % 3];
     box.worldFromLocal[3] =

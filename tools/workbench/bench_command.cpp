@@ -91,7 +91,7 @@ std::optional<uint32_t> takeNumber(std::string& name, char mark) {
 // "lamps:80" is lamps with 80 for its number, "sponza+80" is sponza with 80 lamps hung in it.
 SceneOptions sceneArguments(const BenchOptions& o, std::string name) {
     SceneOptions arguments{.param = o.param, .size = o.size};
-    arguments.lamps = takeNumber(name, '+').value_or(0);
+    arguments.lights = takeNumber(name, '+').value_or(0);
     const std::string whole = name;
     const std::optional<uint32_t> number = takeNumber(name, ':');
     const bool takesIt = number && scenegen::isBuiltIn(name);  // else it is a view of the scene library's

@@ -134,7 +134,7 @@ int runCapture(const CaptureOptions& o) {
     if (!walk) return refuse(walk.error().message);
     const SceneOptions& s = o.scene;
     if (o.schedule &&
-        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.lamps || s.noSceneLights))
+        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.lights || s.noSceneLights))
         return refuse("--schedule takes the lights of the scene's file: leave the light options out");
     auto loaded = loadScene(o.scene);
     if (!loaded) return refuse(loaded.error().message);

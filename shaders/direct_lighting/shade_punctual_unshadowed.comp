@@ -2,5 +2,4 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#define AG_SHADOW
-#include "direct_lighting/shade_lamps.glsl"
+#include "direct_lighting/shade_punctual.glsl"

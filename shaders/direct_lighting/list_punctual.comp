@@ -3,19 +3,19 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// For each tile of the screen the lamps whose range reaches into the boxes round its near and far surfaces, in ascending
+// For each tile of the screen the lights whose range reaches into the boxes round its near and far surfaces, in ascending
 // order, by one subgroup a tile.
 #include "common/lane_loop.glsl"
 #include "direct_lighting/direct_lighting_io.h"
 #include "gbuffer/gbuffer.glsl"
 
 layout(local_size_x_id = 100) in;
-layout(push_constant, scalar) uniform Push { LampPush p; } push;
+layout(push_constant, scalar) uniform Push { PunctualPush p; } push;
 
-layout(constant_id = 0) const bool kByRange = true;  // false: all lamps everywhere
+layout(constant_id = 0) const bool kByRange = true;  // false: all lights everywhere
 layout(set = 0, binding = 0) uniform sampler2D depthMap;
 layout(set = 0, binding = 1, scalar) uniform Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 2) uniform samplerBuffer lamps;
+layout(set = 0, binding = 2) uniform samplerBuffer lights;
 layout(set = 0, binding = 3, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 4, scalar) writeonly buffer Counts { uint items[]; } counts;
 
@@ -24,21 +24,21 @@ struct Box {
 };
 
 vec3 placeOf(uvec2 origin, uint i, uvec2 size, out float depth) {
-    ivec2 pixel = min(ivec2(origin + uvec2(i % kLampTileSize, i / kLampTileSize)), ivec2(size) - 1);
+    ivec2 pixel = min(ivec2(origin + uvec2(i % kPunctualTileSize, i / kPunctualTileSize)), ivec2(size) - 1);
     depth = texelFetch(depthMap, pixel, 0).x;
     return worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
 }
 
-bool reachesBox(vec4 lamp, Box box) {
-    vec3 apart = max(max(box.least - lamp.xyz, lamp.xyz - box.most), vec3(0.0));
-    return box.least.x <= box.most.x && dot(apart, apart) * lamp.w < 1.0;
+bool reachesBox(vec4 light, Box box) {
+    vec3 apart = max(max(box.least - light.xyz, light.xyz - box.most), vec3(0.0));
+    return box.least.x <= box.most.x && dot(apart, apart) * light.w < 1.0;
 }
 
 void main() {
     uint tile = gl_WorkGroupID.x;
-    uvec2 size = camera.camera.size, tiles = (size + kLampTileSize - 1) / kLampTileSize;
-    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kLampTileSize;
-    const uint kPixels = kLampTileSize * kLampTileSize;
+    uvec2 size = camera.camera.size, tiles = (size + kPunctualTileSize - 1) / kPunctualTileSize;
+    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kPunctualTileSize;
+    const uint kPixels = kPunctualTileSize * kPunctualTileSize;
     float farthest = 1.0, nearest = 0.0;  // reversed depth
     for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
         float depth;
@@ -62,15 +62,15 @@ void main() {
     far = Box(subgroupMin(far.least), subgroupMax(far.most));
     bool any = near.least.x <= near.most.x || far.least.x <= far.most.x;
     uint count = 0;
-    for (uint base = 0; base < push.p.lampCount && count < kMaxLampsPerTile; base += kSubgroupSize) {
-        uint lamp = base + gl_SubgroupInvocationID;
-        vec4 place = texelFetch(lamps, int(min(lamp, push.p.lampCount - 1)) * 4);
+    for (uint base = 0; base < push.p.lightCount && count < kMaxPunctualLightsPerTile; base += kSubgroupSize) {
+        uint light = base + gl_SubgroupInvocationID;
+        vec4 place = texelFetch(lights, int(min(light, push.p.lightCount - 1)) * 4);
         bool reaches = !kByRange || reachesBox(place, near) || reachesBox(place, far);
-        bool mine = any && lamp < push.p.lampCount && reaches;
+        bool mine = any && light < push.p.lightCount && reaches;
         uvec4 ballot = subgroupBallot(mine);
         uint at = count + subgroupBallotExclusiveBitCount(ballot);
-        if (mine && at < kMaxLampsPerTile) lists.items[tile * kMaxLampsPerTile + at] = lamp;
+        if (mine && at < kMaxPunctualLightsPerTile) lists.items[tile * kMaxPunctualLightsPerTile + at] = light;
         count += subgroupBallotBitCount(ballot);
     }
-    if (gl_SubgroupInvocationID == 0) counts.items[tile] = min(count, kMaxLampsPerTile);
+    if (gl_SubgroupInvocationID == 0) counts.items[tile] = min(count, kMaxPunctualLightsPerTile);
 }

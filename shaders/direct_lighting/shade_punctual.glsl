@@ -1,5 +1,5 @@
-// Irradiance straight from a tile's lamps. They come sorted by cluster, so that each cluster's visibility is found once a
-// pixel for all of its lamps. Four pixels an invocation share the loads. AG_QUADS: for one pixel in each 2 x 2, and
+// Irradiance straight from a tile's punctual lights. They come sorted by cluster, so that each cluster's visibility is found once a
+// pixel for all of its lights. Four pixels an invocation share the loads. AG_QUADS: for one pixel in each 2 x 2, and
 // beside it what arrived if nothing cast shadows.
 #include "gbuffer/gbuffer.glsl"
 
@@ -7,9 +7,9 @@ layout(constant_id = 0) const bool kFirst = true;  // starts from zero instead o
 layout(constant_id = 2) const float kShadowReach = 0.0;
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 3) uniform samplerBuffer lamps;
+layout(set = 0, binding = 3) uniform samplerBuffer lights;
 layout(set = 0, binding = 7) uniform usamplerBuffer lists;
-#include "direct_lighting/lamp.glsl"
+#include "direct_lighting/punctual_light.glsl"
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
 #include "direct_lighting/receiver.glsl"
@@ -26,16 +26,16 @@ layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
 #ifdef AG_SHADOW
 layout(set = 0, binding = 4) uniform samplerBuffer clusters;
 layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
-#include "direct_lighting/lamp_shadow.glsl"
+#include "direct_lighting/punctual_shadow.glsl"
 #endif
 
-uint lampIndex(uint entry) { return texelFetch(lists, int(entry)).x; }
+uint lightIndex(uint entry) { return texelFetch(lists, int(entry)).x; }
 
 // Of a cluster, for each pixel. A loop, so that what is long is there once.
 vec4 clusterShares(uint cluster, Receiver r[kPixels]) {
     vec4 shares = vec4(1.0);
 #ifdef AG_SHADOW
-    bool casts = cluster != kNoLampCluster;
+    bool casts = cluster != kNoLightCluster;
     int count = casts ? kPixels : 0;
     [[dont_unroll]] for (int p = 0; p < count; ++p) {
         vec3 position = r[0].position, normal = r[0].normal;
@@ -51,28 +51,28 @@ vec4 clusterShares(uint cluster, Receiver r[kPixels]) {
 }
 
 void main() {
-    uvec2 size = camera.camera.size, tiles = (size + kLampTileSize - 1) / kLampTileSize;
+    uvec2 size = camera.camera.size, tiles = (size + kPunctualTileSize - 1) / kPunctualTileSize;
     uint tile = gl_WorkGroupID.x, block = gl_LocalInvocationID.x;
-    const uint kSide = kLampTileSize / kStep / 2;  // blocks of 2 x 2 along a tile
-    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * (kLampTileSize / kStep) + 2 * uvec2(block % kSide, block / kSide);
+    const uint kSide = kPunctualTileSize / kStep / 2;  // blocks of 2 x 2 along a tile
+    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * (kPunctualTileSize / kStep) + 2 * uvec2(block % kSide, block / kSide);
     Receiver r[kPixels];
     vec3 e[kPixels], all[kPixels];
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         r[p] = receiverAt((origin + uvec2(p & 1, p >> 1)) * kStep);
         e[p] = all[p] = vec3(0.0);
     }
-    uint first = tile * kMaxLampsPerTile, end = first + counts.items[tile];
+    uint first = tile * kMaxPunctualLightsPerTile, end = first + counts.items[tile];
     for (uint i = first; i < end;) {
-        uint cluster = lampAt(lampIndex(i)).cluster;
+        uint cluster = punctualLightAt(lightIndex(i)).cluster;
         vec4 shares = clusterShares(cluster, r);
         for (; i < end; ++i) {
-            Lamp lamp = lampAt(lampIndex(i));
-            if (lamp.cluster != cluster) break;
+            PunctualLight light = punctualLightAt(lightIndex(i));
+            if (light.cluster != cluster) break;
             [[unroll]] for (int p = 0; p < kPixels; ++p) {
                 float distance2;
-                vec3 from = irradianceFrom(lamp, r[p].position, r[p].normal, distance2);
+                vec3 from = irradianceFrom(light, r[p].position, r[p].normal, distance2);
                 all[p] += from;
-                e[p] += (1.0 - (1.0 - shares[p]) * shadowWeight(lamp, distance2, kShadowReach)) * from;
+                e[p] += (1.0 - (1.0 - shares[p]) * shadowWeight(light, distance2, kShadowReach)) * from;
             }
         }
     }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// The still points each map is made of. A map whose light and whose still points stand where they stood is kept; the
+// The static points each map is made of. A map whose light and whose static points stand where they stood is kept; the
 // others are listed to be splatted.
 #include "common/lane_loop.glsl"
 #include "ism_atlas/ism_atlas_io.h"

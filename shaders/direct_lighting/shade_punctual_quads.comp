@@ -2,4 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#include "direct_lighting/shade_lamps.glsl"
+#define AG_SHADOW
+#define AG_QUADS
+#include "direct_lighting/shade_punctual.glsl"

@@ -1,4 +1,4 @@
-#include "engine/renderer/lamp_shadows.h"
+#include "engine/renderer/punctual_shadows.h"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ struct Places {
     glm::uvec2 size() const { return glm::uvec2(columns * 3, (count + columns - 1) / columns * 2) * face; }
 };
 
-Places placesFor(uint32_t count, const LampShadowSettings& s) {
+Places placesFor(uint32_t count, const PunctualShadowSettings& s) {
     for (uint32_t face = s.faceResolution; face > 16; face /= 2) {
         const uint32_t columns = s.atlasSize / (3 * face), rows = s.atlasSize / (2 * face);
         if (columns * rows >= count) return {face, std::min(columns, count), count};
@@ -36,7 +36,7 @@ uint64_t ownerOf(const RenderScene& scene, const LightCluster& cluster) {
 // Centres of before keep their places, the others take free ones. There are as many places as clusters may
 // be.
 void assignPlaces(const RenderScene& scene, const LightClusters& clusters, uint32_t count,
-                  LampShadowHistory& h) {
+                  PunctualShadowHistory& h) {
     h.owners.resize(count, 0);
     for (uint64_t& owner : h.owners)
         if (std::ranges::none_of(clusters.clusters,
@@ -54,11 +54,11 @@ void assignPlaces(const RenderScene& scene, const LightClusters& clusters, uint3
 }
 
 // What shading knows of a cluster's map.
-io::LampCluster rowOf(const RenderScene& scene, const LightCluster& cluster, const Places& places,
-                      uint32_t place) {
+io::LightClusterRow rowOf(const RenderScene& scene, const LightCluster& cluster, const Places& places,
+                          uint32_t place) {
     const RenderLight& light = scene.lights[cluster.center];
     const bool spot = isSpotCluster(scene, cluster);
-    // All of the cluster's lamps see by this map.
+    // All of the cluster's punctual lights see by this map.
     const float far = gi::farDistanceOf(light.position, cluster.reach, scene.bounds);
     return {
         .center = light.position,
@@ -81,9 +81,9 @@ gi::Frustum seenPart(const RenderScene& scene) {
 PassBuilder beginFaces(GraphScope scope, const SceneView& scene, ImageHandle atlas) {
     // Masked surfaces need their textures, and then all are drawn with them.
     const bool masked = hasMasked(scene);
-    PassBuilder pass = masked ? scope.raster("lamp_shadows.faces", "shadow_maps/masked.vert",
+    PassBuilder pass = masked ? scope.raster("punctual_shadows.faces", "shadow_maps/masked.vert",
                                              "shadow_maps/masked.frag", gpu::VertexLayout::kPositionsAndUvs)
-                              : scope.raster("lamp_shadows.faces", "shadow_maps/depth.vert", "",
+                              : scope.raster("punctual_shadows.faces", "shadow_maps/depth.vert", "",
                                              gpu::VertexLayout::kPositions);
     pass.depthPatches(atlas).geometry(scene.geometry).read("instances", scene.instances);
     if (masked) bindMaterials(pass, scene);
@@ -93,20 +93,20 @@ PassBuilder beginFaces(GraphScope scope, const SceneView& scene, ImageHandle atl
 }  // namespace
 
 bool isSpotCluster(const RenderScene& scene, const LightCluster& cluster) {
-    return cluster.lampCount == 1 && scene.lights[cluster.center].kind == LightKind::kSpot;
+    return cluster.lightCount == 1 && scene.lights[cluster.center].kind == LightKind::kSpot;
 }
 
-LampShadows addLampShadows(GraphScope scope, const SceneView& scene, const LightClusters& clusters,
-                           uint32_t mostClusters, const LampShadowSettings& settings,
-                           LampShadowHistory& history) {
+PunctualShadows addPunctualShadows(GraphScope scope, const SceneView& scene, const LightClusters& clusters,
+                                   uint32_t mostClusters, const PunctualShadowSettings& settings,
+                                   PunctualShadowHistory& history) {
     const RenderScene& s = *scene.scene;
     const Places places = placesFor(mostClustersNeeded(s, mostClusters), settings);
     if (clusters.clusters.empty() || s.instances.empty()) return {};
     assignPlaces(s, clusters, places.count, history);
-    LampShadows shadows{
-        .atlas = scope.image("lamp_shadows.atlas", {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()}),
-        .softTaps = settings.softTaps,
-        .places = places.count};
+    PunctualShadows shadows{.atlas = scope.image("punctual_shadows.atlas",
+                                                 {.format = VK_FORMAT_D32_SFLOAT, .size = places.size()}),
+                            .softTaps = settings.softTaps,
+                            .places = places.count};
     history.rows.clear();
     history.views.clear();
     history.rects.clear();
@@ -121,7 +121,8 @@ LampShadows addLampShadows(GraphScope scope, const SceneView& scene, const Light
     const DrawFilter filter = hasMasked(scene) ? DrawFilter::kAll : DrawFilter::kOpaqueOnly;
     for (size_t i = 0; i < clusters.clusters.size(); ++i) {
         const uint32_t place = history.places[i];
-        const io::LampCluster& row = history.rows.emplace_back(rowOf(s, clusters.clusters[i], places, place));
+        const io::LightClusterRow& row =
+            history.rows.emplace_back(rowOf(s, clusters.clusters[i], places, place));
         const bool spot = isSpotCluster(s, clusters.clusters[i]);
         for (uint32_t face = 0; face < (spot ? 1 : kFaces); ++face) {
             const gi::LightView view =
@@ -129,7 +130,7 @@ LampShadows addLampShadows(GraphScope scope, const SceneView& scene, const Light
                      : gi::cubeFaceView(row.center, face, row.farDistance);
             const glm::mat4& clipFromWorld = view.clipFromWorld;
             if (onlySeen && !gi::mayMeet(seen, gi::frustumOf(clipFromWorld))) continue;
-            history.views.push_back({scene.slots.firstLamp + place * kFaces + face, clipFromWorld});
+            history.views.push_back({scene.slots.firstLight + place * kFaces + face, clipFromWorld});
             history.rects.emplace_back(row.origin + glm::uvec2(face % 3, face / 3) * row.size, row.size,
                                        row.size);
         }
@@ -142,10 +143,10 @@ LampShadows addLampShadows(GraphScope scope, const SceneView& scene, const Light
                  history.rects[i], filter, Viewer::kLight);
     }
     const std::span<const std::byte> bytes = std::as_bytes(std::span(history.rows));
-    shadows.clusters = scope.buffer(
-        "lamp_shadows.clusters",
-        {.sizeBytes = places.count * sizeof(io::LampCluster), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    scope.upload("lamp_shadows.clusters", shadows.clusters, bytes);
+    shadows.clusters =
+        scope.buffer("punctual_shadows.clusters", {.sizeBytes = places.count * sizeof(io::LightClusterRow),
+                                                   .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    scope.upload("punctual_shadows.clusters", shadows.clusters, bytes);
     return shadows;
 }
 

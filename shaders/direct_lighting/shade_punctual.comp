@@ -3,5 +3,4 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #define AG_SHADOW
-#define AG_QUADS
-#include "direct_lighting/shade_lamps.glsl"
+#include "direct_lighting/shade_punctual.glsl"

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Irradiance straight from a tile's lamps at every pixel: what arrives without shadows, worked out here, times the share
+// Irradiance straight from a tile's punctual lights at every pixel: what arrives without shadows, worked out here, times the share
 // that does arrive about here, from the up to four neighbours for which shadows were found. Four pixels an invocation
 // share the loads.
 #include "common/lane_loop.glsl"
@@ -12,9 +12,9 @@ layout(local_size_x = 64) in;  // one tile
 layout(constant_id = 0) const bool kFirst = true;  // starts from zero instead of adding
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 3) uniform samplerBuffer lamps;
+layout(set = 0, binding = 3) uniform samplerBuffer lights;
 layout(set = 0, binding = 7) uniform usamplerBuffer lists;
-#include "direct_lighting/lamp.glsl"
+#include "direct_lighting/punctual_light.glsl"
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 #include "direct_lighting/receiver.glsl"
 layout(set = 0, binding = 4) uniform sampler2D shadowed;
@@ -22,14 +22,14 @@ layout(set = 0, binding = 5) uniform sampler2D unshadowed;
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
 layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
 
-Lamp lampOfLane(Lamp mine, uint lane) {
-    Lamp lamp;
-    lamp.position = subgroupShuffle(mine.position, lane);
-    lamp.inverseRange2 = subgroupShuffle(mine.inverseRange2, lane);
-    lamp.intensity = subgroupShuffle(mine.intensity, lane);
-    lamp.axis = subgroupShuffle(mine.axis, lane);
-    lamp.coneOffset = subgroupShuffle(mine.coneOffset, lane);
-    return lamp;
+PunctualLight lightOfLane(PunctualLight mine, uint lane) {
+    PunctualLight light;
+    light.position = subgroupShuffle(mine.position, lane);
+    light.inverseRange2 = subgroupShuffle(mine.inverseRange2, lane);
+    light.intensity = subgroupShuffle(mine.intensity, lane);
+    light.axis = subgroupShuffle(mine.axis, lane);
+    light.coneOffset = subgroupShuffle(mine.coneOffset, lane);
+    return light;
 }
 
 // 1 on the same plane, facing the same way. `pixel`: m at the receiver. Never quite 0, so that something is taken.
@@ -39,33 +39,33 @@ float likeness(Receiver a, Receiver b, float pixel) {
 }
 
 void main() {
-    uvec2 size = camera.camera.size, tiles = (size + kLampTileSize - 1) / kLampTileSize;
+    uvec2 size = camera.camera.size, tiles = (size + kPunctualTileSize - 1) / kPunctualTileSize;
     uint tile = gl_WorkGroupID.x, block = gl_LocalInvocationID.x;
-    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kLampTileSize + 2 * uvec2(block % 8, block / 8);
+    uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kPunctualTileSize + 2 * uvec2(block % 8, block / 8);
     Receiver r[kPixels];
     vec3 e[kPixels];
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
         r[p] = receiverAt(origin + uvec2(p & 1, p >> 1));
         e[p] = vec3(0.0);
     }
-    uint first = tile * kMaxLampsPerTile, end = first + counts.items[tile];
+    uint first = tile * kMaxPunctualLightsPerTile, end = first + counts.items[tile];
     float distance2;
     if (kLaneParallel) {
         for (uint base = first; base < end; base += kSubgroupSize) {
             uint entry = base + gl_SubgroupInvocationID;
-            Lamp mine = lampAt(texelFetch(lists, int(min(entry, end - 1))).x);
+            PunctualLight mine = punctualLightAt(texelFetch(lists, int(min(entry, end - 1))).x);
             if (entry >= end) mine.intensity = vec3(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
-                Lamp lamp = lampOfLane(mine, lane);
+                PunctualLight light = lightOfLane(mine, lane);
                 [[unroll]] for (int p = 0; p < kPixels; ++p)
-                    e[p] += irradianceFrom(lamp, r[p].position, r[p].normal, distance2);
+                    e[p] += irradianceFrom(light, r[p].position, r[p].normal, distance2);
             }
         }
     } else {
         for (uint entry = first; entry < end; ++entry) {
-            Lamp lamp = lampAt(texelFetch(lists, int(entry)).x);
+            PunctualLight light = punctualLightAt(texelFetch(lists, int(entry)).x);
             [[unroll]] for (int p = 0; p < kPixels; ++p)
-                e[p] += irradianceFrom(lamp, r[p].position, r[p].normal, distance2);
+                e[p] += irradianceFrom(light, r[p].position, r[p].normal, distance2);
         }
     }
     Receiver near[kPixels];  // those for which shadows were found

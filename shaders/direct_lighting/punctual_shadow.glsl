@@ -1,7 +1,7 @@
 // How much of a cluster's light arrives, by its centre's depth maps: as from the centre, or as from a disk about it. Needs
 // sampler `shadowAtlas` and texel buffer `clusters`.
-#ifndef AG_LAMP_SHADOW_GLSL
-#define AG_LAMP_SHADOW_GLSL
+#ifndef AG_PUNCTUAL_SHADOW_GLSL
+#define AG_PUNCTUAL_SHADOW_GLSL
 
 #include "common/lights.h"
 #include "direct_lighting/direct_lighting_io.h"
@@ -16,10 +16,10 @@ vec2 diskTap(int i, int count) {
     return r * vec2(cos(angle), sin(angle));
 }
 
-LampCluster fetchCluster(uint index) {
+LightClusterRow fetchCluster(uint index) {
     vec4 a = texelFetch(clusters, int(index) * 4), b = texelFetch(clusters, int(index) * 4 + 1);
     vec4 c = texelFetch(clusters, int(index) * 4 + 2), d = texelFetch(clusters, int(index) * 4 + 3);
-    LampCluster cluster;
+    LightClusterRow cluster;
     cluster.center = a.xyz;
     cluster.radius = a.w;
     cluster.direction = b.xyz;
@@ -31,15 +31,15 @@ LampCluster fetchCluster(uint index) {
     return cluster;
 }
 
-struct LampView {  // one of a cluster's
+struct PunctualView {  // one of a cluster's
     vec3 right, top, forward;
     uvec2 origin;
 };
 
 // The view that a direction from the centre lies in. The same axes as light_views.cpp has; made here, because loading
 // matrices by an index that differs from pixel to pixel is dear.
-LampView viewToward(LampCluster cluster, vec3 d) {
-    LampView v;
+PunctualView viewToward(LightClusterRow cluster, vec3 d) {
+    PunctualView v;
     bool spot = cluster.direction != vec3(0.0);
     uint face = spot ? 0 : cubeFace(d);
     vec3 axis = vec3(face / 2 == 0, face / 2 == 1, face / 2 == 2) * (face % 2 == 0 ? 1.0 : -1.0);
@@ -52,10 +52,10 @@ LampView viewToward(LampCluster cluster, vec3 d) {
 
 // Along a ray from the centre: how far the first surface is, over the distance to the receiver's plane; below 1 it is in
 // the way. `slack`: m along the view's axis.
-float firstHit(LampCluster cluster, vec3 receiver, vec3 normal, vec3 along, float slack) {
+float firstHit(LightClusterRow cluster, vec3 receiver, vec3 normal, vec3 along, float slack) {
     float toPlane = dot(normal, receiver), grows = dot(normal, along);
     vec3 p = along * (grows * toPlane > 0.0 ? min(toPlane / grows, 4.0) : 1.0);
-    LampView view = viewToward(cluster, along);
+    PunctualView view = viewToward(cluster, along);
     float w = max(dot(p, view.forward), 1e-6);
     vec2 ndc = vec2(dot(p, view.right), -dot(p, view.top)) / (w * cluster.tanHalf), size = vec2(float(cluster.size));
     ivec2 at = ivec2(clamp((ndc * 0.5 + 0.5) * size, vec2(0.0), size - 1.0));
@@ -66,7 +66,7 @@ float firstHit(LampCluster cluster, vec3 receiver, vec3 normal, vec3 along, floa
 }
 
 // Not asked for, it costs two of its rounds: CPU devices skip rounds of loops but not branches.
-float softShare(LampCluster cluster, vec3 position, vec3 normal, float texel, bool asked) {
+float softShare(LightClusterRow cluster, vec3 position, vec3 normal, float texel, bool asked) {
     // A texel seen slantwise holds this much depth: the plane is taken so much nearer.
     vec3 d = position + normal * texel - cluster.center;
     vec3 u, v;
@@ -92,7 +92,7 @@ float softShare(LampCluster cluster, vec3 position, vec3 normal, float texel, bo
     return partly ? lit / float(kSoftTaps) : 1.0;
 }
 
-ShadowMap mapOf(LampCluster cluster, LampView view) {
+ShadowMap mapOf(LightClusterRow cluster, PunctualView view) {
     vec3 x = view.right / cluster.tanHalf, y = -view.top / cluster.tanHalf, w = view.forward;
     float depth = cluster.nearDistance / (cluster.farDistance - cluster.nearDistance);
     vec3 z = -depth * w;
@@ -103,7 +103,7 @@ ShadowMap mapOf(LampCluster cluster, LampView view) {
 }
 
 float clusterShare(uint index, vec3 position, vec3 normal) {
-    LampCluster cluster = fetchCluster(index);
+    LightClusterRow cluster = fetchCluster(index);
     vec3 d = position - cluster.center;
     float distance_ = max(length(d), 1e-4);
     float texel = 2.0 * cluster.tanHalf / float(cluster.size) * distance_;  // m at the receiver

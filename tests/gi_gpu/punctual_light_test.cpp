@@ -1,4 +1,5 @@
-// Many lamps: what is drawn again, soft shadows against a disk of light, tiles, and lamps that come and go.
+// Many punctual lights: what is drawn again, soft shadows against a disk of light, tiles, and punctual lights
+// that come and go.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,19 +43,19 @@ void moveInstance(Bench& b, uint32_t row, glm::vec3 by) {
     ++b.scene.instancesVersion;
 }
 
-TEST(LampShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
+TEST(PunctualShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
     const auto kept = directBench(*scenegen::buildScene("lamps", 14)),
                anew = directBench(*scenegen::buildScene("lamps", 14));
     anew->options.skip = false;
     for (Bench* b : {kept.get(), anew.get()})
         b->settings.lightClusters = {.growth = 0};  // a map each
     kept->frame();
-    const PassReport* faces = passNamed(*kept, "lamp_shadows.faces");
+    const PassReport* faces = passNamed(*kept, "punctual_shadows.faces");
     ASSERT_NE(faces, nullptr);
     EXPECT_GT(faces->patches, 30u);
     EXPECT_EQ(faces->patchesDrawn, faces->patches) << "all are drawn at first";
     kept->frame();
-    EXPECT_EQ(passNamed(*kept, "lamp_shadows.faces")->outcome, PassOutcome::kSkipped) << "nothing moves";
+    EXPECT_EQ(passNamed(*kept, "punctual_shadows.faces")->outcome, PassOutcome::kSkipped) << "nothing moves";
     const uint32_t crate = uint32_t(kept->scene.instances.size()) - 1;
     anew->frame();
     anew->frame();
@@ -63,16 +64,16 @@ TEST(LampShadows, OnlyFacesThatSeeAMovingBoxAreDrawnAgain) {
         moveInstance(*anew, crate, {0, 0, 0.2f});
         const Image a = directImage(*kept), b = directImage(*anew);
         EXPECT_EQ(a.pixels, b.pixels) << "faces that were kept show what drawing them anew does";
-        faces = passNamed(*kept, "lamp_shadows.faces");
+        faces = passNamed(*kept, "punctual_shadows.faces");
         std::printf("a crate moves: %u of %u faces drawn again\n", faces->patchesDrawn, faces->patches);
         EXPECT_GT(faces->patchesDrawn, 0u);
         EXPECT_LT(faces->patchesDrawn, faces->patches / 2);
-        EXPECT_EQ(passNamed(*anew, "lamp_shadows.faces")->patchesDrawn, faces->patches);
+        EXPECT_EQ(passNamed(*anew, "punctual_shadows.faces")->patchesDrawn, faces->patches);
     }
 }
 
-// A lamp in a closed box, nearly touching a wall of it, over a floor that is seen by all seams of its cube.
-TEST(LampShadows, NothingLeavesAClosedBox) {
+// A light in a closed box, nearly touching a wall of it, over a floor that is seen by all seams of its cube.
+TEST(PunctualShadows, NothingLeavesAClosedBox) {
     for (const float size : {0.3f, 1.0f, 40.0f}) {
         scenegen::SceneBuilder b("box");
         const uint32_t gray = b.material("gray", glm::vec3(0.5f));
@@ -88,11 +89,11 @@ TEST(LampShadows, NothingLeavesAClosedBox) {
     }
 }
 
-TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
+TEST(PunctualLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
     const auto b = directBench(*scenegen::buildScene("lamps", 256));
     b->settings.lightClusters.most = 16;
     const Image tiles = directImage(*b);
-    b->settings.lampLighting.tiles = false;
+    b->settings.punctualLighting.tiles = false;
     const Image all = directImage(*b);
     double most = 0, mean = 0;
     for (size_t i = 0; i < all.pixels.size(); ++i) {
@@ -103,16 +104,16 @@ TEST(LampLighting, TilesLeaveOutOnlyWhatDoesNotReachThem) {
     EXPECT_LT(most, 0.01 * mean) << "half floats, summed in the same order";
 }
 
-// What is measured is the light of each lamp, shadows aside, at the points that stand for the view.
-TEST(LampRelevance, IsTheLightAtTheViewsPoints) {
+// What is measured is the light of each light, shadows aside, at the points that stand for the view.
+TEST(PunctualRelevance, IsTheLightAtTheViewsPoints) {
     const auto b = directBench(*scenegen::buildScene("lamps", 80));
     b->output = [](GraphScope scope, const RenderFrame& f) {
         scope.output(f.direct.image);
         scope.output(f.bounce.viewPoints);
     };
     b->frame();
-    LampRelevance relevance;
-    relevance.set(b->read<std::byte>(b->renderer.graph().findBuffer("lamp_relevance.relevance")));
+    PunctualRelevance relevance;
+    relevance.set(b->read<std::byte>(b->renderer.graph().findBuffer("punctual_relevance.relevance")));
     const auto points = b->read<io::ViewPoint>(b->last.bounce.viewPoints);
     uint32_t measured = 0;
     for (const RenderLight& light : b->scene.lights) {
@@ -131,22 +132,22 @@ TEST(LampRelevance, IsTheLightAtTheViewsPoints) {
     EXPECT_GT(measured, 20u);
 }
 
-// With a map for each lamp only the pixels between differ from the reference, and only at shadows' edges.
-TEST(LampLighting, QuadsTakeTheirNeighboursShare) {
+// With a map for each light only the pixels between differ from the reference, and only at shadows' edges.
+TEST(PunctualLighting, QuadsTakeTheirNeighboursShare) {
     const auto b = directBench(*scenegen::buildScene("lamps", 14), {320, 192});
     ASSERT_TRUE(applyPreset("lights-reference", b->settings));
     const Image reference = directImage(*b);
     ASSERT_TRUE(applyPreset("afterglow-lights", b->settings));
-    b->settings.lampLighting.quads = false;
+    b->settings.punctualLighting.quads = false;
     const Image each = directImage(*b);
-    b->settings.lampLighting.quads = true;
+    b->settings.punctualLighting.quads = true;
     const Image quads = directImage(*b);
     double own = 0, between = 0, scale = 0;
     for (size_t i = 0; i < quads.pixels.size(); ++i) {
         const size_t x = i % size_t(quads.width), y = i / size_t(quads.width);
         const glm::vec3 truth = reference.pixels[i];
         ASSERT_LT(glm::length(each.pixels[i] - truth), 1e-3f * (1 + glm::length(truth)))
-            << "one lamp a cluster";
+            << "one light a cluster";
         const double off = double(glm::dot(quads.pixels[i] - truth, quads.pixels[i] - truth));
         (x % 2 || y % 2 ? between : own) += off / double(quads.pixels.size());
         scale += double(glm::dot(truth, truth)) / double(quads.pixels.size());
@@ -159,11 +160,11 @@ TEST(LampLighting, QuadsTakeTheirNeighboursShare) {
 
 // A cluster's shadow is that of a disk of light about its centre: behind a half-plane's edge the share of the
 // disk above the edge.
-TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
+TEST(PunctualShadows, PenumbraOfAClusterIsThatOfItsDisk) {
     scenegen::SceneBuilder s("edge");
     const uint32_t white = s.material("white", glm::vec3(0.7f));
     s.quad("floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, white);
-    s.quad("edge", {-4, 1, -4}, {0, 0, 8}, {4, 0, 0}, white);  // x < 0 at half the lamps' height
+    s.quad("edge", {-4, 1, -4}, {0, 0, 8}, {4, 0, 0}, white);  // x < 0 at half the lights' height
     s.point("center", {0, 2, 0}, glm::vec3(10));
     const float radius = 0.3f;
     for (const glm::vec2 at : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)})
@@ -172,8 +173,8 @@ TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
     const auto b = directBench(s.finish(), {128, 128});
     b->settings.lightClusters.most = 1;
     b->settings.lightClusters.strongFirst = false;  // the weak ones at the rim count
-    b->settings.lampShadows.softTaps = 32;
-    b->settings.lampLighting.shadowReach = 0;
+    b->settings.punctualShadows.softTaps = 32;
+    b->settings.punctualLighting.shadowReach = 0;
     const Image shadowed = directImage(*b);
     for (RenderLight& light : b->scene.lights)
         light.castsShadow = false;
@@ -204,7 +205,7 @@ TEST(LampShadows, PenumbraOfAClusterIsThatOfItsDisk) {
 }
 
 // Light falls through what a masked surface's texture cuts out.
-TEST(LampShadows, CutOutPartsLetLightThrough) {
+TEST(PunctualShadows, CutOutPartsLetLightThrough) {
     scenegen::SceneBuilder s("screen");
     const uint32_t white = s.material("white", glm::vec3(0.5f)),
                    screen = s.material("screen", glm::vec3(0.5f));
@@ -254,7 +255,7 @@ double changeAlongAWalk(const char* preset, uint32_t clusters) {
         setCamera(b->scene, pose, b->size);
         pose.position += way;
         const Image now = directImage(*b);
-        if (step < 4) {  // the lamps are measured by then
+        if (step < 4) {  // the lights are measured by then
             before = now;
             continue;
         }
@@ -267,8 +268,8 @@ double changeAlongAWalk(const char* preset, uint32_t clusters) {
     return change / mean;
 }
 
-TEST(LampLighting, ClustersDoNotPopAlongAWalk) {
-    const double reference = changeAlongAWalk("lights-reference", kMostLampClusters);
+TEST(PunctualLighting, ClustersDoNotPopAlongAWalk) {
+    const double reference = changeAlongAWalk("lights-reference", kMostLightClusters);
     for (const uint32_t clusters : {10u, 26u}) {
         const double ours = changeAlongAWalk("afterglow-lights", clusters);
         const double published = changeAlongAWalk("lightcluster", clusters);
@@ -278,7 +279,7 @@ TEST(LampLighting, ClustersDoNotPopAlongAWalk) {
     }
 }
 
-TEST(LampLighting, WithoutLampsNoPassRuns) {
+TEST(PunctualLighting, WithoutLightsNoPassRuns) {
     const auto b = directBench(*scenegen::buildScene("lamps", 14));
     for (RenderLight& light : b->scene.lights)
         light.position.x -= 200;  // behind the camera and out of reach
@@ -286,11 +287,11 @@ TEST(LampLighting, WithoutLampsNoPassRuns) {
     b->output = {};
     b->frame();
     for (const PassReport& pass : b->renderer.graph().report())
-        EXPECT_FALSE(pass.name.starts_with("lamp_")) << pass.name;
+        EXPECT_FALSE(pass.name.starts_with("punctual_")) << pass.name;
 }
 
-// Lamps come, go, move, flicker and blink for many frames, validation watching.
-TEST(LampLighting, LampsMayChangeEveryFrame) {
+// Lights come, go, move, flicker and blink for many frames, validation watching.
+TEST(PunctualLighting, PunctualMayChangeEveryFrame) {
     const auto b = directBench(*scenegen::buildScene("lamps", 80), {64, 40});
     const std::vector<RenderLight> all = b->scene.lights;
     for (uint32_t step = 0; step < 1000; ++step) {
