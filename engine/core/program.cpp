@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "engine/core/driver_cache.h"
 #include "engine/core/failure.h"
 #include "engine/core/log.h"
 
@@ -85,6 +86,7 @@ void endProgram(const std::string& sentence) {
 
 int runProgram(FunctionRef<int()> body) {
     initLogging(false);
+    separateDriverCaches();
     gReserve = std::make_unique<char[]>(kReserveBytes);
     std::set_new_handler(onOutOfMemory);
     onFailure(endOnFailure);

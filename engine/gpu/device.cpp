@@ -3,10 +3,9 @@
 #include <time.h>
 #include <vulkan/vk_enum_string_helper.h>
 
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 
+#include "engine/core/driver_cache.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
 #include "engine/core/safe_file.h"
@@ -66,12 +65,8 @@ double processCpuMs() {
 constexpr uint64_t kMostCacheBytes = uint64_t(1) << 30;
 
 std::filesystem::path cacheFile() {
-    if (const char* dir = std::getenv("AFTERGLOW_CACHE_DIR")) return std::filesystem::path(dir) / "pipelines";
-    if (const char* dir = std::getenv("XDG_CACHE_HOME"))
-        return std::filesystem::path(dir) / "afterglow/pipelines";
-    if (const char* home = std::getenv("HOME"))
-        return std::filesystem::path(home) / ".cache/afterglow/pipelines";
-    return {};
+    const std::filesystem::path folder = cacheFolder();
+    return folder.empty() ? folder : folder / "pipelines";
 }
 
 }  // namespace
@@ -199,6 +194,7 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(opti
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     if (!hasRoom()) endProgram("out of memory: there is no room for a graphics driver");
+    separateDriverCaches();
     std::unique_ptr<Device> device(new Device(options));
     if (Status made = device->impl_->createInstance(options); !made) return made.error();
     if (Status made = device->impl_->createDevice(options); !made) return made.error();

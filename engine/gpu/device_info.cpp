@@ -46,6 +46,12 @@ void readProperties(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& 
     const bool has = (subgroup.supportedOperations & kSubgroup) == kSubgroup &&
                      (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT);
     (has ? info.enabled : info.missing).push_back(kSubgroupOperations);
+    // Its generator of fragment shaders knows rows of 4 and 8 pixels (lp_build_depth_stencil_load_swizzled
+    // and generate_fs_twiddle of Mesa 22.3 assert it): wider ones end in a crash of its compiler.
+    constexpr uint32_t kMostLavapipeLanes = 8;
+    if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && subgroup.subgroupSize > kMostLavapipeLanes)
+        info.missing.push_back(
+            "fragment shaders of such width, a fault of its own (LP_NATIVE_VECTOR_WIDTH may be 128 or 256)");
 }
 
 bool hasPartsOf13(const Functions& vk, VkPhysicalDevice physical) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/driver_cache.h"
+
 namespace ag::test {
 namespace {
 
@@ -9,6 +11,7 @@ std::unique_ptr<gpu::Device> gDevice;
 
 class DeviceEnvironment : public testing::Environment {
   public:
+    void SetUp() override { separateDriverCaches(); }
     void TearDown() override {
         gDevice.reset();  // objects still alive are reported now
         EXPECT_EQ(gpu::totalValidationMessages(), 0) << "validation messages are printed above";
