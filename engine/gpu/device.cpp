@@ -139,7 +139,7 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
 Status Device::Impl::createDevice(const DeviceOptions& options) {
     if (window && window->make(instance, &surface) != VK_SUCCESS)
         return Error{"cannot create a surface for the window"};
-    auto chosen = chooseDevice(vk, instance, surface, options.deviceName, options.without);
+    auto chosen = chooseDevice(vk, instance, surface, options);
     if (!chosen) return chosen.error();
     choice = std::move(*chosen);
     auto opened = openDevice(vk, choice, window.has_value());

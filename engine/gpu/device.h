@@ -25,7 +25,9 @@ struct DeviceOptions {
     std::optional<WindowSurface> window;  // none: headless, no surface or swapchain extension
     std::string deviceName;  // part of a device name to prefer; empty: discrete, integrated, then CPU
     std::vector<std::string> without;  // features and extensions to do without, as if the device lacked them
-    FaultPlan fault;                   // for tests
+    // Instead of subgroups workgroups of so many lanes that share memory, 4 to 64; 0: as the device can.
+    uint32_t sharedLanes = 0;
+    FaultPlan fault;  // for tests
 };
 
 // The same moment on the device's clock and on the host's (std::chrono::steady_clock).

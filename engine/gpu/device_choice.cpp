@@ -69,8 +69,8 @@ int score(const Functions& vk, VkPhysicalDevice physical, const DeviceInfo& info
 }  // namespace
 
 Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSurfaceKHR surface,
-                                  const std::string& preferredName, std::span<const std::string> without) {
-    for (const std::string& name : without)
+                                  const DeviceOptions& options) {
+    for (const std::string& name : options.without)
         if (!isFeature(name))
             return Error{"there is no feature '" + name + "' to do without (there are: " + featureNames() +
                          ")"};
@@ -83,7 +83,8 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
     std::string lacks;
     for (VkPhysicalDevice physical : devices) {
         DeviceChoice choice{.physical = physical, .info = describeDevice(vk, physical)};
-        leaveOut(without, choice.info);
+        leaveOut(options.without, choice.info);
+        if (options.sharedLanes) choice.info.lanes = {.count = options.sharedLanes, .shared = true};
         const auto family = findQueueFamily(vk, physical, surface);
         if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");
         if (!choice.info.missing.empty()) {
@@ -91,7 +92,7 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
             continue;
         }
         choice.queueFamily = *family;
-        if (const int points = score(vk, physical, choice.info, preferredName); points > bestScore) {
+        if (const int points = score(vk, physical, choice.info, options.deviceName); points > bestScore) {
             bestScore = points;
             best = std::move(choice);
         }
@@ -108,8 +109,7 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
 
 Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, bool withSwapchain) {
     DeviceFeatures features;
-    requireAll(features);
-    features.core.features.pipelineStatisticsQuery = choice.info.counts;
+    enable(features, choice.info);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = choice.queueFamily,

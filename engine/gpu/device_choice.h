@@ -13,10 +13,9 @@ struct DeviceChoice {
     DeviceInfo info;
 };
 
-// The best device that has everything required; otherwise a sentence saying what each one lacks. `without`:
-// features to take as missing.
+// The best device that has everything required; otherwise a sentence saying what each one lacks.
 Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSurfaceKHR surface,
-                                  const std::string& preferredName, std::span<const std::string> without);
+                                  const DeviceOptions& options);
 
 // Device with one queue of the chosen family and the required features.
 Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, bool withSwapchain);

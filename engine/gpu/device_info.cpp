@@ -26,6 +26,24 @@ constexpr std::array kExtensionsOf13 = {VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME,
                                         VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
                                         VK_KHR_MAINTENANCE_4_EXTENSION_NAME};
 
+SubgroupSizes subgroupSizes(const Functions& vk, VkPhysicalDevice physical, const DeviceInfo& info) {
+    if (info.apiVersion < VK_API_VERSION_1_3) return {.usual = info.subgroupSize};
+    VkPhysicalDeviceSubgroupSizeControlProperties sizes{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           .pNext = &sizes};
+    vk.GetPhysicalDeviceProperties2(physical, &properties);
+    VkPhysicalDeviceSubgroupSizeControlFeatures has{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES};
+    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &has};
+    vk.GetPhysicalDeviceFeatures2(physical, &features);
+    return {.usual = info.subgroupSize,
+            .least = sizes.minSubgroupSize,
+            .most = sizes.maxSubgroupSize,
+            .canBeRequested = has.subgroupSizeControl && has.computeFullSubgroups &&
+                              (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT)};
+}
+
 void readProperties(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& info) {
     VkPhysicalDeviceSubgroupProperties subgroup{.sType =
                                                     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
@@ -40,6 +58,7 @@ void readProperties(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& 
     info.subgroupSize = subgroup.subgroupSize;
     info.limits = properties.properties.limits;
     info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    info.lanes = chooseLanes(subgroupSizes(vk, physical, info), info.isCpu);
     info.timestampPeriodNs = info.limits.timestampComputeAndGraphics ? info.limits.timestampPeriod : 0;
     constexpr VkSubgroupFeatureFlags kSubgroup =
         VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
@@ -80,9 +99,13 @@ std::span<const RequiredFeature> requiredFeatures() {
     return kRequired;
 }
 
-void requireAll(DeviceFeatures& features) {
+void enable(DeviceFeatures& features, const DeviceInfo& info) {
     for (const RequiredFeature& feature : kRequired)
         feature.field(features) = VK_TRUE;
+    features.core.features.pipelineStatisticsQuery = info.counts;
+    if (!info.lanes.requested) return;
+    features.subgroupSizes.subgroupSizeControl = features.subgroupSizes.computeFullSubgroups = VK_TRUE;
+    features.maintenance.pNext = &features.subgroupSizes;
 }
 
 std::span<const char* const> extensionsOf13() {

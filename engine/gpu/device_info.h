@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/gpu/functions.h"
+#include "engine/gpu/lanes.h"
 
 namespace ag::gpu {
 
@@ -17,6 +18,7 @@ struct DeviceInfo {
     std::string driver;  // driver name and version
     uint32_t apiVersion = 0;
     uint32_t subgroupSize = 0;
+    Lanes lanes;
     float timestampPeriodNs = 0;  // 0: no timestamps
     bool calibrated = false;      // the device's clock can be read together with the host's
     bool counts = false;          // pipeline statistics
@@ -36,6 +38,9 @@ struct DeviceFeatures {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
     VkPhysicalDeviceMaintenance4Features maintenance{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
+    // In the chain only where it is used: devices of 1.2 do not know it.
+    VkPhysicalDeviceSubgroupSizeControlFeatures subgroupSizes{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES};
     DeviceFeatures() {
         core.pNext = &v12;
         v12.pNext = &rendering;
@@ -51,7 +56,8 @@ struct RequiredFeature {
     VkBool32& (*field)(DeviceFeatures&);
 };
 std::span<const RequiredFeature> requiredFeatures();
-void requireAll(DeviceFeatures& features);  // switches them on
+// Switches them on, and of what can be done without what `info` found to be of use.
+void enable(DeviceFeatures& features, const DeviceInfo& info);
 
 constexpr const char* kSubgroupOperations = "subgroup shuffle, ballot and arithmetic";
 // A device that cannot replay buffer addresses is shown by RenderDoc as one of 1.2 with these.

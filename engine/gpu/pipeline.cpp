@@ -205,6 +205,10 @@ void PipelineLibrary::Impl::makeLayout(Pipeline& pipeline, uint64_t shadersHash,
 
 namespace {
 
+bool declares(const ShaderModule& module, uint32_t id) {
+    return std::ranges::find(module.specConstants, id, &SpecConstantInfo::id) != module.specConstants.end();
+}
+
 bool isInteger(ScalarKind kind) {
     return kind == ScalarKind::kInt || kind == ScalarKind::kUint;
 }
@@ -238,8 +242,8 @@ void checkConstants(const PipelineRequest& request, std::initializer_list<const 
 
 // The request's constants and the device's own, as far as a shader declares them.
 struct Specialization {
-    std::array<VkSpecializationMapEntry, kMaxSpecConstants + 2> entries{};
-    std::array<uint32_t, kMaxSpecConstants + 2> values{};
+    std::array<VkSpecializationMapEntry, kMaxSpecConstants + 4> entries{};
+    std::array<uint32_t, kMaxSpecConstants + 4> values{};
     VkSpecializationInfo info{};
 
     Specialization(const PipelineRequest& request, const ShaderModule& module, const DeviceInfo& device) {
@@ -251,6 +255,8 @@ struct Specialization {
         for (const SpecConstantInfo& declared : module.specConstants) {
             if (declared.id == kSpecSubgroupSize) add(declared.id, device.subgroupSize);
             if (declared.id == kSpecLaneParallel) add(declared.id, device.isCpu);
+            if (declared.id == kSpecLanes) add(declared.id, device.lanes.count);
+            if (declared.id == kSpecSharedLanes) add(declared.id, device.lanes.shared);
             if (const SpecConstant* given = find(request, declared)) add(declared.id, given->value);
         }
         info = {count, entries.data(), count * 4, values.data()};
@@ -278,9 +284,16 @@ void PipelineLibrary::Impl::makeCompute(const PipelineRequest& request, Pipeline
     pipeline.id = combineHash(compute.hash, requestHash(request));
     checkConstants(request, {&compute.module});
     const Specialization specialization(request, compute.module, context.info());
-    const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                           .stage = stageInfo(compute.handle, compute.module, specialization),
-                                           .layout = pipeline.layout};
+    VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                     .stage = stageInfo(compute.handle, compute.module, specialization),
+                                     .layout = pipeline.layout};
+    const VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO,
+        .requiredSubgroupSize = context.info().lanes.count};
+    if (context.info().lanes.requested && declares(compute.module, kSpecLanes)) {
+        info.stage.pNext = &size;
+        info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+    }
     AG_VK(context.vk().CreateComputePipelines(context.handle(), context.pipelineCache(), 1, &info,
                                               context.hostAllocation(), &pipeline.handle));
     context.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, compute.module.path);

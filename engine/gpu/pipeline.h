@@ -44,6 +44,8 @@ constexpr size_t kMaxColorTargets = 4;
 // Ids every shader may declare; filled in from the context.
 constexpr uint32_t kSpecSubgroupSize = 100;  // uint: lanes of a subgroup
 constexpr uint32_t kSpecLaneParallel = 101;  // bool: load one light a lane and shuffle (CPU devices)
+constexpr uint32_t kSpecLanes = 102;         // uint: of a workgroup that is one subgroup, or shares memory
+constexpr uint32_t kSpecSharedLanes = 103;   // bool: the latter
 
 enum class CullMode : uint32_t { kNone, kBack };
 enum class BlendMode : uint32_t { kNone, kAlpha };

@@ -1,6 +1,7 @@
 // What a SPIR-V module binds, through SPIRV-Cross.
 #include <spirv_cross/spirv_cross_c.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "engine/gpu/shader_files.h"
@@ -125,6 +126,19 @@ ScalarKind kindOf(spvc_basetype type) {
     }
 }
 
+// A constant that gives a workgroup's size is listed once more, without its name.
+void addConstant(spvc_compiler compiler, const spvc_specialization_constant& constant, ShaderModule& module) {
+    const auto known = std::ranges::find(module.specConstants, constant.constant_id, &SpecConstantInfo::id);
+    const std::string name = spvc_compiler_get_name(compiler, constant.id);
+    if (known != module.specConstants.end()) {
+        if (known->name.empty()) known->name = name;
+        return;
+    }
+    const spvc_type type = spvc_compiler_get_type_handle(
+        compiler, spvc_constant_get_type(spvc_compiler_get_constant_handle(compiler, constant.id)));
+    module.specConstants.push_back({name, constant.constant_id, kindOf(spvc_type_get_basetype(type))});
+}
+
 }  // namespace
 
 Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv) {
@@ -156,12 +170,8 @@ Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv
     const spvc_specialization_constant* constants = nullptr;
     size_t count = 0;
     spvc_compiler_get_specialization_constants(compiler, &constants, &count);
-    for (size_t i = 0; i < count; ++i) {
-        const spvc_type type = spvc_compiler_get_type_handle(
-            compiler, spvc_constant_get_type(spvc_compiler_get_constant_handle(compiler, constants[i].id)));
-        module.specConstants.push_back({spvc_compiler_get_name(compiler, constants[i].id),
-                                        constants[i].constant_id, kindOf(spvc_type_get_basetype(type))});
-    }
+    for (size_t i = 0; i < count; ++i)
+        addConstant(compiler, constants[i], module);
     return module;
 }
 

@@ -70,6 +70,17 @@ std::string requirementsMissing(const gpu::DeviceInfo& info) {
     return missing.empty() ? missing : info.name + " lacks " + missing;
 }
 
+// What to switch on, for as long as the library lives.
+const VkPhysicalDeviceFeatures2* featuresFor(const gpu::DeviceInfo& info) {
+    static const auto make = [](bool subgroupSizes) {
+        auto all = std::make_unique<gpu::DeviceFeatures>();
+        gpu::enable(*all, {.lanes = {.requested = subgroupSizes}});
+        return all;
+    };
+    static const auto with = make(true), without = make(false);
+    return info.lanes.requested ? &with->core : &without->core;
+}
+
 // A frame as one of the view's size would be, for agiPrepare before the first one.
 AgiFrame frameLike(const AgiFrame& last) {
     AgiFrame f = last;
@@ -101,17 +112,12 @@ AgiResult agiGetRequirements(VkInstance instance, VkPhysicalDevice device,
         throwFailures();
         refuseUnless(instance && device && getInstanceProcAddr,
                      "instance, device or getInstanceProcAddr is null");
-        static const auto features = [] {
-            auto all = std::make_unique<gpu::DeviceFeatures>();
-            gpu::requireAll(*all);
-            return all;
-        }();
         const gpu::Functions vk = loadFunctions(getInstanceProcAddr, instance, VK_NULL_HANDLE);
         const gpu::DeviceInfo info = gpu::describeDevice(vk, device);
         if (const std::string missing = requirementsMissing(info); !missing.empty())
             throw Failure(FailureKind::kUnsupported, missing);
         AgiRequirements out{};
-        out.features = &features->core;
+        out.features = featuresFor(info);
         if (info.apiVersion < VK_API_VERSION_1_3) {
             out.extensionCount = uint32_t(gpu::extensionsOf13().size());
             out.extensions = gpu::extensionsOf13().data();

@@ -1,14 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // Of each tile of 8 x 8 pixels: the deviation of a new sample's luminance over some frames; what of the new samples stands
-// out of it; by how much new samples and history disagree beyond what noise explains, 0 to 1. One subgroup a tile. Noise
+// out of it; by how much new samples and history disagree beyond what noise explains, 0 to 1. One group of lanes a tile. Noise
 // is what differs from the history, where there is one: light that falls off within a tile is none.
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "denoiser/surface.glsl"
 
-layout(local_size_x_id = 100) in;
 
 layout(set = 0, binding = 0) uniform sampler2D samples;
 layout(set = 0, binding = 1) uniform sampler2D history;
@@ -25,7 +23,7 @@ void main() {
     ivec2 tile = ivec2(gl_WorkGroupID.x % tileCount.x, gl_WorkGroupID.x / tileCount.x);
     const uint kPixels = kDenoiserTile * kDenoiserTile;
     float count = 0.0, sum = 0.0, squares = 0.0, both = 0.0, fresh = 0.0, old = 0.0, off = 0.0;
-    for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < kPixels; i += kLanes) {
         ivec2 pixel = tile * int(kDenoiserTile) + ivec2(i % kDenoiserTile, i / kDenoiserTile);
         bool inside = all(lessThan(pixel, size));
         ivec2 at = min(pixel, size - 1);
@@ -39,14 +37,14 @@ void main() {
         old += known * luminance(h.rgb);
         off += known * (l - luminance(h.rgb)) * (l - luminance(h.rgb));
     }
-    count = max(subgroupAdd(count), 1.0);
-    float mean = subgroupAdd(sum) / count, variance = max(subgroupAdd(squares) / count - mean * mean, 0.0);
-    both = subgroupAdd(both);
+    count = max(laneAdd(count), 1.0);
+    float mean = laneAdd(sum) / count, variance = max(laneAdd(squares) / count - mean * mean, 0.0);
+    both = laneAdd(both);
     bool hasHistory = both > 0.5 * count;
     both = max(both, 1.0);
-    float deviation2 = hasHistory ? subgroupAdd(off) / both : variance;
-    fresh = subgroupAdd(fresh) / both;
-    old = subgroupAdd(old) / both;
+    float deviation2 = hasHistory ? laneAdd(off) / both : variance;
+    fresh = laneAdd(fresh) / both;
+    old = laneAdd(old) / both;
     // From two standard deviations of the means' difference on, all from four on: of this frame's and of a mean over some,
     // which finds what changes slowly.
     vec4 before = push.valid == 1 ? texelFetch(previousTiles, tile, 0) : vec4(sqrt(deviation2), vec3(0.0));
@@ -57,13 +55,13 @@ void main() {
     float deviations = max(abs(differs), abs(lasting) / kLastingDeviation) / max(uncertain, 1e-20);
     float change = old > 0.0 && fresh == 0.0 ? 1.0 : clamp(0.5 * deviations - 1.0, 0.0, 1.0);
     vec3 over = vec3(0.0);
-    for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < kPixels; i += kLanes) {
         ivec2 pixel = tile * int(kDenoiserTile) + ivec2(i % kDenoiserTile, i / kDenoiserTile), at = min(pixel, size - 1);
         vec3 s = all(lessThan(pixel, size)) ? texelFetch(samples, at, 0).rgb : vec3(0.0);
         over += s - s * keptShare(luminance(s), texelFetch(history, at, 0), noise);
     }
-    over = subgroupAdd(over) / max(old * both, 1e-20);  // old: mean of the known
-    if (gl_SubgroupInvocationID != 0) return;
+    over = laneAdd(over) / max(old * both, 1e-20);  // old: mean of the known
+    if (laneIndex() != 0) return;
     imageStore(tiles, tile, vec4(min(noise, 6e4), change, clamp(lasting, -6e4, 6e4), 0.0));
     imageStore(excess, tile, vec4(over, 0.0));
 }

@@ -1,15 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // For each tile of the screen the lights whose range reaches into the boxes round its near and far surfaces, in ascending
-// order, by one subgroup a tile.
-#include "common/lane_loop.glsl"
+// order, by one group of lanes a tile.
+#include "common/lanes.glsl"
 #include "direct_lighting/direct_lighting_io.h"
 #include "gbuffer/gbuffer.glsl"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { PunctualPush p; } push;
 
 layout(constant_id = 0) const bool kByRange = true;  // false: all lights everywhere
@@ -40,16 +37,16 @@ void main() {
     uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kPunctualTileSize;
     const uint kPixels = kPunctualTileSize * kPunctualTileSize;
     float farthest = 1.0, nearest = 0.0;  // reversed depth
-    for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < kPixels; i += kLanes) {
         float depth;
         placeOf(origin, i, size, depth);
         farthest = depth > 0.0 ? min(farthest, depth) : farthest;
         nearest = max(nearest, depth);
     }
     // Two boxes, so that an edge before a far wall does not take in all between them.
-    float between = sqrt(subgroupMin(farthest) * subgroupMax(nearest));
+    float between = sqrt(laneMin(farthest) * laneMax(nearest));
     Box near = Box(vec3(3.0e38), vec3(-3.0e38)), far = near;
-    for (uint i = gl_SubgroupInvocationID; i < kPixels; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < kPixels; i += kLanes) {
         float depth;
         vec3 x = placeOf(origin, i, size, depth);
         bool isNear = depth > between, isFar = depth > 0.0 && !isNear;
@@ -58,19 +55,19 @@ void main() {
         far.least = isFar ? min(far.least, x) : far.least;
         far.most = isFar ? max(far.most, x) : far.most;
     }
-    near = Box(subgroupMin(near.least), subgroupMax(near.most));
-    far = Box(subgroupMin(far.least), subgroupMax(far.most));
+    near = Box(laneMin(near.least), laneMax(near.most));
+    far = Box(laneMin(far.least), laneMax(far.most));
     bool any = near.least.x <= near.most.x || far.least.x <= far.most.x;
     uint count = 0;
-    for (uint base = 0; base < push.p.lightCount && count < kMaxPunctualLightsPerTile; base += kSubgroupSize) {
-        uint light = base + gl_SubgroupInvocationID;
+    for (uint base = 0; base < push.p.lightCount && count < kMaxPunctualLightsPerTile; base += kLanes) {
+        uint light = base + laneIndex();
         vec4 place = texelFetch(lights, int(min(light, push.p.lightCount - 1)) * 4);
         bool reaches = !kByRange || reachesBox(place, near) || reachesBox(place, far);
         bool mine = any && light < push.p.lightCount && reaches;
-        uvec4 ballot = subgroupBallot(mine);
-        uint at = count + subgroupBallotExclusiveBitCount(ballot);
+        LaneVote vote = laneVote(mine);
+        uint at = count + vote.before;
         if (mine && at < kMaxPunctualLightsPerTile) lists.items[tile * kMaxPunctualLightsPerTile + at] = light;
-        count += subgroupBallotBitCount(ballot);
+        count += vote.count;
     }
-    if (gl_SubgroupInvocationID == 0) counts.items[tile] = min(count, kMaxPunctualLightsPerTile);
+    if (laneIndex() == 0) counts.items[tile] = min(count, kMaxPunctualLightsPerTile);
 }

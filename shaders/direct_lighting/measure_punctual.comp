@@ -1,13 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-// How much each punctual light matters to what is seen: its light at points of the view, without shadows. One subgroup a light.
-#include "common/lane_loop.glsl"
+// How much each punctual light matters to what is seen: its light at points of the view, without shadows. One group of lanes a light.
+#include "common/lanes.glsl"
 #include "direct_lighting/direct_lighting_io.h"
 #include "gbuffer/view_points_io.h"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { MeasurePush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer lights;
@@ -21,13 +19,13 @@ void main() {
     PunctualLight light = punctualLightAt(isLight ? index : 0);
     float sum = 0.0;
     uint count = isLight ? push.p.pointCount : 0;
-    for (uint i = gl_SubgroupInvocationID; i < count; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < count; i += kLanes) {
         vec4 place = texelFetch(viewPoints, int(2 * i)), normal = texelFetch(viewPoints, int(2 * i + 1));
         float distance2;
         vec3 e = irradianceFrom(light, place.xyz, normal.xyz, distance2);
         sum += place.w > 0.0 ? e.r + e.g + e.b : 0.0;
     }
-    sum = subgroupAdd(sum);
-    if (gl_SubgroupInvocationID == 0)
+    sum = laneAdd(sum);
+    if (laneIndex() == 0)
         relevance.items[index] = PunctualRelevance(light.id, isLight ? max(sum, 1e-30) : 0.0);
 }

@@ -1,12 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // The points of movable surfaces each map is made of.
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "ism_atlas/ism_atlas_io.h"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer segments;
@@ -18,5 +16,5 @@ layout(set = 0, binding = 3, scalar) writeonly buffer States { IsmMapState items
 void main() {
     uint map = gl_WorkGroupID.x;
     uint count = choosePoints(map, AG_ISM_LIGHT(vals, map));
-    if (gl_SubgroupInvocationID == 0) states.items[map] = IsmMapState(count, 0);
+    if (laneIndex() == 0) states.items[map] = IsmMapState(count, 0);
 }

@@ -1,11 +1,11 @@
 // Which points of a layer each map is made of: of a segment of the curve through all surfaces so many as its distance
 // from the light asks for (as the solid angle of its area: area / d²), none from behind the light's plane. What the light
-// sees is then cut as finely near by as far off. One subgroup a map; systematic sampling along the curve, from another
+// sees is then cut as finely near by as far off. One group of lanes a map; systematic sampling along the curve, from another
 // place in each map. Needs buffers `segments`, `chosen` and the push constants.
 #ifndef AG_CHOOSE_POINTS_GLSL
 #define AG_CHOOSE_POINTS_GLSL
 
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "ism_atlas/ism_light.glsl"
 #include "surface_points/surface_points_io.h"
 
@@ -30,13 +30,13 @@ float pointsPerWeight(IsmLight light) {
     float factor = 0.0;
     for (int round_ = 0; round_ < kRounds; ++round_) {
         float full = 0.0, rest = 0.0;
-        for (uint base = push.p.firstSegment; base < push.p.endSegment; base += kSubgroupSize) {
-            float w = weightOf(light, base + gl_SubgroupInvocationID);
+        for (uint base = push.p.firstSegment; base < push.p.endSegment; base += kLanes) {
+            float w = weightOf(light, base + laneIndex());
             full += w * factor >= kMost ? kMost : 0.0;
             rest += w * factor >= kMost ? 0.0 : w;
         }
-        float left = max(float(push.p.entryCount) - subgroupAdd(full), 0.0);
-        factor = max(factor, left / max(subgroupAdd(rest), 1e-20));
+        float left = max(float(push.p.entryCount) - laneAdd(full), 0.0);
+        factor = max(factor, left / max(laneAdd(rest), 1e-20));
     }
     return factor;
 }
@@ -46,12 +46,12 @@ float pointsPerWeight(IsmLight light) {
 uint choosePoints(uint map, IsmLight light) {
     uint scramble = hashUint(map), written = 0;
     float factor = pointsPerWeight(light), before = hashToUnit(map + 1);
-    for (uint base = push.p.firstSegment; base < push.p.endSegment; base += kSubgroupSize) {
-        uint segment = base + gl_SubgroupInvocationID;
+    for (uint base = push.p.firstSegment; base < push.p.endSegment; base += kLanes) {
+        uint segment = base + laneIndex();
         float asked = min(weightOf(light, segment) * factor, kMost);
-        float end = before + subgroupInclusiveAdd(asked);
+        float end = before + laneInclusiveAdd(asked);
         uint wanted = min(uint(end), push.p.entryCount);
-        uint first = max(subgroupExclusiveMax(wanted), written), last = max(subgroupInclusiveMax(wanted), written);
+        uint first = max(laneExclusiveMax(wanted), written), last = max(laneInclusiveMax(wanted), written);
         // Fewer points stand for the same surface: their disks are larger.
         float growth = push.p.diskRadius * sqrt(kMost / max(asked, 1e-6));
         for (uint i = first; i < last; ++i) {
@@ -59,8 +59,8 @@ uint choosePoints(uint map, IsmLight light) {
             chosen.items[firstEntryOf(map) + i] =
                 packIsmPoint(min(segment * kSegmentPoints + rank, push.p.pointCount - 1), growth);
         }
-        before = subgroupMax(end);
-        written = subgroupMax(last);
+        before = laneMax(end);
+        written = laneMax(last);
     }
     return written;
 }

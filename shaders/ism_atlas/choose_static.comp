@@ -1,13 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // The static points each map is made of. A map whose light and whose static points stand where they stood is kept; the
 // others are listed to be splatted.
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "ism_atlas/ism_atlas_io.h"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer segments;
@@ -31,14 +29,14 @@ void main() {
     IsmMapState state = IsmMapState(0, kept ? 1 : 0);
     if (kept) {
         uint first = firstEntryOf(map);
-        for (uint i = gl_SubgroupInvocationID; i < push.p.entryCount; i += kSubgroupSize)
+        for (uint i = laneIndex(); i < push.p.entryCount; i += kLanes)
             chosen.items[first + i] = texelFetch(previousChosen, int(first + i)).x;
     } else {
         state.pointCount = choosePoints(map, light);
         ++place.made;
     }
     if (!light.lit) place.contents = 0;
-    if (gl_SubgroupInvocationID == 0) {
+    if (laneIndex() == 0) {
         places.items[map] = place;
         states.items[map] = state;
         if (state.pointCount > 0) anew.items[atomicAdd(anewGroups.count.y, 1)] = map;

@@ -1,13 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // For each run of points, which lights are near and which far.
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "later_bounces/later_bounces_io.h"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { GatherPush p; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
@@ -20,10 +17,10 @@ layout(set = 0, binding = 4, scalar) writeonly buffer Counts { uvec2 items[]; } 
 void main() {
     uint run_ = gl_WorkGroupID.x;
     Box box = kEmptyBox;
-    for (uint i = gl_SubgroupInvocationID; i < kRunPoints; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < kRunPoints; i += kLanes) {
         int at = int(min(run_ * kRunPoints + i, push.p.count - 1)) * 3;
         if (texelFetch(texels, at).w > 0.0) extend(box, texelFetch(texels, at).xyz);
     }
-    uvec2 count = sortLights(run_, boxOfSubgroup(box), 0, push.p.valCount, push.p.nearReach);
-    if (gl_SubgroupInvocationID == 0) counts.items[run_] = count;
+    uvec2 count = sortLights(run_, boxOfLanes(box), 0, push.p.valCount, push.p.nearReach);
+    if (laneIndex() == 0) counts.items[run_] = count;
 }

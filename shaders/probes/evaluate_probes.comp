@@ -1,9 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // The light at a probe: bounced, from the area lights the screen is lit by, through their shadow maps; and direct, from
-// the lights that have RSMs, by these maps' depth. One subgroup a probe; its lanes share out the lights.
+// the lights that have RSMs, by these maps' depth. One group of lanes a probe; its lanes share out the lights.
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 1) const int kVisibilityTaps = 0;
 
@@ -11,13 +10,13 @@ layout(set = 0, binding = 0) uniform samplerBuffer vals;
 layout(set = 0, binding = 1) uniform samplerBuffer shapes;
 layout(set = 0, binding = 2) uniform samplerBuffer isms;
 layout(set = 0, binding = 3) uniform sampler2D depthMap;
+#include "common/lanes.glsl"
 #include "common/lights.h"
 #include "probes/probes_io.h"
 #include "rsm/rsm_io.h"
 #include "scene/scene_io.h"
 #include "val_shading/area_light.glsl"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { ProbePush p; } push;
 layout(set = 0, binding = 4, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 5, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
@@ -72,11 +71,11 @@ void main() {
     Probe probe = probes.items[index];
     bool allRound = dot(probe.normal, probe.normal) < 0.25;
     vec3 direct = vec3(0.0), bounced = vec3(0.0);
-    for (uint i = gl_SubgroupInvocationID; i < push.p.faceCount; i += kSubgroupSize)
+    for (uint i = laneIndex(); i < push.p.faceCount; i += kLanes)
         direct += directFrom(faces.items[i], maps.items[faces.items[i].map], probe.position, probe.normal, allRound);
-    for (uint i = gl_SubgroupInvocationID; i < push.p.valCount; i += kSubgroupSize)
+    for (uint i = laneIndex(); i < push.p.valCount; i += kLanes)
         bounced += bouncedFrom(i, probe.position, probe.normal, allRound);
-    direct = subgroupAdd(direct);
-    bounced = subgroupAdd(bounced);
-    if (gl_SubgroupInvocationID == 0) rows.items[index] = ProbeRow(direct, probe.idLow, bounced, probe.idHigh);
+    direct = laneAdd(direct);
+    bounced = laneAdd(bounced);
+    if (laneIndex() == 0) rows.items[index] = ProbeRow(direct, probe.idLow, bounced, probe.idHigh);
 }

@@ -1,19 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // Evaluation of a map's clusters (ACRSM section 4.8): a random part of them is looked at each step; those with far more
 // than the mean error are split, those with far less give up their place for it. Difference: what is compared is not
 // area times importance but an estimate of the error itself (evaluate.comp), a mixture of that of flux and that in the
-// view, each over its mean. One subgroup a map, in index order: equal inputs give equal plans.
+// view, each over its mean. One group of lanes a map, in index order: equal inputs give equal plans.
 #include "common/clustering_metric.h"
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "common/sampling.h"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Previous { Cluster items[]; } previous;
@@ -49,27 +46,27 @@ uint seedTexel(uint cluster) {
     return best;
 }
 
-#define AG_APPEND(list, mine, count, value) { uvec4 ballot = subgroupBallot(mine); \
-    if (mine) list[count + subgroupBallotExclusiveBitCount(ballot)] = value; count += subgroupBallotBitCount(ballot); }
+#define AG_APPEND(list, mine, size, value) { LaneVote vote = laneVote(mine); \
+    if (mine) list[size + vote.before] = value; size += vote.count; }
 
 void main() {
     RsmMap map = maps.items[gl_WorkGroupID.x];
     vec2 sum = vec2(0.0);
     float live = 0.0;
-    for (uint base = 0; base < map.clusterCount; base += kSubgroupSize) {
-        uint i = base + gl_SubgroupInvocationID, cluster = map.firstCluster + min(i, map.clusterCount - 1);
+    for (uint base = 0; base < map.clusterCount; base += kLanes) {
+        uint i = base + laneIndex(), cluster = map.firstCluster + min(i, map.clusterCount - 1);
         if (i < map.clusterCount && isLive(previous.items[cluster], map.lightIdLow)) {
             sum += vec2(errors.items[cluster].ofFlux, errors.items[cluster].ofView);
             live += 1.0;
         }
     }
-    sum = subgroupAdd(sum);
+    sum = laneAdd(sum);
     float w = sum.y > 0.0 ? push.settings.viewWeight : 0.0;
-    vec2 overMean = vec2(1.0 - w, w) * subgroupAdd(live) / max(sum, vec2(1e-30));
+    vec2 overMean = vec2(1.0 - w, w) * laneAdd(live) / max(sum, vec2(1e-30));
 
     uint emptyCount = 0, idleCount = 0, splitCount = 0;
-    for (uint base = 0; base < map.clusterCount; base += kSubgroupSize) {
-        uint i = base + gl_SubgroupInvocationID, cluster = map.firstCluster + min(i, map.clusterCount - 1);
+    for (uint base = 0; base < map.clusterCount; base += kLanes) {
+        uint i = base + laneIndex(), cluster = map.firstCluster + min(i, map.clusterCount - 1);
         Cluster c = previous.items[cluster];
         bool mine = i < map.clusterCount, lit = mine && isLive(c, map.lightIdLow);
         bool looked = lit && push.settings.lookPeriod > 0 &&
@@ -80,10 +77,9 @@ void main() {
         AG_APPEND(idleSlots, (looked && error < kMergeShare), idleCount, cluster)
         AG_APPEND(splitters, (looked && error > kSplitShare && c.texelCount >= kLeastTexels), splitCount, cluster)
     }
-    memoryBarrierShared();
-    subgroupBarrier();
+    laneBarrier();
     uint pairs = min(splitCount, emptyCount + idleCount);
-    for (uint i = gl_SubgroupInvocationID; i < pairs; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < pairs; i += kLanes) {
         uint slot = i < emptyCount ? emptySlots[i] : idleSlots[i - emptyCount];
         plans.items[slot] = seedTexel(splitters[i]);
     }

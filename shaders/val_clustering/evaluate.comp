@@ -1,17 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // What error each cluster makes by standing for its texels as one light: of its flux, as far as it faces the view, and
 // of the irradiance at points of the view. A texel off the centre by s is seen from another direction at distances like
 // s; one of another normal sends its light elsewhere at any distance.
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "common/sampling.h"
 #include "importance/importance_io.h"
 #include "val_clustering/covariance.glsl"
 #include "val_clustering/val_clustering_io.h"
 
-layout(local_size_x_id = 100) in;  // one subgroup a cluster
 layout(constant_id = 0) const bool kFromView = false;
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
@@ -33,9 +31,9 @@ vec2 viewedFrom(Cluster c, vec4 place, vec3 normal) {
 
 vec2 meanOverView(Cluster c) {
     vec2 sum = vec2(0.0);
-    for (uint i = gl_SubgroupInvocationID; i < kViewPointCount; i += kSubgroupSize)
+    for (uint i = laneIndex(); i < kViewPointCount; i += kLanes)
         sum += viewedFrom(c, texelFetch(viewPoints, int(i) * 2), texelFetch(viewPoints, int(i) * 2 + 1).xyz);
-    return subgroupAdd(sum) / float(kViewPointCount);
+    return laneAdd(sum) / float(kViewPointCount);
 }
 
 void main() {
@@ -45,6 +43,6 @@ void main() {
     vec4 weights = push.settings.metricWeights;
     float metric = weights.x * sum3(c.covarianceDiagonal) + weights.y * (1.0 - c.cosineSpread) +
                    weights.w * dot(c.normal, covarianceOf(c) * c.normal);
-    if (gl_SubgroupInvocationID == 0)
+    if (laneIndex() == 0)
         errors.items[cluster] = ClusterError(sum3(c.flux) * view.x * metric, sum3(c.flux) * view.y);
 }

@@ -1,18 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // For each tile, in ascending order, the clusters whose seeds lie within its map's candidate radius (RSMC's r = 2
 // cells of a sqrt(k) x sqrt(k) grid, rounded to tiles), and wherever they lie those nearest by the metric to texels here and
 // there in the tile: where clusters are few, that of a texel's own surface may be far off while another surface's is near.
-// Where no seed is near, the nearest ones: every lit texel finds a cluster. One subgroup a tile, so that the order is fixed.
+// Where no seed is near, the nearest ones: every lit texel finds a cluster. One group of lanes a tile, so that the order is fixed.
 #include "common/clustering_metric.h"
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer seeds;
@@ -25,7 +22,7 @@ layout(set = 0, binding = 5, scalar) writeonly buffer PartialOf { uint items[]; 
 layout(set = 0, binding = 6) uniform samplerBuffer texels;
 
 const uint kProbes = 16;  // of a tile: one a row and a column
-const uint kProbesPerLane = (kProbes + kSubgroupSize - 1) / kSubgroupSize;
+const uint kProbesPerLane = (kProbes + kLanes - 1) / kLanes;
 const uint kFar = 1u << 20;  // tiles: beyond any map
 
 // Chebyshev distance in tiles; kFar for dead seeds and other maps' clusters.
@@ -56,15 +53,15 @@ Probe probeOf(uint tile, uint index) {
 
 // A lane owns probes and loads a cluster of its own in each round, which it hands to the others.
 void findNearest(inout Probe probes[kProbesPerLane], uvec2 place, uint map, uint count) {
-    for (uint base = 0; base < count; base += kSubgroupSize) {
-        uint mine = min(base + gl_SubgroupInvocationID, count - 1);
+    for (uint base = 0; base < count; base += kLanes) {
+        uint mine = min(base + laneIndex(), count - 1);
         vec3 position = texelFetch(seeds, int(mine) * 3).xyz, normal = texelFetch(seeds, int(mine) * 3 + 1).xyz,
              chroma = texelFetch(seeds, int(mine) * 3 + 2).xyz;
         bool live = tileDistance(mine, place, map) < kFar;
-        uint here = min(kSubgroupSize, count - base);
+        uint here = min(kLanes, count - base);
         [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {
-            if (!subgroupShuffle(live, lane)) continue;
-            vec3 x = subgroupShuffle(position, lane), n = subgroupShuffle(normal, lane), c = subgroupShuffle(chroma, lane);
+            if (!laneShuffle(live, lane)) continue;
+            vec3 x = laneShuffle(position, lane), n = laneShuffle(normal, lane), c = laneShuffle(chroma, lane);
             [[unroll]] for (uint i = 0; i < kProbesPerLane; ++i) {
                 float metric = clusterMetric(probes[i].s.position, probes[i].s.normal, probes[i].chroma, x, n, c,
                                              push.settings.metricWeights);
@@ -78,9 +75,11 @@ void findNearest(inout Probe probes[kProbesPerLane], uvec2 place, uint map, uint
 
 bool isNearestOfAny(Probe probes[kProbesPerLane], uint cluster) {
     bool found = false;
-    [[dont_unroll]] for (uint lane = 0; lane < min(kSubgroupSize, kProbes); ++lane)
-        [[unroll]] for (uint i = 0; i < kProbesPerLane; ++i)
-            found = found || subgroupShuffle(probes[i].nearest, lane) == cluster;
+    [[dont_unroll]] for (uint lane = 0; lane < min(kLanes, kProbes); ++lane)
+        [[unroll]] for (uint i = 0; i < kProbesPerLane; ++i) {
+            uint nearest = laneShuffle(probes[i].nearest, lane);  // by all lanes, so not behind a ||
+            found = found || nearest == cluster;
+        }
     return found;
 }
 
@@ -92,30 +91,30 @@ void main() {
     uint count = push.settings.clusterCount;
 
     uint nearest = kFar;
-    for (uint base = 0; base < count; base += kSubgroupSize) {
-        uint cluster = base + gl_SubgroupInvocationID;
+    for (uint base = 0; base < count; base += kLanes) {
+        uint cluster = base + laneIndex();
         if (cluster < count) nearest = min(nearest, tileDistance(cluster, place, map));
     }
-    nearest = subgroupMin(nearest);
+    nearest = laneMin(nearest);
     uint radius = map == kNoCluster ? 0 : max(maps.items[min(map, push.settings.mapCount - 1)].candidateRadius, nearest);
     bool any = map != kNoCluster && nearest < kFar;
 
     Probe probes[kProbesPerLane];
-    for (uint i = 0; i < kProbesPerLane; ++i) probes[i] = probeOf(tile, i * kSubgroupSize + gl_SubgroupInvocationID);
+    for (uint i = 0; i < kProbesPerLane; ++i) probes[i] = probeOf(tile, i * kLanes + laneIndex());
     if (any) findNearest(probes, place, map, count);
 
     uint found = 0;
-    for (uint base = 0; base < count; base += kSubgroupSize) {
-        uint cluster = base + gl_SubgroupInvocationID;
+    for (uint base = 0; base < count; base += kLanes) {
+        uint cluster = base + laneIndex();
         bool take = tileDistance(min(cluster, count - 1), place, map) <= radius;
         bool listed = isNearestOfAny(probes, cluster);
         take = (take || listed) && any && cluster < count;
-        uvec4 ballot = subgroupBallot(take);
-        uint slot = found + subgroupBallotExclusiveBitCount(ballot);
+        LaneVote vote = laneVote(take);
+        uint slot = found + vote.before;
         take = take && slot < kMaxCandidates;
         if (take) candidates.items[tile * kMaxCandidates + slot] = cluster;
         if (cluster < count) partialOf.items[tile * count + cluster] = kNoCluster;  // until texels are found
-        found += subgroupBallotBitCount(ballot);
+        found += vote.count;
     }
-    if (gl_SubgroupInvocationID == 0) candidateCounts.items[tile] = min(found, kMaxCandidates);
+    if (laneIndex() == 0) candidateCounts.items[tile] = min(found, kMaxCandidates);
 }

@@ -1,18 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
 // Segmented update, first half: for each tile, sums over the texels of each of its candidates that has any. They lie
 // one after another, in any order. A lane owns texels, so no atomics: the same texels always give the same bits. Positions
 // are summed relative to the seed, which keeps second moments exact far from the origin. The farthest texels in eight
 // directions of the seed's plane are noted too: the corners of the cluster's convex hull.
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "common/sampling.h"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
-layout(local_size_x_id = 100) in;  // one subgroup a tile
 layout(push_constant, scalar) uniform Push { uint clusterCount, mostPartials; } push;
 
 layout(set = 0, binding = 0) uniform samplerBuffer texels;
@@ -88,16 +85,16 @@ Sums noTexels() {
 
 // Over all lanes; of equally far texels the one of the lowest index.
 Sums addLanes(Sums s) {
-    s.fluxArea = subgroupAdd(s.fluxArea);
-    s.offsetWeight = subgroupAdd(s.offsetWeight);
-    s.normalCount = subgroupAdd(s.normalCount);
-    s.momentDiagonal = subgroupAdd(s.momentDiagonal);
-    s.momentMixed = subgroupAdd(s.momentMixed);
-    s.areaOffset = subgroupAdd(s.areaOffset);
-    s.before = subgroupMax(s.before);
+    s.fluxArea = laneAdd(s.fluxArea);
+    s.offsetWeight = laneAdd(s.offsetWeight);
+    s.normalCount = laneAdd(s.normalCount);
+    s.momentDiagonal = laneAdd(s.momentDiagonal);
+    s.momentMixed = laneAdd(s.momentMixed);
+    s.areaOffset = laneAdd(s.areaOffset);
+    s.before = laneMax(s.before);
     [[unroll]] for (int i = 0; i < int(kExtremes); ++i) {
-        float most = subgroupMax(s.most[i]);
-        s.farthest[i] = subgroupMin(s.most[i] == most ? s.farthest[i] : kTileTexels - 1);
+        float most = laneMax(s.most[i]);
+        s.farthest[i] = laneMin(s.most[i] == most ? s.farthest[i] : kTileTexels - 1);
         s.most[i] = most;
     }
     return s;
@@ -124,8 +121,8 @@ Sums sumCandidate(uint tile, uint slot, uint cluster) {
     orthonormalBasis(frame.n, frame.t, frame.b);
     Sums sums = noTexels();
     int first = int(rsmTexelIndex(tile, 0));
-    for (uint base = 0; base < kTileTexels; base += kSubgroupSize) {
-        uint texel = base + gl_SubgroupInvocationID;
+    for (uint base = 0; base < kTileTexels; base += kLanes) {
+        uint texel = base + laneIndex();
         int at = first + int(texel);
         addTexel(sums, texelFetch(slotOfTexel, at).x == slot, frame, texelFetch(texels, at * 3),
                  texelFetch(texels, at * 3 + 1), texelFetch(texels, at * 3 + 2).xyz, texel);
@@ -136,24 +133,24 @@ Sums sumCandidate(uint tile, uint slot, uint cluster) {
 // Of 32 candidates from the first on, a bit each for those that have texels in the tile.
 uint membersFrom(uint tile, uint first) {
     uint found = 0;
-    for (uint base = 0; base < kTileTexels; base += kSubgroupSize) {
-        uint slot = texelFetch(slotOfTexel, int(rsmTexelIndex(tile, base + gl_SubgroupInvocationID))).x - first;
+    for (uint base = 0; base < kTileTexels; base += kLanes) {
+        uint slot = texelFetch(slotOfTexel, int(rsmTexelIndex(tile, base + laneIndex()))).x - first;
         found |= slot < 32 ? 1u << (slot & 31u) : 0u;  // unlit: beyond
     }
-    return subgroupOr(found);
+    return laneOr(found);
 }
 
 void main() {
     uint tile = gl_WorkGroupID.x, count = candidateCounts.items[tile];
     for (uint first = 0; first < count; first += 32) {
         uint members = membersFrom(tile, first), at = 0;
-        if (gl_SubgroupInvocationID == 0) at = atomicAdd(partialCount.count, bitCount(members));
-        at = subgroupBroadcastFirst(at);
+        if (laneIndex() == 0) at = atomicAdd(partialCount.count, bitCount(members));
+        at = laneBroadcastFirst(at);
         for (uint left = members; left != 0; left &= left - 1, ++at) {
             uint slot = first + uint(findLSB(left));
             uint cluster = texelFetch(candidates, int(tile * kMaxCandidates + slot)).x;
             Sums sums = sumCandidate(tile, slot, cluster);
-            if (gl_SubgroupInvocationID == 0 && at < push.mostPartials) {
+            if (laneIndex() == 0 && at < push.mostPartials) {
                 store(at * kPartialVec4s, sums);
                 partialOf.items[tile * push.clusterCount + cluster] = at;
             }

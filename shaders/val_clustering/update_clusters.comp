@@ -1,15 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
 // Segmented update, second half: each cluster gathers its sums from the tiles that list it and becomes their
 // flux-weighted mean. Flux and area are sums over the texels (not the centre's sample: ACRSM section 4.7 differs).
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/covariance.glsl"
 
-layout(local_size_x_id = 100) in;  // one subgroup a cluster
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Seeds { ClusterSeed items[]; } seeds;
@@ -32,8 +29,8 @@ struct Extreme {  // of a tile's texels in one direction
 
 // The farthest over all lanes; of equals the texel of the lowest index.
 uint farthestTexel(Extreme e) {
-    bool farthest = e.reach == subgroupMax(e.reach);
-    return subgroupMin(farthest ? e.texel : 0xffffffffu);
+    bool farthest = e.reach == laneMax(e.reach);
+    return laneMin(farthest ? e.texel : 0xffffffffu);
 }
 
 const uint kBatch = 256;  // tiles looked through at once
@@ -42,17 +39,16 @@ shared uint listing[kBatch];
 // Those of a batch of tiles that have texels of the cluster, one after another: most have none.
 uint findTiles(uint cluster, uint first, uint tileCount) {
     uint found = 0;
-    for (uint base = 0; base < kBatch; base += kSubgroupSize) {
-        uint tile = first + base + gl_SubgroupInvocationID;
+    for (uint base = 0; base < kBatch; base += kLanes) {
+        uint tile = first + base + laneIndex();
         bool lists = texelFetch(partialOf, int(min(tile, tileCount - 1) * push.settings.clusterCount + cluster)).x !=
                      kNoCluster;
         lists = lists && tile < tileCount;
-        uvec4 ballot = subgroupBallot(lists);
-        if (lists) listing[found + subgroupBallotExclusiveBitCount(ballot)] = tile;
-        found += subgroupBallotBitCount(ballot);
+        LaneVote vote = laneVote(lists);
+        if (lists) listing[found + vote.before] = tile;
+        found += vote.count;
     }
-    memoryBarrierShared();
-    subgroupBarrier();
+    laneBarrier();
     return found;
 }
 
@@ -81,8 +77,8 @@ Gathered gather(uint cluster) {
     uint tileCount = (push.settings.atlasSize.x / kRsmTileSize) * (push.settings.atlasSize.y / kRsmTileSize);
     for (uint first = 0; first < tileCount; first += kBatch) {
         uint found = findTiles(cluster, first, tileCount);
-        for (uint i = gl_SubgroupInvocationID; i < found; i += kSubgroupSize) addTile(g, cluster, listing[i]);
-        subgroupBarrier();
+        for (uint i = laneIndex(); i < found; i += kLanes) addTile(g, cluster, listing[i]);
+        laneBarrier();
     }
     return g;
 }
@@ -91,11 +87,11 @@ void main() {
     uint cluster = gl_WorkGroupID.x;
     Gathered g = gather(cluster);
     vec4 sums[kSumVec4s];
-    for (int i = 0; i < kSumVec4s; ++i) sums[i] = subgroupAdd(g.sums[i]);
+    for (int i = 0; i < kSumVec4s; ++i) sums[i] = laneAdd(g.sums[i]);
     ClusterExtent extent;
     for (int i = 0; i < int(kExtremes); ++i) extent.texels[i] = farthestTexel(g.extremes[i]);
-    float before = subgroupMax(g.before);
-    if (gl_SubgroupInvocationID != 0) return;
+    float before = laneMax(g.before);
+    if (laneIndex() != 0) return;
 
     ClusterSeed seed = seeds.items[cluster];
     Cluster c;

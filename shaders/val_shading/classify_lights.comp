@@ -1,14 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_ballot : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
 // For each tile of the screen, which lights are near and which far.
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "val_shading/screen_tiles.glsl"
 
-layout(local_size_x_id = 100) in;
 layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D depthMap;
@@ -26,18 +23,18 @@ Box boxOfTile(uint tile) {
     uvec2 size = camera.camera.size;
     mat4 worldFromClip = camera.camera.worldFromClip;
     uint side = push.p.tileSize, pixels = side * side;
-    for (uint i = gl_SubgroupInvocationID; i < pixels; i += kSubgroupSize) {
+    for (uint i = laneIndex(); i < pixels; i += kLanes) {
         ivec2 pixel = ivec2(origin + uvec2(i % side, i / side));
         pixel = min(pixel, ivec2(size) - 1);
         float depth = texelFetch(depthMap, pixel, 0).x;
         vec3 x = worldFromPixel(worldFromClip, size, pixel, depth);
         if (depth > 0.0) extend(box, x);
     }
-    return boxOfSubgroup(box);
+    return boxOfLanes(box);
 }
 
 void main() {
     uint tile = gl_WorkGroupID.x;
     uvec2 count = sortLights(tile, boxOfTile(tile), push.p.firstVal, push.p.valCount, push.p.nearReach);
-    if (gl_SubgroupInvocationID == 0) counts.items[tile] = count;
+    if (laneIndex() == 0) counts.items[tile] = count;
 }

@@ -1,9 +1,9 @@
 // Which lights are near to a tile of receivers and which far; those that are black or that face away from the box round
-// the receivers are neither. In ascending order, by one subgroup a tile. Needs buffers `vals`, `shapes`, `lists`.
+// the receivers are neither. In ascending order, by one group of lanes a tile. Needs buffers `vals`, `shapes`, `lists`.
 #ifndef AG_SORT_LIGHTS_GLSL
 #define AG_SORT_LIGHTS_GLSL
 
-#include "common/lane_loop.glsl"
+#include "common/lanes.glsl"
 #include "val_fit/val_fit_io.h"
 #include "val_shading/light_lists.glsl"
 
@@ -20,12 +20,12 @@ void extend(inout Box box, vec3 x) {
     box.most = max(box.most, x);
 }
 
-Box boxOfSubgroup(Box mine) { return Box(subgroupMin(mine.least), subgroupMax(mine.most)); }
+Box boxOfLanes(Box mine) { return Box(laneMin(mine.least), laneMax(mine.most)); }
 
 void appendLight(uint start, bool mine, uint light, inout uint count) {
-    uvec4 ballot = subgroupBallot(mine);
-    if (mine) lists.items[start + count + subgroupBallotExclusiveBitCount(ballot)] = light;
-    count += subgroupBallotBitCount(ballot);
+    LaneVote vote = laneVote(mine);
+    if (mine) lists.items[start + count + vote.before] = light;
+    count += vote.count;
 }
 
 // How many from firstVal to valCount are near and far. nearReach: lights nearer than this many of their half lengths are near.
@@ -33,8 +33,8 @@ uvec2 sortLights(uint tile, Box box, uint firstVal, uint valCount, float nearRea
     vec3 middle = 0.5 * (box.least + box.most), half_ = 0.5 * (box.most - box.least);
     bool any = box.least.x <= box.most.x;
     uvec2 count = uvec2(0);
-    for (uint base = firstVal; base < valCount; base += kSubgroupSize) {
-        uint light = base + gl_SubgroupInvocationID;
+    for (uint base = firstVal; base < valCount; base += kLanes) {
+        uint light = base + laneIndex();
         int at = int(min(light, valCount - 1));
         vec3 place = texelFetch(vals, at * 3).xyz;
         vec4 normal = texelFetch(vals, at * 3 + 1);  // and thickness

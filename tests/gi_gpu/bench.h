@@ -18,8 +18,8 @@ using namespace render;
 // A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
 // passes and synchronization validation proves them.
 struct Bench {
-    explicit Bench(SceneAsset built, glm::uvec2 pixels = {160, 96})
-        : asset(std::move(built)), scene(staticScene(asset)), size(pixels), renderer(test::device()) {
+    explicit Bench(SceneAsset built, glm::uvec2 pixels = {160, 96}, gpu::Device& device = test::device())
+        : asset(std::move(built)), scene(staticScene(asset)), size(pixels), renderer(device) {
         setCamera(scene, cameraOf(asset, 0), size);
         renderer.load(asset.geometry);
         options.timing = TimingMode::kOff;
@@ -32,9 +32,9 @@ struct Bench {
                 scope.output(declared.outputs.display);
                 scope.output(declared.outputs.radiance);
                 const BounceLight& light = declared.bounce;
-                for (BufferHandle b : {light.rsm.texels, light.clusters.clusters, light.clusters.seeds,
-                                       light.clusters.candidates, light.clusters.candidateCounts,
-                                       light.clusters.slotOfTexel})
+                for (BufferHandle b :
+                     {light.rsm.texels, light.clusters.clusters, light.clusters.seeds,
+                      light.clusters.candidates, light.clusters.candidateCounts, light.clusters.slotOfTexel})
                     if (b) scope.output(b);
                 if (light.bounce1.image) scope.output(light.bounce1.image);
                 if (output) output(scope, declared);

@@ -8,6 +8,13 @@
 namespace ag::workbench {
 namespace {
 
+std::string groupsOf(const gpu::Lanes& lanes) {
+    return fmt::format("{} lanes, {}", lanes.count,
+                       lanes.shared      ? "shared memory"
+                       : lanes.requested ? "a subgroup of that size asked for"
+                                         : "a subgroup");
+}
+
 int runInfo(const std::vector<std::string>& without) {
     auto device = gpu::Device::create({.without = without});
     if (!device) return refuse(device.error().message);
@@ -16,7 +23,8 @@ int runInfo(const std::vector<std::string>& without) {
     std::cout << fmt::format("device             {}\ndriver             {}\nVulkan             {}.{}.{}\n",
                              info.name, info.driver, VK_API_VERSION_MAJOR(info.apiVersion),
                              VK_API_VERSION_MINOR(info.apiVersion), VK_API_VERSION_PATCH(info.apiVersion));
-    std::cout << fmt::format("subgroup           {} lanes\nkernels            {}\n", info.subgroupSize,
+    std::cout << fmt::format("subgroup           {} lanes\ngroups             {}\nkernels            {}\n",
+                             info.subgroupSize, groupsOf(info.lanes),
                              info.isCpu ? "lane-parallel loads (CPU device)" : "uniform loads (GPU)");
     std::cout << fmt::format("timestamps         {}\n", info.timestampPeriodNs > 0
                                                             ? fmt::format("{} ns", info.timestampPeriodNs)

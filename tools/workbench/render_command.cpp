@@ -31,6 +31,7 @@ struct RenderOptions {
     double budgetMs = 0;
     bool validate = false;
     std::vector<std::string> without;
+    uint32_t sharedLanes = 0;
     std::string fault;
 };
 
@@ -275,8 +276,10 @@ int runRender(const RenderOptions& options) {
     if (!loaded) return refuse(loaded.error().message);
     const auto fault = gpu::parseFaultPlan(options.fault);
     if (!fault) return refuse(fault.error().message);
-    auto device =
-        gpu::Device::create({.validation = options.validate, .without = options.without, .fault = *fault});
+    auto device = gpu::Device::create({.validation = options.validate,
+                                       .without = options.without,
+                                       .sharedLanes = options.sharedLanes,
+                                       .fault = *fault});
     if (!device) return refuse(device.error().message);
 
     Rendering rendering(options, *asked, **device, *loaded, settings);
@@ -320,6 +323,10 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->add_flag("--times", options->times, "print each pass's process CPU time and the memory used");
     command->add_option("--without", options->without, "run as if the device lacked this feature")
         ->allow_extra_args(false);
+    command
+        ->add_option("--shared-lanes", options->sharedLanes,
+                     "workgroups of so many lanes that share memory, in the place of subgroups")
+        ->check(CLI::IsMember({4, 8, 16, 32, 64}));
     command->add_option("--fault", options->fault, "for tests: make the device fail, KIND:N")->group("");
     command->add_flag("--validate", options->validate, "with Vulkan validation; any message exits with 1");
     command->callback([options, &exitCode] { exitCode = runRender(*options); });
