@@ -283,14 +283,16 @@ class WindowedRun {
                 scope.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
                 capture_.declare(scope, frame);
             },
-            [&](VkCommandBuffer commands) {
-                presentImage(device_.vk(), commands, renderer_.graph().physical(shown_), *image,
-                             swapchain_.size(), [&] {
-                                 imgui_.draw(commands, image->view, swapchain_.format(), swapchain_.size(),
-                                             uint32_t(drawn_++ % 2));
-                             });
-            },
-            {image->acquired, image->rendered});
+            {.record =
+                 [&](VkCommandBuffer commands) {
+                     presentImage(device_.vk(), commands, renderer_.graph().physical(shown_), *image,
+                                  swapchain_.size(), [&] {
+                                      imgui_.draw(commands, image->view, swapchain_.format(),
+                                                  swapchain_.size(), uint32_t(drawn_++ % 2));
+                                  });
+                 },
+             .wait = image->acquired,
+             .signal = image->rendered});
         demo_.game->takeReadings(renderer_.probeReadings());
         swapchain_.present(*image);
         capture_.note(demo_, size);

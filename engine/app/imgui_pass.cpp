@@ -29,6 +29,14 @@ std::unique_ptr<gpu::Buffer> grown(gpu::Device& device, std::unique_ptr<gpu::Buf
         gpu::BufferDesc{.name = name, .sizeBytes = bytes * 2, .hostVisible = true, .vertexOrIndex = true});
 }
 
+VkRect2D clipped(const ImVec4& clip, glm::uvec2 size) {
+    const int32_t x0 = std::clamp(int32_t(clip.x), 0, int32_t(size.x)),
+                  y0 = std::clamp(int32_t(clip.y), 0, int32_t(size.y));
+    const int32_t x1 = std::clamp(int32_t(clip.z), x0, int32_t(size.x)),
+                  y1 = std::clamp(int32_t(clip.w), y0, int32_t(size.y));
+    return {{x0, y0}, {uint32_t(x1 - x0), uint32_t(y1 - y0)}};
+}
+
 }  // namespace
 
 ImGuiPass::ImGuiPass(gpu::Device& device, gpu::PipelineLibrary& pipelines)
@@ -78,6 +86,57 @@ void ImGuiPass::upload(Buffers& buffers) {
     }
 }
 
+void ImGuiPass::makeFontSet(VkDescriptorSetLayout layout) {
+    const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                           .descriptorPool = pool_,
+                                           .descriptorSetCount = 1,
+                                           .pSetLayouts = &layout};
+    AG_VK(device_.vk().AllocateDescriptorSets(device_.handle(), &info, &set_));
+    device_.context().setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "imgui.font");
+    const VkDescriptorImageInfo image{sampler_, font_->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                     .dstSet = set_,
+                                     .descriptorCount = 1,
+                                     .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                     .pImageInfo = &image};
+    device_.vk().UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+}
+
+void ImGuiPass::bind(VkCommandBuffer commands, const gpu::Pipeline& pipeline, const Buffers& buffers) {
+    device_.vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+    device_.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1,
+                                       &set_, 0, nullptr);
+    const VkBuffer vertices = buffers.vertices->handle();
+    const VkDeviceSize zero = 0;
+    device_.vk().CmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+    device_.vk().CmdBindIndexBuffer(commands, buffers.indices->handle(), 0,
+                                    sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+    const ImDrawData& data = *ImGui::GetDrawData();
+    const glm::vec2 scale(2 / data.DisplaySize.x, 2 / data.DisplaySize.y);
+    const glm::vec2 push[] = {scale, glm::vec2(-1) - glm::vec2(data.DisplayPos.x, data.DisplayPos.y) * scale};
+    device_.vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, sizeof push, push);
+}
+
+void ImGuiPass::drawLists(VkCommandBuffer commands, glm::uvec2 size) {
+    const VkViewport viewport{0, 0, float(size.x), float(size.y), 0, 1};
+    device_.vk().CmdSetViewport(commands, 0, 1, &viewport);
+    const ImDrawData& data = *ImGui::GetDrawData();
+    int32_t firstVertex = 0;
+    uint32_t firstIndex = 0;
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+        const ImDrawList& list = *data.CmdLists[i];
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            const VkRect2D scissor = clipped(command.ClipRect, size);
+            if (scissor.extent.width == 0 || scissor.extent.height == 0) continue;
+            device_.vk().CmdSetScissor(commands, 0, 1, &scissor);
+            device_.vk().CmdDrawIndexed(commands, command.ElemCount, 1, firstIndex + command.IdxOffset,
+                                        firstVertex + int32_t(command.VtxOffset), 0);
+        }
+        firstVertex += list.VtxBuffer.Size;
+        firstIndex += uint32_t(list.IdxBuffer.Size);
+    }
+}
+
 void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat format, glm::uvec2 size,
                      uint32_t slot) {
     const ImDrawData* data = ImGui::GetDrawData();
@@ -85,21 +144,7 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
     Buffers& buffers = buffers_[slot % buffers_.size()];
     upload(buffers);
     const gpu::Pipeline& pipeline = pipelines_.get(panelPipeline(format));
-    if (!set_) {
-        const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                               .descriptorPool = pool_,
-                                               .descriptorSetCount = 1,
-                                               .pSetLayouts = &pipeline.setLayout};
-        AG_VK(device_.vk().AllocateDescriptorSets(device_.handle(), &info, &set_));
-        device_.context().setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "imgui.font");
-        const VkDescriptorImageInfo image{sampler_, font_->view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                         .dstSet = set_,
-                                         .descriptorCount = 1,
-                                         .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                         .pImageInfo = &image};
-        device_.vk().UpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
-    }
+    if (!set_) makeFontSet(pipeline.setLayout);
     const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                           .imageView = target,
                                           .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -111,39 +156,8 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
                                     .colorAttachmentCount = 1,
                                     .pColorAttachments = &color};
     device_.vk().CmdBeginRendering(commands, &rendering);
-    device_.vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-    device_.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1,
-                                       &set_, 0, nullptr);
-    const VkBuffer vertices = buffers.vertices->handle();
-    const VkDeviceSize zero = 0;
-    device_.vk().CmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
-    device_.vk().CmdBindIndexBuffer(commands, buffers.indices->handle(), 0,
-                                    sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
-    const glm::vec2 scale(2 / data->DisplaySize.x, 2 / data->DisplaySize.y);
-    const glm::vec2 push[] = {scale,
-                              glm::vec2(-1) - glm::vec2(data->DisplayPos.x, data->DisplayPos.y) * scale};
-    device_.vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, sizeof push, push);
-    const VkViewport viewport{0, 0, float(size.x), float(size.y), 0, 1};
-    device_.vk().CmdSetViewport(commands, 0, 1, &viewport);
-    int32_t firstVertex = 0;
-    uint32_t firstIndex = 0;
-    for (int i = 0; i < data->CmdListsCount; ++i) {
-        const ImDrawList& list = *data->CmdLists[i];
-        for (const ImDrawCmd& command : list.CmdBuffer) {
-            const ImVec4& clip = command.ClipRect;
-            const int32_t x0 = std::clamp(int32_t(clip.x), 0, int32_t(size.x)),
-                          y0 = std::clamp(int32_t(clip.y), 0, int32_t(size.y));
-            const int32_t x1 = std::clamp(int32_t(clip.z), x0, int32_t(size.x)),
-                          y1 = std::clamp(int32_t(clip.w), y0, int32_t(size.y));
-            if (x1 == x0 || y1 == y0) continue;
-            const VkRect2D scissor{{x0, y0}, {uint32_t(x1 - x0), uint32_t(y1 - y0)}};
-            device_.vk().CmdSetScissor(commands, 0, 1, &scissor);
-            device_.vk().CmdDrawIndexed(commands, command.ElemCount, 1, firstIndex + command.IdxOffset,
-                                        firstVertex + int32_t(command.VtxOffset), 0);
-        }
-        firstVertex += list.VtxBuffer.Size;
-        firstIndex += uint32_t(list.IdxBuffer.Size);
-    }
+    bind(commands, pipeline, buffers);
+    drawLists(commands, size);
     device_.vk().CmdEndRendering(commands);
 }
 

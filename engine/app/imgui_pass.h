@@ -26,6 +26,9 @@ class ImGuiPass {
         std::unique_ptr<gpu::Buffer> vertices, indices;
     };
     void upload(Buffers& buffers);
+    void makeFontSet(VkDescriptorSetLayout layout);
+    void bind(VkCommandBuffer commands, const gpu::Pipeline& pipeline, const Buffers& buffers);
+    void drawLists(VkCommandBuffer commands, glm::uvec2 size);
 
     gpu::Device& device_;
     gpu::PipelineLibrary& pipelines_;

@@ -53,7 +53,7 @@ uint64_t entitiesChanged(const RenderScene& scene) {
 std::vector<Counter> countersOf(render::Renderer& renderer, const RenderScene& scene,
                                 const render::RenderFrame& declared, const Frame& frame) {
     return {{"shadow map tiles of area lights", double(declared.bounce.isms.mapCount)},
-            {"punctual lights in view", double(declared.punctualLists.lightCount)},
+            {"punctual lights in view", double(declared.punctual.lists.lightCount)},
             {"punctual light shadow faces redrawn", double(facesDrawn(frame))},
             {"entities changed", double(entitiesChanged(scene))},
             {"bytes uploaded", double(renderer.scene().uploadedBytes())},

@@ -45,7 +45,7 @@ std::array<BufferView, 6> bufferViews(const render::RenderFrame& f) {
              {render::Layer::kClusters, f.bounce.clusters.slotOfTexel},
              {render::Layer::kVals, f.bounce.vals.vals},
              {render::Layer::kIsm, f.bounce.isms.planes},
-             {render::Layer::kLightClusters, f.punctualLists.lights}}};
+             {render::Layer::kLightClusters, f.punctual.lists.lights}}};
 }
 
 void recordView(render::Renderer& renderer, const RenderScene& scene, const RecordSettings& settings,

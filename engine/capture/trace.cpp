@@ -13,6 +13,12 @@ using Json = nlohmann::ordered_json;
 constexpr int kCpu = 1, kGpu = 2;                   // processes
 constexpr int kLoop = 1, kQueue = 1, kLeftOut = 2;  // their threads; those of systems follow the loop
 
+// A row of the picture.
+struct Track {
+    int process = 0, thread = 0;
+};
+constexpr Track kFrameLoop{kCpu, kLoop}, kDevice{kGpu, kQueue};
+
 class Trace {
   public:
     explicit Trace(const Capture& capture) : capture_(capture) {
@@ -65,40 +71,40 @@ class Trace {
             {{"name", what}, {"ph", "M"}, {"pid", process}, {"tid", thread}, {"args", {{"name", text}}}});
     }
 
-    void slice(const std::string& title, const char* category, int process, int thread, uint64_t begin,
-               uint64_t end, Json args = Json::object()) {
+    void slice(const std::string& title, const char* category, Track track, uint64_t begin, uint64_t end,
+               Json args = Json::object()) {
         events_.push_back({{"name", title},
                            {"cat", category},
                            {"ph", "X"},
-                           {"pid", process},
-                           {"tid", thread},
+                           {"pid", track.process},
+                           {"tid", track.thread},
                            {"ts", micros(begin)},
                            {"dur", double(end - begin) / 1000},
                            {"args", std::move(args)}});
     }
 
-    void arrow(const char* title, int fromProcess, int fromThread, uint64_t from, int toProcess, int toThread,
-               uint64_t to) {
-        const auto end = [&](const char* phase, int process, int thread, uint64_t at) {
-            Json e = {{"name", title},  {"cat", "flow"}, {"ph", phase},     {"id", flows_},
-                      {"pid", process}, {"tid", thread}, {"ts", micros(at)}};
+    // From a moment of one track to one of another, ns.
+    void arrow(const char* title, Track fromTrack, uint64_t from, Track toTrack, uint64_t to) {
+        const auto end = [&](const char* phase, Track track, uint64_t at) {
+            Json e = {{"name", title},        {"cat", "flow"},       {"ph", phase},     {"id", flows_},
+                      {"pid", track.process}, {"tid", track.thread}, {"ts", micros(at)}};
             if (*phase == 'f') e["bp"] = "e";  // the slice that is open then
             events_.push_back(std::move(e));
         };
         ++flows_;
-        end("s", fromProcess, fromThread, from);
-        end("f", toProcess, toThread, to);
+        end("s", fromTrack, from);
+        end("f", toTrack, to);
     }
 
     void addCpu(const Frame& f, const std::string& title) {
-        slice(title, "frame", kCpu, kLoop, f.cpu.begin, f.cpu.submitted);
-        slice("wait for the frame before last", "cpu", kCpu, kLoop, f.cpu.begin, f.cpu.waited);
-        slice("declare passes", "cpu", kCpu, kLoop, f.cpu.waited, f.cpu.declared);
-        slice("plan and record", "cpu", kCpu, kLoop, f.cpu.declared, f.cpu.recorded);
-        slice("submit", "cpu", kCpu, kLoop, f.cpu.recorded, f.cpu.submitted);
+        slice(title, "frame", kFrameLoop, f.cpu.begin, f.cpu.submitted);
+        slice("wait for the frame before last", "cpu", kFrameLoop, f.cpu.begin, f.cpu.waited);
+        slice("declare passes", "cpu", kFrameLoop, f.cpu.waited, f.cpu.declared);
+        slice("plan and record", "cpu", kFrameLoop, f.cpu.declared, f.cpu.recorded);
+        slice("submit", "cpu", kFrameLoop, f.cpu.recorded, f.cpu.submitted);
     }
 
-    int threadOf(const Span& system) {
+    Track trackOf(const Span& system) {
         auto found = std::ranges::find(threads_, system.thread);
         if (found == threads_.end()) {
             threads_.push_back(system.thread);
@@ -106,12 +112,12 @@ class Trace {
             name("thread_name", kCpu, kLoop + int(threads_.size()),
                  fmt::format("systems {}", threads_.size()));
         }
-        return kLoop + 1 + int(found - threads_.begin());
+        return {kCpu, kLoop + 1 + int(found - threads_.begin())};
     }
 
     void addSystems(const Frame& f) {
         for (const Span& system : f.systems)
-            slice(system.name, "system", kCpu, threadOf(system), system.beginNs, system.endNs);
+            slice(system.name, "system", trackOf(system), system.beginNs, system.endNs);
     }
 
     // The system whose data a pass takes from outside the frame, if it takes any.
@@ -125,18 +131,18 @@ class Trace {
 
     void addGpu(const Frame& f, const std::string& title) {
         if (f.gpu.empty()) return;
-        slice(title, "frame", kGpu, kQueue, f.gpu.front().beginNs, f.gpu.back().endNs);
-        arrow("submitted", kCpu, kLoop, f.cpu.recorded, kGpu, kQueue, f.gpu.front().beginNs);
+        slice(title, "frame", kDevice, f.gpu.front().beginNs, f.gpu.back().endNs);
+        arrow("submitted", kFrameLoop, f.cpu.recorded, kDevice, f.gpu.front().beginNs);
         for (const Span& span : f.gpu) {
             const auto pass = std::ranges::find(f.passes, span.name, &PassDescription::name);
             if (pass == f.passes.end()) continue;
-            slice(span.name, "pass", kGpu, kQueue, span.beginNs, span.endNs,
+            slice(span.name, "pass", kDevice, span.beginNs, span.endNs,
                   {{"work", pass->work},
                    {"unit", unitName(pass->unit)},
                    {"resource bytes", pass->resourceBytes}});
             const auto writer = std::ranges::find(f.systems, writerOf(*pass), &Span::name);
             if (writer != f.systems.end())
-                arrow("scene", kCpu, threadOf(*writer), writer->beginNs, kGpu, kQueue, span.beginNs);
+                arrow("scene", trackOf(*writer), writer->beginNs, kDevice, span.beginNs);
         }
     }
 

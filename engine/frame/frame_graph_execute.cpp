@@ -1,79 +1,108 @@
 // Running a planned frame: barriers and timing.
 #include <algorithm>
+#include <optional>
 
 #include "engine/frame/frame_graph_impl.h"
 
 namespace ag {
+namespace {
+
+// Of memory that other images used before: all of their work, and no contents.
+constexpr SyncState kTakenOver{.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                               .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+
+// Whether the access waits for reads, too.
+bool changes(const Resource& r, const SyncState& s, const Access& access) {
+    return access.writes != 0 || (r.isImage && s.layout != access.layout);
+}
+
+// Whether there is a write that the access would not see.
+bool misses(const SyncState& s, const Access& access) {
+    const bool seen = (s.visibleStages & access.stages) == access.stages &&
+                      (s.visibleAccess & access.reads) == access.reads;
+    return s.writeStages != 0 && !seen;
+}
+
+// What the access waits for; none: it may begin at once.
+std::optional<BarrierRecord> barrierBefore(const Resource& r, const SyncState& s, const Access& access,
+                                           bool discard) {
+    const bool write = access.writes != 0, change = changes(r, s, access);
+    const bool relayout = r.isImage && s.layout != access.layout;
+    const bool afterRead = s.readStages != 0 && change;
+    const bool afterWrite = write ? s.writeStages != 0 : misses(s, access);
+    if (!relayout && !afterRead && !afterWrite) return std::nullopt;
+    return BarrierRecord{.resource = r.name,
+                         .srcStages = s.writeStages | (change ? s.readStages : 0),
+                         .dstStages = access.stages,
+                         .srcAccess = s.writeAccess,
+                         .dstAccess = access.reads | access.writes,
+                         .oldLayout = r.isImage && !discard ? s.layout : VK_IMAGE_LAYOUT_UNDEFINED,
+                         .newLayout = r.isImage ? access.layout : VK_IMAGE_LAYOUT_UNDEFINED};
+}
+
+SyncState stateAfter(const Resource& r, const SyncState& s, const Access& access) {
+    SyncState after = s;
+    if (changes(r, s, access)) {
+        // A layout change counts as a write that ended before these stages.
+        after = {.writeStages = access.stages,
+                 .writeAccess = access.writes,
+                 .layout = r.isImage ? access.layout : VK_IMAGE_LAYOUT_UNDEFINED};
+        if (access.writes != 0) return after;
+        after.visibleStages = access.stages;
+        after.visibleAccess = access.reads;
+        after.readStages = access.stages;
+        return after;
+    }
+    after.readStages |= access.stages;
+    if (!misses(s, access)) return after;
+    after.visibleStages |= access.stages;
+    after.visibleAccess |= access.reads;
+    return after;
+}
+
+VkImageMemoryBarrier2 imageBarrier(const BarrierRecord& b, const gpu::Image& image) {
+    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+            .srcStageMask = b.srcStages,
+            .srcAccessMask = b.srcAccess,
+            .dstStageMask = b.dstStages,
+            .dstAccessMask = b.dstAccess,
+            .oldLayout = b.oldLayout,
+            .newLayout = b.newLayout,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = image.handle(),
+            .subresourceRange = {image.aspect(), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+}
+
+VkBufferMemoryBarrier2 bufferBarrier(const BarrierRecord& b, const gpu::Buffer& buffer) {
+    return {.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
+            .srcStageMask = b.srcStages,
+            .srcAccessMask = b.srcAccess,
+            .dstStageMask = b.dstStages,
+            .dstAccessMask = b.dstAccess,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .buffer = buffer.handle(),
+            .size = VK_WHOLE_SIZE};
+}
+
+}  // namespace
+
 // A dependency on what was done to the resource before, if this access needs one.
 void FrameGraph::Impl::addBarrier(Resource& r, const Access& access, bool discard, PassRecord* record) {
     if (r.kind == ResourceKind::kImport)
         return;  // read-only, in its layout: made visible by whoever wrote it
     Memory& memory = slots[r.slot].halves[r.half];
-    SyncState& s = memory.sync;
-    VkPipelineStageFlags2 srcStages = s.writeStages;
-    VkAccessFlags2 srcAccess = s.writeAccess;
     AliasBucket* bucket = slots[r.slot].bucket == ~0u ? nullptr : &buckets[slots[r.slot].bucket];
-    if (bucket && std::exchange(bucket->lastUser, r.slot) != r.slot) {
-        // Another image was here: wait for all of its work, take the memory without its contents.
-        s.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-        srcStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        srcAccess = VK_ACCESS_2_MEMORY_WRITE_BIT;
-        s.readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    }
-    const bool write = access.writes != 0;
-    const bool relayout = r.isImage && s.layout != access.layout;
-    const bool seen = (s.visibleStages & access.stages) == access.stages &&
-                      (s.visibleAccess & access.reads) == access.reads;
-    const bool afterWrite = s.writeStages != 0 && !seen;
-    const bool afterRead = s.readStages != 0 && (write || relayout);
-    if (write || relayout) srcStages |= s.readStages;
-    const VkImageLayout oldLayout = discard ? VK_IMAGE_LAYOUT_UNDEFINED : s.layout;
-    const VkAccessFlags2 dstAccess = access.reads | access.writes;
-    const bool needed = relayout || afterRead || (write ? s.writeStages != 0 : afterWrite);
-    if (needed && record)
-        record->barriers.push_back({r.name, srcStages, access.stages, srcAccess, dstAccess,
-                                    r.isImage ? oldLayout : VK_IMAGE_LAYOUT_UNDEFINED,
-                                    r.isImage ? access.layout : VK_IMAGE_LAYOUT_UNDEFINED});
-    const gpu::Image* const image = imageIn(memory);
-    const gpu::Buffer* const buffer = bufferIn(memory);
-    if (needed && image)
-        imageBarriers.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
-                                 .srcStageMask = srcStages,
-                                 .srcAccessMask = srcAccess,
-                                 .dstStageMask = access.stages,
-                                 .dstAccessMask = dstAccess,
-                                 .oldLayout = oldLayout,
-                                 .newLayout = access.layout,
-                                 .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                 .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                 .image = image->handle(),
-                                 .subresourceRange = {image->aspect(), 0, VK_REMAINING_MIP_LEVELS, 0,
-                                                      VK_REMAINING_ARRAY_LAYERS}});
-    if (needed && buffer)
-        bufferBarriers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2,
-                                  .srcStageMask = srcStages,
-                                  .srcAccessMask = srcAccess,
-                                  .dstStageMask = access.stages,
-                                  .dstAccessMask = dstAccess,
-                                  .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                  .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-                                  .buffer = buffer->handle(),
-                                  .size = VK_WHOLE_SIZE});
-    if (write || relayout) {
-        // A layout change counts as a write that ended before these stages.
-        s = {.writeStages = access.stages, .writeAccess = access.writes, .layout = access.layout};
-        if (!write) {
-            s.visibleStages = access.stages;
-            s.visibleAccess = access.reads;
-            s.readStages = access.stages;
-        }
-        if (!r.isImage) s.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-        return;
-    }
-    s.readStages |= access.stages;
-    if (!afterWrite) return;
-    s.visibleStages |= access.stages;
-    s.visibleAccess |= access.reads;
+    if (bucket && std::exchange(bucket->lastUser, r.slot) != r.slot) memory.sync = kTakenOver;
+    const std::optional<BarrierRecord> barrier = barrierBefore(r, memory.sync, access, discard);
+    memory.sync = stateAfter(r, memory.sync, access);
+    if (!barrier) return;
+    if (record) record->barriers.push_back(*barrier);
+    if (const gpu::Image* image = imageIn(memory)) imageBarriers.push_back(imageBarrier(*barrier, *image));
+    if (const gpu::Buffer* buffer = bufferIn(memory))
+        bufferBarriers.push_back(bufferBarrier(*barrier, *buffer));
 }
 
 void FrameGraph::Impl::flushBarriers(VkCommandBuffer commands) {

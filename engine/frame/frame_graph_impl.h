@@ -255,10 +255,15 @@ struct FrameGraph::Impl {
     void retireMemory(Slot& slot);
     void retireUnused();
     void zeroNewHistories(VkCommandBuffer commands);
-    VkDescriptorSet descriptorSet(const Pass& pass, const gpu::Pipeline& pipeline);
-    void checkBindings(const Pass& pass, const gpu::Pipeline& pipeline);
     const gpu::Image& imageOf(const Resource& resource) const;
     const gpu::Buffer& bufferOf(const Resource& resource) const;
+
+    // What passes bind (frame_graph_bindings.cpp)
+    void checkBindings(const Pass& pass, const gpu::Pipeline& pipeline);
+    VkDescriptorSet descriptorSet(const Pass& pass, const gpu::Pipeline& pipeline);
+    VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
+    void writeSet(VkDescriptorSet set, std::span<const gpu::ShaderBinding> bindings,
+                  std::span<const Use* const> bound) const;
 
     // Running and recording (frame_graph_execute.cpp, frame_graph_record.cpp)
     void synchronize(VkCommandBuffer commands, const Pass& pass, PassRecord* record);
@@ -271,6 +276,7 @@ struct FrameGraph::Impl {
     void recordRaster(VkCommandBuffer commands, const Pass& pass);
     void recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set, glm::uvec2 size);
     std::vector<Patch>* patchesOf(const Pass& pass);
+    bool beginPatch(VkCommandBuffer commands, const Pass& pass, const Patch& patch);
     uint64_t patchKey(const Pass& pass, size_t first, size_t end) const;
     void recordTransfer(VkCommandBuffer commands, const Pass& pass);
     void recordCallback(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set, glm::uvec2 size);

@@ -126,6 +126,25 @@ void clearPatch(const gpu::Functions& vk, VkCommandBuffer commands, glm::uvec4 r
     vk.CmdClearAttachments(commands, 1, &clear, 1, &area);
 }
 
+// Of the draws of the patch that begins at `first`.
+size_t endOfPatch(std::span<const RasterDraw> all, size_t first) {
+    const auto next = std::find_if(all.begin() + std::ptrdiff_t(first) + 1, all.end(),
+                                   [](const RasterDraw& d) { return d.beginsPatch; });
+    return size_t(next - all.begin());
+}
+
+void bindRaster(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::Pipeline& pipeline,
+                VkDescriptorSet set, std::span<const std::byte> push) {
+    vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+    if (set)
+        vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0, 1, &set, 0,
+                                 nullptr);
+    if (pipeline.pushSizeBytes == 0) return;
+    AG_CHECK_EQ(pipeline.pushSizeBytes, push.size());
+    vk.CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0, pipeline.pushSizeBytes,
+                        push.data());
+}
+
 }  // namespace
 
 void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) {
@@ -173,23 +192,25 @@ void FrameGraph::Impl::recordCallback(VkCommandBuffer commands, const Pass& pass
     callbacks[pass.callback]({commands, pass.pipeline, size});
 }
 
+// Notes what the patch is to hold and clears it; false: it holds that already.
+bool FrameGraph::Impl::beginPatch(VkCommandBuffer commands, const Pass& pass, const Patch& patch) {
+    PassStats& counts = stats[pass.stats];
+    patches.push_back(patch);
+    ++counts.patches;
+    const std::vector<Patch>& held = *patchesOf(pass);
+    const auto known = std::ranges::find(held, patch.rect, &Patch::rect);
+    if (options.skip && known != held.end() && known->key == patch.key) return false;
+    ++counts.patchesDrawn;
+    clearPatch(context->vk(), commands, patch.rect, usesOf(pass));
+    return true;
+}
+
 void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
                                    glm::uvec2 size) {
     const glm::uvec4 whole(0, 0, size);
-    const auto bind = [&](const gpu::Pipeline& pipeline, std::span<const std::byte> push, glm::uvec4 rect) {
-        context->vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-        if (set)
-            context->vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout, 0,
-                                                1, &set, 0, nullptr);
-        if (pipeline.pushSizeBytes > 0) {
-            AG_CHECK_EQ(pipeline.pushSizeBytes, push.size());
-            context->vk().CmdPushConstants(commands, pipeline.layout, pipeline.pushStages, 0,
-                                           pipeline.pushSizeBytes, push.data());
-        }
-        setViewport(context->vk(), commands, rect == glm::uvec4(0) ? whole : rect);
-    };
     if (pass.kind == PassKind::kFullscreen) {
-        bind(*pass.pipeline, {pass.push.data(), pass.pushSizeBytes}, whole);
+        bindRaster(context->vk(), commands, *pass.pipeline, set, {pass.push.data(), pass.pushSizeBytes});
+        setViewport(context->vk(), commands, whole);
         context->vk().CmdDraw(commands, 3, 1, 0, 0);
     }
     bindGeometry(context->vk(), commands, pass.geometry);
@@ -203,37 +224,26 @@ void FrameGraph::Impl::recordDraws(VkCommandBuffer commands, const Pass& pass, V
         else
             bindVertices(context->vk(), commands, *g.positions, g.attributes);
     };
-    std::vector<Patch>* held = patchesOf(pass);
     const std::span<const RasterDraw> all = drawsOf(pass);
-    PassStats& counts = stats[pass.stats];
-    counts.patches = counts.patchesDrawn = 0;
+    stats[pass.stats].patches = stats[pass.stats].patchesDrawn = 0;
     patches.clear();
     for (size_t i = 0; i < all.size(); ++i) {
         const RasterDraw& draw = all[i];
         if (draw.beginsPatch) {
-            const auto next = std::find_if(all.begin() + std::ptrdiff_t(i) + 1, all.end(),
-                                           [](const RasterDraw& d) { return d.beginsPatch; });
-            const size_t end = size_t(next - all.begin());
-            const Patch patch{draw.viewport, patchKey(pass, i, end)};
-            patches.push_back(patch);
-            ++counts.patches;
-            const auto known = std::ranges::find(*held, patch.rect, &Patch::rect);
-            if (options.skip && known != held->end() && known->key == patch.key) {
-                i = end - 1;
-                continue;
-            }
-            ++counts.patchesDrawn;
-            clearPatch(context->vk(), commands, patch.rect, usesOf(pass));
+            const size_t end = endOfPatch(all, i);
+            if (!beginPatch(commands, pass, {draw.viewport, patchKey(pass, i, end)})) i = end - 1;
             continue;
         }
         bindVerticesOf(draw);
-        bind(pipelines->get(requestFor(pass, &draw)), {draw.push.data(), draw.pushSizeBytes}, draw.viewport);
+        bindRaster(context->vk(), commands, pipelines->get(requestFor(pass, &draw)), set,
+                   {draw.push.data(), draw.pushSizeBytes});
+        setViewport(context->vk(), commands, draw.viewport == glm::uvec4(0) ? whole : draw.viewport);
         context->vk().CmdDrawIndexedIndirect(commands, bufferOf(resources[draw.commands.index]).handle(),
                                              draw.commandsOffsetBytes, draw.commandCount,
                                              sizeof(VkDrawIndexedIndirectCommand));
     }
     // Those not declared now may have been drawn over.
-    if (held) std::swap(*held, patches);
+    if (std::vector<Patch>* held = patchesOf(pass)) std::swap(*held, patches);
 }
 
 std::vector<Patch>* FrameGraph::Impl::patchesOf(const Pass& pass) {

@@ -1,8 +1,7 @@
-// Device objects behind the declared resources: memory, samplers, descriptor sets.
+// Device objects behind the declared resources: memory, samplers.
 #include <algorithm>
 #include <array>
 
-#include "engine/core/failure.h"
 #include "engine/frame/frame_graph_impl.h"
 #include "engine/gpu/retire.h"
 
@@ -10,8 +9,6 @@ namespace ag {
 namespace {
 
 constexpr uint64_t kFramesKept = 16;  // a resource not declared for so long is given back
-constexpr uint32_t kSetsPerPool = 256;
-constexpr size_t kMostSets = 8192;  // then the cache starts anew
 
 gpu::ImageDesc descOf(const Slot& slot) {
     return {.name = slot.name, .format = slot.image.format, .size = slot.image.size, .mips = slot.image.mips};
@@ -47,10 +44,6 @@ VkSampler makeSampler(gpu::Context& context, Sampler kind) {
                                       "sampler.linear_repeat", "sampler.trilinear_repeat"};
     context.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler, kNames[size_t(kind)]);
     return sampler;
-}
-
-bool isBuffer(gpu::BindingKind kind) {
-    return kind != gpu::BindingKind::kSampledImage && kind != gpu::BindingKind::kStorageImage;
 }
 
 }  // namespace
@@ -188,137 +181,6 @@ const gpu::Buffer& FrameGraph::Impl::bufferOf(const Resource& r) const {
     const gpu::Buffer* const buffer = bufferIn(slots[r.slot].halves[r.half]);
     AG_CHECK_MSG(buffer != nullptr, std::string(r.name));
     return *buffer;
-}
-
-void FrameGraph::Impl::checkBindings(const Pass& pass, const gpu::Pipeline& pipeline) {
-    const std::string where =
-        "pass " + std::string(pass.name) + ", shader " + std::string(pass.shader) + ": ";
-    for (const Use& use : usesOf(pass)) {
-        if (use.name.empty()) continue;
-        const auto b = std::ranges::find(pipeline.bindings, use.name, &gpu::ShaderBinding::name);
-        const std::string what = where + std::string(use.name);
-        if (b == pipeline.bindings.end())
-            fail(FailureKind::kMistake, what + " is declared but the shader has no such binding");
-        const Resource& r = resources[use.resource];
-        if (isBuffer(b->kind) == r.isImage)
-            fail(FailureKind::kMistake, what + " is a buffer on one side and an image on the other");
-        if (writes(use.kind) && !b->writes)
-            fail(FailureKind::kMistake, what + " is declared written but the shader only reads it");
-        if (!writes(use.kind) && b->writes)
-            fail(FailureKind::kMistake, what + " is declared read but the shader writes it");
-        const bool texel = b->kind == gpu::BindingKind::kUniformTexelBuffer ||
-                           b->kind == gpu::BindingKind::kStorageTexelBuffer;
-        if (texel && r.buffer.texelFormat == VK_FORMAT_UNDEFINED)
-            fail(FailureKind::kMistake, what + " needs a buffer with a texel format");
-    }
-    for (const gpu::ShaderBinding& b : pipeline.bindings)
-        if (std::ranges::find(usesOf(pass), b.name, &Use::name) == usesOf(pass).end())
-            fail(FailureKind::kMistake, where + "binding " + b.name + " is not declared");
-    if (pass.kind == PassKind::kCompute && pass.pushSizeBytes != pipeline.pushSizeBytes)
-        fail(FailureKind::kMistake, where + "pushes " + std::to_string(pass.pushSizeBytes) +
-                                        " bytes, the shader takes " + std::to_string(pipeline.pushSizeBytes));
-}
-
-namespace {
-
-VkDescriptorPool makePool(gpu::Context& context) {
-    constexpr std::array kTypes = {
-        VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-        VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,   VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER,
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-    std::array<VkDescriptorPoolSize, kTypes.size()> sizes{};
-    for (size_t i = 0; i < kTypes.size(); ++i)
-        sizes[i] = {kTypes[i], kSetsPerPool * 10};
-    const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                          .maxSets = kSetsPerPool,
-                                          .poolSizeCount = uint32_t(sizes.size()),
-                                          .pPoolSizes = sizes.data()};
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    AG_VK(context.vk().CreateDescriptorPool(context.handle(), &info, context.hostAllocation(), &pool));
-    context.setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "frame_graph.sets");
-    return pool;
-}
-
-VkDescriptorSet tryAllocate(gpu::Context& context, VkDescriptorPool pool, VkDescriptorSetLayout layout) {
-    const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                           .descriptorPool = pool,
-                                           .descriptorSetCount = 1,
-                                           .pSetLayouts = &layout};
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    return context.vk().AllocateDescriptorSets(context.handle(), &info, &set) == VK_SUCCESS ? set
-                                                                                            : VK_NULL_HANDLE;
-}
-
-}  // namespace
-
-// Sets are written once and found again by what they bind (ids are never reused, so a stale one is never
-// found).
-VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pipeline& pipeline) {
-    if (pipeline.bindings.empty()) return VK_NULL_HANDLE;
-    constexpr size_t kMostBindings = 24;
-    AG_CHECK_LE(pipeline.bindings.size(), kMostBindings);
-    std::array<const Use*, kMostBindings> bound{};
-    uint64_t key = uint64_t(pipeline.setLayout);
-    for (size_t i = 0; i < pipeline.bindings.size(); ++i) {
-        const auto uses_ = usesOf(pass);
-        const auto use = std::ranges::find(uses_, pipeline.bindings[i].name, &Use::name);
-        AG_CHECK_MSG(use != uses_.end(), pipeline.bindings[i].name);
-        const Resource& r = resources[use->resource];
-        bound[i] = &*use;
-        key = combineHash(key, r.isImage ? imageOf(r).id() : bufferOf(r).id());
-        key = combineHash(key, (uint64_t(use->sampler) << 32) | (uint64_t(use->wholeImage) << 16) | use->mip);
-        key = combineHash(key, uint64_t(accessOf(use->kind).layout));
-    }
-    if (const auto found = sets.find(key); found != sets.end()) return found->second;
-    if (sets.size() >= kMostSets) {
-        for (VkDescriptorPool pool : pools)
-            context->retire([d = context, pool] {
-                d->vk().DestroyDescriptorPool(d->handle(), pool, d->hostAllocation());
-            });
-        pools.clear();
-        sets.clear();
-    }
-
-    VkDescriptorSet set =
-        pools.empty() ? VK_NULL_HANDLE : tryAllocate(*context, pools.back(), pipeline.setLayout);
-    if (!set) {
-        pools.reserve(pools.size() + 1);  // no pool is lost where its row cannot be had
-        pools.push_back(makePool(*context));
-        set = tryAllocate(*context, pools.back(), pipeline.setLayout);
-    }
-    AG_CHECK(set != VK_NULL_HANDLE);
-    context->setDebugName(VK_OBJECT_TYPE_DESCRIPTOR_SET, set, std::string(pass.name));
-    std::array<VkDescriptorBufferInfo, kMostBindings> bufferInfos{};
-    std::array<VkDescriptorImageInfo, kMostBindings> imageInfos{};
-    std::array<VkBufferView, kMostBindings> views{};
-    std::array<VkWriteDescriptorSet, kMostBindings> writes_{};
-    for (size_t i = 0; i < pipeline.bindings.size(); ++i) {
-        const gpu::ShaderBinding& b = pipeline.bindings[i];
-        const Resource& r = resources[bound[i]->resource];
-        writes_[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                      .dstSet = set,
-                      .dstBinding = b.binding,
-                      .descriptorCount = 1,
-                      .descriptorType = gpu::descriptorType(b.kind),
-                      .pImageInfo = &imageInfos[i],
-                      .pBufferInfo = &bufferInfos[i],
-                      .pTexelBufferView = &views[i]};
-        if (r.isImage) {
-            const gpu::Image& image = imageOf(r);
-            const bool sampled = b.kind == gpu::BindingKind::kSampledImage;
-            imageInfos[i] = {sampled ? samplers[size_t(bound[i]->sampler)] : VK_NULL_HANDLE,
-                             bound[i]->wholeImage ? image.view() : image.mipView(bound[i]->mip),
-                             accessOf(bound[i]->kind).layout};
-        } else {
-            const gpu::Buffer& buffer = bufferOf(r);
-            bufferInfos[i] = {buffer.handle(), 0, VK_WHOLE_SIZE};
-            views[i] = buffer.texelView();
-        }
-    }
-    context->vk().UpdateDescriptorSets(context->handle(), uint32_t(pipeline.bindings.size()), writes_.data(),
-                                       0, nullptr);
-    sets.emplace(key, set);
-    return set;
 }
 
 }  // namespace ag

@@ -1,5 +1,6 @@
 // What a pass says of itself: uses, state, constants, work.
 #include <algorithm>
+#include <cstring>
 
 #include "engine/frame/frame_graph_impl.h"
 

@@ -9,6 +9,7 @@
 #include "engine/core/failure.h"
 #include "engine/core/hash.h"
 #include "engine/gpu/context.h"
+#include "engine/gpu/raster_pipeline.h"
 
 namespace ag::gpu {
 
@@ -33,44 +34,6 @@ uint64_t requestHash(const PipelineRequest& r) {
     for (uint32_t i = 0; i < r.specCount; ++i)
         hash = r.spec[i].hash(hash);
     return hash;
-}
-
-struct VertexInput {
-    std::array<VkVertexInputBindingDescription, 3> bindings{};
-    uint32_t bindingCount = 0;
-    std::array<VkVertexInputAttributeDescription, 4> attributes{};
-    uint32_t attributeCount = 0;
-};
-
-VertexInput vertexInput(VertexLayout layout) {
-    VertexInput in;
-    const bool whole = layout == VertexLayout::kPositionsAndAttributes;
-    const bool uvs = whole || layout == VertexLayout::kPositionsAndUvs;
-    if (uvs || layout == VertexLayout::kPositions) {
-        in.bindings[in.bindingCount++] = {0, 12, VK_VERTEX_INPUT_RATE_VERTEX};
-        in.attributes[in.attributeCount++] = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
-    }
-    if (uvs) in.bindings[in.bindingCount++] = {1, 36, VK_VERTEX_INPUT_RATE_VERTEX};
-    if (whole) {
-        in.attributes[in.attributeCount++] = {1, 1, VK_FORMAT_R32G32B32_SFLOAT, 0};
-        in.attributes[in.attributeCount++] = {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 12};
-    }
-    if (uvs) in.attributes[in.attributeCount++] = {3, 1, VK_FORMAT_R32G32_SFLOAT, 28};
-    if (layout == VertexLayout::kImGui) {
-        in.bindings[in.bindingCount++] = {0, 20, VK_VERTEX_INPUT_RATE_VERTEX};
-        in.attributes[in.attributeCount++] = {0, 0, VK_FORMAT_R32G32_SFLOAT, 0};
-        in.attributes[in.attributeCount++] = {1, 0, VK_FORMAT_R32G32_SFLOAT, 8};
-        in.attributes[in.attributeCount++] = {2, 0, VK_FORMAT_R8G8B8A8_UNORM, 16};
-    }
-    if (layout == VertexLayout::kStrided) {
-        constexpr std::array kFormats = {VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32_SFLOAT,
-                                         VK_FORMAT_R32G32_SFLOAT};
-        for (uint32_t i = 0; i < kFormats.size(); ++i) {
-            in.bindings[in.bindingCount++] = {i, 0, VK_VERTEX_INPUT_RATE_VERTEX};
-            in.attributes[in.attributeCount++] = {i, i, kFormats[i], 0};
-        }
-    }
-    return in;
 }
 
 }  // namespace
@@ -305,87 +268,18 @@ void PipelineLibrary::Impl::makeRaster(const PipelineRequest& request, Pipeline&
     const Shader& fragment = hasFragment ? shader(request.fragmentShader) : vertex;
     mergeBindings(pipeline, vertex);
     if (hasFragment) mergeBindings(pipeline, fragment);
-    makeLayout(pipeline, combineHash(vertex.hash, hasFragment ? fragment.hash : 0), fragment.module.path);
+    const uint64_t shadersHash = combineHash(vertex.hash, hasFragment ? fragment.hash : 0);
+    makeLayout(pipeline, shadersHash, fragment.module.path);
     pipeline.bindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    pipeline.id =
-        combineHash(combineHash(vertex.hash, hasFragment ? fragment.hash : 0), requestHash(request));
-
+    pipeline.id = combineHash(shadersHash, requestHash(request));
     checkConstants(request, {&fragment.module, &vertex.module});
-    const RasterState& state = request.raster;
     const Specialization vertexConstants(request, vertex.module, context.info());
     const Specialization fragmentConstants(request, fragment.module, context.info());
     const VkPipelineShaderStageCreateInfo stages[] = {
         stageInfo(vertex.handle, vertex.module, vertexConstants),
         stageInfo(fragment.handle, fragment.module, fragmentConstants)};
-    const VertexInput in = vertexInput(state.vertexLayout);
-    const VkPipelineVertexInputStateCreateInfo vertices{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
-        .vertexBindingDescriptionCount = in.bindingCount,
-        .pVertexBindingDescriptions = in.bindings.data(),
-        .vertexAttributeDescriptionCount = in.attributeCount,
-        .pVertexAttributeDescriptions = in.attributes.data()};
-    const VkPipelineInputAssemblyStateCreateInfo assembly{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
-    const VkPipelineViewportStateCreateInfo viewport{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
-        .viewportCount = 1,
-        .scissorCount = 1};
-    // Projections turn y over, so glTF's counter-clockwise fronts stay counter-clockwise on screen.
-    const VkPipelineRasterizationStateCreateInfo raster{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
-        .cullMode =
-            VkCullModeFlags(state.cull == CullMode::kBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
-        .frontFace = state.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE,
-        .depthBiasEnable = state.depthBiasSlope != 0,
-        .depthBiasSlopeFactor = state.depthBiasSlope,
-        .lineWidth = 1};
-    const VkPipelineMultisampleStateCreateInfo samples{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
-    const VkPipelineDepthStencilStateCreateInfo depth{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = state.depthTest,
-        .depthWriteEnable = state.depthWrite,
-        .depthCompareOp = state.depthEqual ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_GREATER_OR_EQUAL};
-    std::array<VkPipelineColorBlendAttachmentState, kMaxColorTargets> attachments{};
-    for (VkPipelineColorBlendAttachmentState& a : attachments)
-        a = {.blendEnable = state.blend == BlendMode::kAlpha,
-             .srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-             .dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-             .srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
-             .dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
-             .colorWriteMask = 0xf};
-    const VkPipelineColorBlendStateCreateInfo blend{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = state.colorCount,
-        .pAttachments = attachments.data()};
-    const VkDynamicState dynamics[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                       VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE,
-                                       VK_DYNAMIC_STATE_FRONT_FACE};
-    const VkPipelineDynamicStateCreateInfo dynamic{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
-        .dynamicStateCount = state.vertexLayout == VertexLayout::kStrided ? 4u : 2u,
-        .pDynamicStates = dynamics};
-    const VkPipelineRenderingCreateInfo rendering{.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-                                                  .colorAttachmentCount = state.colorCount,
-                                                  .pColorAttachmentFormats = state.colorFormats.data(),
-                                                  .depthAttachmentFormat = state.depthFormat};
-    const VkGraphicsPipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                            .pNext = &rendering,
-                                            .stageCount = hasFragment ? 2u : 1u,
-                                            .pStages = stages,
-                                            .pVertexInputState = &vertices,
-                                            .pInputAssemblyState = &assembly,
-                                            .pViewportState = &viewport,
-                                            .pRasterizationState = &raster,
-                                            .pMultisampleState = &samples,
-                                            .pDepthStencilState = &depth,
-                                            .pColorBlendState = &blend,
-                                            .pDynamicState = &dynamic,
-                                            .layout = pipeline.layout};
-    AG_VK(context.vk().CreateGraphicsPipelines(context.handle(), context.pipelineCache(), 1, &info,
-                                               context.hostAllocation(), &pipeline.handle));
+    pipeline.handle =
+        makeRasterPipeline(context, request.raster, std::span(stages, hasFragment ? 2 : 1), pipeline.layout);
     context.setDebugName(VK_OBJECT_TYPE_PIPELINE, pipeline.handle, fragment.module.path);
 }
 

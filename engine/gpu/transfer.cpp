@@ -8,9 +8,17 @@
 namespace ag::gpu {
 namespace {
 
-void barrier(const Device& device, VkCommandBuffer commands, const Image& image, uint32_t layer, uint32_t mip,
-             uint32_t mips, VkImageLayout from, VkImageLayout to) {
-    transitionImage(device.vk(), commands, image.handle(), {image.aspect(), mip, mips, layer, 1}, from, to);
+void barrier(const Device& device, VkCommandBuffer commands, const Image& image,
+             const VkImageSubresourceRange& levels, VkImageLayout from, VkImageLayout to) {
+    transitionImage(device.vk(), commands, image.handle(), levels, from, to);
+}
+
+VkImageSubresourceRange allLevels(const Image& image, uint32_t layer) {
+    return {image.aspect(), 0, image.desc().mips, layer, 1};
+}
+
+VkImageSubresourceRange oneLevel(const Image& image, uint32_t layer, uint32_t mip) {
+    return {image.aspect(), mip, 1, layer, 1};
 }
 
 VkOffset3D mipEnd(const ImageDesc& desc, uint32_t mip) {
@@ -21,8 +29,8 @@ VkOffset3D mipEnd(const ImageDesc& desc, uint32_t mip) {
 void blitMips(const Device& device, VkCommandBuffer commands, const Image& image, uint32_t layer) {
     const ImageDesc& desc = image.desc();
     for (uint32_t mip = 1; mip < desc.mips; ++mip) {
-        barrier(device, commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        barrier(device, commands, image, oneLevel(image, layer, mip - 1),
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         VkImageBlit region{.srcSubresource = {image.aspect(), mip - 1, layer, 1},
                            .dstSubresource = {image.aspect(), mip, layer, 1}};
         region.srcOffsets[1] = mipEnd(desc, mip - 1);
@@ -30,11 +38,11 @@ void blitMips(const Device& device, VkCommandBuffer commands, const Image& image
         device.vk().CmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                  image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
                                  VK_FILTER_LINEAR);
-        barrier(device, commands, image, layer, mip - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+        barrier(device, commands, image, oneLevel(image, layer, mip - 1),
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     }
-    barrier(device, commands, image, layer, desc.mips - 1, 1, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    barrier(device, commands, image, oneLevel(image, layer, desc.mips - 1),
+            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 }  // namespace
@@ -73,7 +81,7 @@ void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const s
     Buffer staging(device, {.name = "transfer.upload", .sizeBytes = texels.size(), .hostVisible = true});
     std::memcpy(staging.mapped(), texels.data(), texels.size());
     device.runOnce([&](VkCommandBuffer commands) {
-        barrier(device, commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_UNDEFINED,
+        barrier(device, commands, image, allLevels(image, layer), VK_IMAGE_LAYOUT_UNDEFINED,
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, layer, 1},
                                        .imageExtent = {desc.size.x, desc.size.y, 1}};
@@ -82,7 +90,7 @@ void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const s
         if (makeMips)
             blitMips(device, commands, image, layer);
         else
-            barrier(device, commands, image, layer, 0, desc.mips, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+            barrier(device, commands, image, allLevels(image, layer), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
 }
@@ -92,12 +100,12 @@ void downloadImage(Device& device, const Image& image, VkImageLayout layout, std
     AG_CHECK_EQ(texels.size(), size_t(desc.size.x) * desc.size.y * texelSizeBytes(desc.format));
     Buffer staging(device, {.name = "transfer.download", .sizeBytes = texels.size(), .hostVisible = true});
     device.runOnce([&](VkCommandBuffer commands) {
-        barrier(device, commands, image, 0, 0, 1, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        barrier(device, commands, image, oneLevel(image, 0, 0), layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, 0, 1},
                                        .imageExtent = {desc.size.x, desc.size.y, 1}};
         device.vk().CmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                          staging.handle(), 1, &region);
-        barrier(device, commands, image, 0, 0, 1, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
+        barrier(device, commands, image, oneLevel(image, 0, 0), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
     });
     std::memcpy(texels.data(), staging.mapped(), texels.size());
 }

@@ -39,31 +39,36 @@ bool carries(const PhysicsWorld& physics, glm::dvec3 feet, const BodyHit& hit, c
     return top && top->normal.y >= s.steepest;
 }
 
+// How hard one walks: what is in the way is to move as fast.
+struct Push {
+    glm::vec3 velocity{0};  // m/s
+    float seconds = 0;      // that it lasts
+};
+
 // What is walked into gives way, as far as the arms can.
-void pushBody(PhysicsWorld& physics, const BodyHit& hit, glm::vec3 velocity, const CharacterSettings& s,
-              float seconds) {
+void pushBody(PhysicsWorld& physics, const BodyHit& hit, const Push& push, const CharacterSettings& s) {
     if (physics.kind(hit.body) != BodyKind::kDynamic) return;
     glm::vec3 into = -hit.normal;
     into.y = 0;
     const float flat = glm::length(into);
     if (flat < 0.3f) return;
     into /= flat;
-    const float wanted = std::min(glm::dot(velocity, into), s.pushSpeed),
+    const float wanted = std::min(glm::dot(push.velocity, into), s.pushSpeed),
                 has = glm::dot(physics.pose(hit.body).velocity, into);
-    const float impulse = std::clamp((wanted - has) * physics.mass(hit.body), 0.0f, s.pushForce * seconds);
+    const float impulse =
+        std::clamp((wanted - has) * physics.mass(hit.body), 0.0f, s.pushForce * push.seconds);
     if (impulse > 0) physics.push(hit.body, into * impulse, hit.position);
 }
 
-// Along the ground or through the air, sliding along what stands upright; what gives way is pushed with this
-// speed.
+// Along the ground or through the air, sliding along what stands upright; what gives way is pushed.
 glm::vec3 slide(PhysicsWorld& physics, const Character& c, glm::dvec3& feet, glm::vec3 way,
-                const CharacterSettings& s, float seconds, glm::vec3 push) {
+                const CharacterSettings& s, const Push& push) {
     const glm::vec3 wanted = way;
     glm::vec3 met[kMostSlides];
     for (int i = 0; i < kMostSlides; ++i) {
         const auto hit = advance(physics, capsuleOf(c, s), feet, way);
         if (!hit) break;
-        if (push != glm::vec3(0)) pushBody(physics, *hit, push, s, seconds);
+        if (push.velocity != glm::vec3(0)) pushBody(physics, *hit, push, s);
         way *= 1 - hit->share;
         glm::vec3 normal = hit->normal;
         if (normal.y < s.steepest) normal.y = 0;  // walls are not climbed
@@ -77,14 +82,13 @@ glm::vec3 slide(PhysicsWorld& physics, const Character& c, glm::dvec3& feet, glm
 }
 
 // Straight ahead; where that is blocked, up a step, ahead, and down again.
-void walk(PhysicsWorld& physics, Character& c, glm::vec3 way, glm::vec3 push, const CharacterSettings& s,
-          float seconds) {
+void walk(PhysicsWorld& physics, Character& c, glm::vec3 way, const Push& push, const CharacterSettings& s) {
     glm::dvec3 straight = c.feet, over = c.feet;
-    slide(physics, c, straight, way, s, seconds, push);
+    slide(physics, c, straight, way, s, push);
     if (c.grounded) {
         advance(physics, capsuleOf(c, s), over, {0, s.stepHeight, 0});
         const double up = over.y - c.feet.y;
-        slide(physics, c, over, way, s, seconds, {});
+        slide(physics, c, over, way, s, {});
         const auto ground = advance(physics, capsuleOf(c, s), over, {0, -float(up) - 0.02f, 0});
         const auto gained = [&](glm::dvec3 p) {
             return glm::length(glm::dvec2(p.x - c.feet.x, p.z - c.feet.z));
@@ -176,8 +180,8 @@ void moveCharacter(PhysicsWorld& physics, Character& c, const CharacterIntent& i
     const glm::dvec3 before = c.feet;
     const glm::vec3 way = glm::vec3(c.velocity.x, 0, c.velocity.z) * seconds;
     // It is pushed as fast as one wants to go, not as one is let to.
-    const glm::vec3 push = glm::vec3(intent.way.x, 0, intent.way.y) * s.speed;
-    walk(physics, c, way, push, s, seconds);
+    const Push push{.velocity = glm::vec3(intent.way.x, 0, intent.way.y) * s.speed, .seconds = seconds};
+    walk(physics, c, way, push, s);
     if (c.grounded) stepAside(physics, c, glm::vec3(wanted.x, 0, wanted.y) * seconds, s);
     // What was stopped has no speed left.
     const glm::vec3 moved = glm::vec3(c.feet - before) / seconds;

@@ -13,9 +13,9 @@ struct Sphere {
     float radius;
 };
 
-// The smallest sphere on the camera's axis round a slice of its frustum; the radius does not change as it
-// turns.
-Sphere sliceSphere(const RenderCamera& camera, float aspect, float near, float far) {
+// The smallest sphere on the camera's axis round the slice; the radius does not change as it turns.
+Sphere sphereRound(const FrustumSlice& slice) {
+    const auto& [camera, aspect, near, far] = slice;
     const float tanY = std::tan(camera.verticalFov * 0.5f), tanX = tanY * aspect;
     const float k = tanX * tanX + tanY * tanY;
     const float along = std::min(0.5f * (near + far) * (1 + k), far);
@@ -42,9 +42,9 @@ float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float lo
     return glm::mix(uniform, logarithmic, logShare);
 }
 
-Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirection, const Bounds& casters,
-                   float extent, float sliceNear, float sliceFar, uint32_t resolution) {
-    const Sphere sphere = sliceSphere(camera, aspect, sliceNear, sliceFar);
+Cascade fitCascade(const FrustumSlice& slice, glm::vec3 sunDirection, const Bounds& casters, float extent,
+                   uint32_t resolution) {
+    const Sphere sphere = sphereRound(slice);
     const gi::SunRectangle scene = gi::sunRectangle(sunDirection, casters, 0);
     const glm::vec3 center = glm::vec3(scene.rotation * glm::vec4(sphere.center, 1));
     glm::vec2 size, middle;
@@ -64,7 +64,7 @@ Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirect
         glm::vec3(glm::transpose(scene.rotation) * glm::vec4(middle, scene.seen.max.z + 0.01f * depth, 0));
     return {.clipFromWorld = lightOrtho(size, 0.0f, depth) * gi::viewFromWorld(eye, sunDirection, scene.up),
             .size = size,
-            .farDistance = sliceFar};
+            .farDistance = slice.far};
 }
 
 }  // namespace ag::render

@@ -15,8 +15,17 @@ struct Cascade {
 
 // Distance along the camera's axis where slice `index` of `count` ends.
 float cascadeEnd(uint32_t index, uint32_t count, float near, float far, float logShare);
-// `extent`: of the scene, see steadyExtent(); the grid that sizes are rounded to follows it.
-Cascade fitCascade(const RenderCamera& camera, float aspect, glm::vec3 sunDirection, const Bounds& casters,
-                   float extent, float sliceNear, float sliceFar, uint32_t resolution);
+
+// What the camera sees between two distances along its axis, m.
+struct FrustumSlice {
+    const RenderCamera& camera;
+    float aspect = 1;  // width / height
+    float near = 0, far = 0;
+};
+
+// `extent`: of the scene, see steadyExtent(); the grid that sizes are rounded to follows it. `resolution`:
+// texels a side.
+Cascade fitCascade(const FrustumSlice& slice, glm::vec3 sunDirection, const Bounds& casters, float extent,
+                   uint32_t resolution);
 
 }  // namespace ag::render

@@ -89,8 +89,8 @@ ImageHandle addVals(GraphScope scope, const SceneView& scene, const RenderFrame&
 ImageHandle addLightClusters(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
     const ImageHandle out = layerImage(scope, scene.size);
     beginSurfaceView(scope, "debug_view.light_clusters", "debug_view/light_clusters.frag", scene, f)
-        .read("lights", f.punctualLists.lights)
-        .push(f.punctualLists.lightCount)
+        .read("lights", f.punctual.lists.lights)
+        .push(f.punctual.lists.lightCount)
         .colorClear(out, glm::vec4(0));
     return out;
 }
@@ -174,7 +174,7 @@ bool hasLayer(const RenderFrame& f, Layer layer) {
         case Layer::kVals:
             return f.bounce.vals.vals && f.bounce.vals.shapes;
         case Layer::kLightClusters:
-            return bool(f.punctualLists.lights);
+            return bool(f.punctual.lists.lights);
         case Layer::kIsm:
             return bool(f.bounce.isms.planes);
         default:

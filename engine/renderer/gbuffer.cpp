@@ -38,7 +38,7 @@ GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
     if (scene.hasGlossy) pass.colorClear(g.reflectance, glm::vec4(0));
     pass.depthClear(g.depth).geometry(scene.geometry).read("instances", scene.instances);
     bindMaterials(pass, scene);
-    drawView(pass, scene, draws, clipFromWorld, {}, DrawFilter::kAll, Viewer::kCamera);
+    drawView(pass, scene, draws, clipFromWorld, {.viewer = Viewer::kCamera});
     return {g, emissive};
 }
 
@@ -59,7 +59,7 @@ ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfac
             .read("skinnedMeshes", scene.skin.skinnedMeshes)
             .read("skin", scene.skin.skin)
             .read("modelled", scene.skin.positions);
-    drawView(pass, scene, moved, clipFromWorld, {}, DrawFilter::kShapes, Viewer::kLight);
+    drawView(pass, scene, moved, clipFromWorld, {.filter = DrawFilter::kShapes});
     return motion;
 }
 

@@ -35,25 +35,26 @@ struct PunctualQuads {  // at one pixel of each 2 x 2, W/m²
 };
 
 PunctualQuads addPunctualQuads(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                               const PunctualLists& l, const PunctualShadows& shadows,
-                               const PunctualLightingSettings& settings) {
+                               const PunctualLights& lights, const PunctualLightingSettings& settings) {
     const ImageInfo desc{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = (gbuffer.size + 1u) / 2u};
     const PunctualQuads quads{.shadowed = scope.image("punctual_lighting.shadowed", desc),
                               .unshadowed = scope.image("punctual_lighting.unshadowed", desc)};
-    PassBuilder pass = beginShading(scope, "punctual_lighting.shadow",
-                                    "direct_lighting/shade_punctual_quads.comp", scene, gbuffer, l);
-    bindShadows(pass, shadows, settings);
+    PassBuilder pass =
+        beginShading(scope, "punctual_lighting.shadow", "direct_lighting/shade_punctual_quads.comp", scene,
+                     gbuffer, lights.lists);
+    bindShadows(pass, lights.shadows, settings);
     pass.write("shadowed", quads.shadowed)
         .write("unshadowed", quads.unshadowed)
-        .dispatchGroups(l.tiles.x * l.tiles.y);
+        .dispatchGroups(lights.lists.tiles.x * lights.lists.tiles.y);
     return quads;
 }
 
 }  // namespace
 
 gi::Irradiance addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                                   const PunctualLists& lists, const PunctualShadows& shadows,
-                                   gi::Irradiance before, const PunctualLightingSettings& settings) {
+                                   const PunctualLights& lights, gi::Irradiance before,
+                                   const PunctualLightingSettings& settings) {
+    const auto& [lists, shadows] = lights;
     if (!lists.lights) return before;
     const bool shadowed = bool(shadows.atlas);
     const bool quads = shadowed && settings.quads && shadows.places > kFewClusters;
@@ -62,7 +63,7 @@ gi::Irradiance addPunctualLighting(GraphScope scope, const SceneView& scene, con
                      : scope.image("punctual_lighting.irradiance",
                                    {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
     const PunctualQuads from =
-        quads ? addPunctualQuads(scope, scene, gbuffer, lists, shadows, settings) : PunctualQuads{};
+        quads ? addPunctualQuads(scope, scene, gbuffer, lights, settings) : PunctualQuads{};
     PassBuilder shade = beginShading(scope, "punctual_lighting.shade",
                                      quads      ? "direct_lighting/spread_punctual_shadows.comp"
                                      : shadowed ? "direct_lighting/shade_punctual.comp"

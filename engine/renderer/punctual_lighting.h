@@ -33,9 +33,15 @@ struct PunctualLightingSettings {
     bool operator==(const PunctualLightingSettings&) const = default;
 };
 
+// The punctual lights in view, and their shadows.
+struct PunctualLights {
+    PunctualLists lists;
+    PunctualShadows shadows;
+};
+
 // Adds to `before`, or starts anew where that has no image.
 gi::Irradiance addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                                   const PunctualLists& lists, const PunctualShadows& shadows,
-                                   gi::Irradiance before, const PunctualLightingSettings& settings);
+                                   const PunctualLights& lights, gi::Irradiance before,
+                                   const PunctualLightingSettings& settings);
 
 }  // namespace ag::render

@@ -140,7 +140,7 @@ PunctualShadows addPunctualShadows(GraphScope scope, const SceneView& scene, con
         const ViewRequest& view = history.views[i];
         pass.patch(history.rects[i]);
         drawView(pass, scene, scene.draws->cull(s, view.slot, view.clipFromWorld), view.clipFromWorld,
-                 history.rects[i], filter, Viewer::kLight);
+                 {.viewport = history.rects[i], .filter = filter});
     }
     const std::span<const std::byte> bytes = std::as_bytes(std::span(history.rows));
     shadows.clusters =

@@ -24,14 +24,13 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     f.direct = addSunLighting(scope, scene, surfaces, f.shadows);
     const LightClusters& lights =
         clusterLights(*scene.scene, h.punctualRelevance, s.lightClusters, h.lightClusters);
-    f.punctualShadows =
+    f.punctual.shadows =
         addPunctualShadows(scope, scene, lights, s.lightClusters.most, s.punctualShadows, h.punctualShadows);
-    f.punctualLists =
+    f.punctual.lists =
         addPunctualLists(scope, scene, surfaces, lights, s.punctualLighting.tiles, h.punctualLists);
-    f.direct = addPunctualLighting(scope, scene, surfaces, f.punctualLists, f.punctualShadows, f.direct,
-                                   s.punctualLighting);
+    f.direct = addPunctualLighting(scope, scene, surfaces, f.punctual, f.direct, s.punctualLighting);
     if (s.lightClusters.strongFirst)
-        addPunctualRelevance(scope, f.bounce.viewPoints, f.punctualLists, h.punctualRelevance);
+        addPunctualRelevance(scope, f.bounce.viewPoints, f.punctual.lists, h.punctualRelevance);
 
     // To the eye
     f.outputs = addComposite(scope, f.gbuffer, f.direct, f.bounce, s.composite);

@@ -30,8 +30,7 @@ struct RenderFrame {
     GBuffer gbuffer;
     gi::BounceLight bounce;
     ShadowMaps shadows;
-    PunctualShadows punctualShadows;
-    PunctualLists punctualLists;
+    PunctualLights punctual;
     gi::Irradiance direct;
     RenderOutputs outputs;
 };

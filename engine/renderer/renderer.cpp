@@ -76,8 +76,7 @@ const RenderScene& Renderer::inOwnUnits(const RenderScene& scene) {
 }
 
 void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSettings& settings,
-                      const FrameGraphOptions& options, Finish finish, Present present,
-                      FrameSemaphores semaphores) {
+                      const FrameGraphOptions& options, Finish finish, const Presentation& presentation) {
     const uint32_t index = uint32_t(frame_++ % kFramesInFlight);
     Slot& slot = slots_[index];
     moments_.begin = steadyNs();
@@ -115,10 +114,10 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     } else {
         graph_.execute(slot.commands);
     }
-    present(slot.commands);
+    presentation.record(slot.commands);
     AG_VK(device_.vk().EndCommandBuffer(slot.commands));
     moments_.recorded = steadyNs();
-    slot.submitted = device_.submit(slot.commands, semaphores.wait, semaphores.signal);
+    slot.submitted = device_.submit(slot.commands, presentation.wait, presentation.signal);
     moments_.submitted = steadyNs();
     if (jobs_.threadCount() == 1) device_.waitFor(slot.submitted);
 }
@@ -152,11 +151,10 @@ Image readImage(Renderer& renderer, ImageHandle handle) {
 }
 
 Image renderLayer(Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
-                  const RenderSettings& settings, Layer layer, uint32_t frames,
-                  const FrameGraphOptions& options) {
+                  const RenderSettings& settings, Layer layer, uint32_t frames) {
     ImageHandle shown;
     for (uint32_t i = 0; i < std::max(frames, 1u); ++i)
-        renderer.render(scene, size, settings, options,
+        renderer.render(scene, size, settings, {.timing = TimingMode::kOff},
                         [&](GraphScope scope, const SceneView& view, const RenderFrame& frame) {
                             shown = addLayer(scope, view, frame, layer);
                             if (shown) scope.output(shown);

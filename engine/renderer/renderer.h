@@ -11,8 +11,11 @@
 
 namespace ag::render {
 
-// Swapchain semaphores of a frame that is shown; both null when headless.
-struct FrameSemaphores {
+// How a frame comes to be shown; headless: not.
+struct Presentation {
+    static constexpr auto kNothing = [](VkCommandBuffer) {};
+    FunctionRef<void(VkCommandBuffer)> record = kNothing;  // after the frame, with its command buffer
+    // Of a swapchain's image: it may be written, it is written.
     VkSemaphore wait = VK_NULL_HANDLE, signal = VK_NULL_HANDLE;
 };
 
@@ -37,17 +40,10 @@ class Renderer {
     // Blocking: a scene just loaded; histories start anew.
     void load(const GeometryArrays& geometry);
 
-    // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs;
-    // `present` records after it, with the command buffer of the frame.
+    // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs.
     using Finish = FunctionRef<void(GraphScope, const SceneView&, const RenderFrame&)>;
-    using Present = FunctionRef<void(VkCommandBuffer)>;
-    struct PresentNothing {
-        void operator()(VkCommandBuffer) const {}
-    };
-    static constexpr PresentNothing kPresentNothing{};
     void render(const RenderScene& scene, glm::uvec2 size, const RenderSettings& settings,
-                const FrameGraphOptions& options, Finish finish, Present present = kPresentNothing,
-                FrameSemaphores semaphores = {});
+                const FrameGraphOptions& options, Finish finish, const Presentation& presentation = {});
     void waitIdle() { device_.waitIdle(); }
 
     // Of the scene's probes, kFramesInFlight frames ago.
@@ -86,10 +82,9 @@ class Renderer {
     FrameMoments moments_;
 };
 
-// Renders `frames` frames of a still scene and reads back a layer (black where the frame has none).
+// Renders `frames` frames of a still scene, untimed, and reads back a layer (black where the frame has none).
 Image renderLayer(Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
-                  const RenderSettings& settings, Layer layer, uint32_t frames,
-                  const FrameGraphOptions& options = {});
+                  const RenderSettings& settings, Layer layer, uint32_t frames);
 // An image the graph left as its output, as floats; rgba8, rgba16f, rgba32f and r32f.
 Image readImage(Renderer& renderer, ImageHandle image);
 

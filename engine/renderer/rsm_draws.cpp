@@ -21,8 +21,7 @@ void drawRsm(GraphScope scope, const SceneView& scene, gi::RsmSet& rsm) {
         const io::RsmFace& face = rsm.faceInfo[f];
         const ViewDraws& draws = scene.draws->cull(*scene.scene, slot + f, face.clipFromWorld);
         rsm.inputsVersion = combineHash(rsm.inputsVersion, draws.version);
-        drawView(pass, scene, draws, face.clipFromWorld, {face.origin, face.size, face.size},
-                 DrawFilter::kAll, Viewer::kLight);
+        drawView(pass, scene, draws, face.clipFromWorld, {.viewport = {face.origin, face.size, face.size}});
     }
 }
 

@@ -11,43 +11,48 @@ BucketRange rangeOf(const BucketRange& all, DrawLayer layer) {
     return {all.firstCommand + all.staticCount, all.commandCount - all.staticCount, 0};
 }
 
+bool admits(DrawFilter filter, const DrawBucket& bucket) {
+    return filter == DrawFilter::kAll || filter == DrawFilter::kShapes ||
+           bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
+}
+
+// With the bucket's state and variant, without its commands.
+RasterDraw drawOf(const DrawBucket& bucket, const DrawOptions& options) {
+    const bool camera = options.viewer == Viewer::kCamera;
+    const bool shapes = options.filter == DrawFilter::kShapes || options.filter == DrawFilter::kOpaqueOnly;
+    RasterDraw draw;
+    if (!shapes) {
+        draw.spec[draw.specCount++] = gpu::specConstant("kTextureClass", uint32_t(bucket.textureClass));
+        draw.spec[draw.specCount++] = gpu::specConstant("kAlphaMask", bool(bucket.alphaMask));
+        if (camera) draw.spec[draw.specCount++] = gpu::specConstant("kNormalMaps", bool(bucket.normalMap));
+    }
+    draw.cull = bucket.doubleSided || !camera ? gpu::CullMode::kNone : gpu::CullMode::kBack;
+    draw.mirrored = bucket.mirrored;
+    draw.deformed = bucket.deformed;
+    draw.viewport = options.viewport;
+    return draw;
+}
+
 }  // namespace
 
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
-              DrawLayer layer) {
-    drawView(pass, scene, view, std::as_bytes(std::span(&clipFromWorld, 1)), viewport, filter, viewer, layer);
+              const glm::mat4& clipFromWorld, const DrawOptions& options) {
+    drawView(pass, scene, view, std::as_bytes(std::span(&clipFromWorld, 1)), options);
 }
 
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
-              DrawLayer layer) {
-    const bool camera = viewer == Viewer::kCamera;
-    const bool shapes = filter == DrawFilter::kShapes || filter == DrawFilter::kOpaqueOnly;
+              std::span<const std::byte> push, const DrawOptions& options) {
     const std::span<const DrawBucket> buckets = scene.draws->buckets();
     for (size_t b = 0; b < buckets.size(); ++b) {
-        const DrawBucket& bucket = buckets[b];
-        const bool wanted = filter == DrawFilter::kAll || filter == DrawFilter::kShapes ||
-                            bucket.alphaMask == (filter == DrawFilter::kMaskedOnly);
-        const BucketRange range = rangeOf(view.buckets[b], layer);
-        if (!wanted || range.commandCount == 0) continue;
-        RasterDraw draw;
-        if (!shapes) {
-            draw.spec[draw.specCount++] = gpu::specConstant("kTextureClass", uint32_t(bucket.textureClass));
-            draw.spec[draw.specCount++] = gpu::specConstant("kAlphaMask", bool(bucket.alphaMask));
-            if (camera)
-                draw.spec[draw.specCount++] = gpu::specConstant("kNormalMaps", bool(bucket.normalMap));
-        }
-        draw.cull = bucket.doubleSided || !camera ? gpu::CullMode::kNone : gpu::CullMode::kBack;
-        draw.mirrored = bucket.mirrored;
-        draw.deformed = bucket.deformed;
-        draw.viewport = viewport;
+        const BucketRange range = rangeOf(view.buckets[b], options.layer);
+        if (!admits(options.filter, buckets[b]) || range.commandCount == 0) continue;
+        RasterDraw draw = drawOf(buckets[b], options);
         std::ranges::copy(push, draw.push.begin());
         draw.pushSizeBytes = uint32_t(push.size());
         draw.commands = scene.commands;
         draw.commandsOffsetBytes = range.firstCommand * sizeof(VkDrawIndexedIndirectCommand);
         draw.commandCount = range.commandCount;
-        draw.commandsVersion = view.versionOf(layer);
+        draw.commandsVersion = view.versionOf(options.layer);
         pass.draw(draw);
     }
 }

@@ -12,15 +12,21 @@ enum class DrawFilter { kAll, kShapes, kOpaqueOnly, kMaskedOnly };
 // meets the surface itself and does not pass it either way.
 enum class Viewer { kCamera, kLight };
 
+// What of a view is drawn, for whom and where.
+struct DrawOptions {
+    glm::uvec4 viewport{0};  // see RasterDraw
+    DrawFilter filter = DrawFilter::kAll;
+    Viewer viewer = Viewer::kLight;
+    DrawLayer layer = DrawLayer::kAll;
+};
+
 // One RasterDraw per non-empty bucket: the variant's constants (ids 0 texture class, 1 alpha mask, 2 normal
-// map), the view's matrix as push constant, its viewport.
+// map), the view's matrix as push constant.
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              const glm::mat4& clipFromWorld, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
-              DrawLayer layer = DrawLayer::kAll);
+              const glm::mat4& clipFromWorld, const DrawOptions& options);
 // The same with other push constants, for views that are no matrix.
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
-              std::span<const std::byte> push, glm::uvec4 viewport, DrawFilter filter, Viewer viewer,
-              DrawLayer layer = DrawLayer::kAll);
+              std::span<const std::byte> push, const DrawOptions& options);
 bool hasMasked(const SceneView& scene);  // any alpha-masked surface
 // The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
 void bindMaterials(PassBuilder& pass, const SceneView& scene);

@@ -50,8 +50,8 @@ void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowM
         const float split =
             cascadeEnd(i, count, std::max(camera.near, kLeastSplit * reach), reach, settings.cascadeSplit);
         const float end = i + 1 == count ? whole : split;  // beyond it nothing would cast a shadow
-        const Cascade c = fitCascade(camera, aspect, light.direction, scene.scene->bounds, scene.extent,
-                                     begin, end, settings.resolution);
+        const Cascade c = fitCascade({.camera = camera, .aspect = aspect, .near = begin, .far = end},
+                                     light.direction, scene.scene->bounds, scene.extent, settings.resolution);
         views.items[views.count++] = {
             .clipFromWorld = c.clipFromWorld,
             .size = settings.resolution,
@@ -94,7 +94,9 @@ void drawCascades(PassBuilder& pass, const SceneView& scene, const Cascades& c, 
                   DrawLayer layer) {
     for (size_t v = 0; v < c.views.size(); ++v)
         drawView(pass, scene, *c.draws[v], c.views[v].clipFromWorld,
-                 {c.views[v].origin, c.views[v].size, c.views[v].size}, filter, Viewer::kLight, layer);
+                 {.viewport = {c.views[v].origin, c.views[v].size, c.views[v].size},
+                  .filter = filter,
+                  .layer = layer});
 }
 
 // Masked surfaces need their textures: a second pass over the same atlas, only where the scene has any.

@@ -27,8 +27,8 @@ void drawParaboloids(GraphScope scope, const SceneView& scene, const gi::Parabol
             float farDistance;
         } push{c, glm::distance(bounds.min, bounds.max)};
         const glm::uvec2 origin = glm::uvec2(c % io::kSsvpMapColumns, c / io::kSsvpMapColumns) * maps.mapSize;
-        drawView(pass, scene, draws, std::as_bytes(std::span(&push, 1)), {origin, maps.mapSize, maps.mapSize},
-                 DrawFilter::kAll, Viewer::kLight);
+        drawView(pass, scene, draws, std::as_bytes(std::span(&push, 1)),
+                 {.viewport = {origin, maps.mapSize, maps.mapSize}});
     }
 }
 

@@ -23,9 +23,17 @@ bool insideOrNone(int index, const std::vector<T>& list) {
     return index == -1 || inside(index, list);
 }
 
+// Where elements lie in a buffer view, bytes.
+struct ElementRange {
+    uint64_t offset = 0;
+    uint64_t stride = 0;   // from one to the next
+    uint64_t count = 0;    // of them
+    uint64_t element = 0;  // size of one
+};
+
 // Bytes [offset, offset + stride (count - 1) + element) must lie in the view.
-Fault checkRange(const tinygltf::Model& model, int view, uint64_t offset, uint64_t stride, uint64_t count,
-                 uint64_t element, const std::string& what) {
+Fault checkRange(const tinygltf::Model& model, int view, const ElementRange& range, const std::string& what) {
+    const auto& [offset, stride, count, element] = range;
     if (!inside(view, model.bufferViews))
         return fmt::format("{} names buffer view {}, which does not exist", what, view);
     if (count == 0) return std::nullopt;
@@ -57,11 +65,19 @@ Fault checkSparse(const tinygltf::Model& model, const tinygltf::Accessor& a, uin
     if (indexSize <= 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
         return what + " has a bad sparse index type or offset";
     const uint64_t count = uint64_t(sparse.count);
-    if (Fault f = checkRange(model, sparse.indices.bufferView, uint64_t(sparse.indices.byteOffset),
-                             uint64_t(indexSize), count, uint64_t(indexSize), what + " (sparse indices)"))
+    if (Fault f = checkRange(model, sparse.indices.bufferView,
+                             {.offset = uint64_t(sparse.indices.byteOffset),
+                              .stride = uint64_t(indexSize),
+                              .count = count,
+                              .element = uint64_t(indexSize)},
+                             what + " (sparse indices)"))
         return f;
-    if (Fault f = checkRange(model, sparse.values.bufferView, uint64_t(sparse.values.byteOffset), element,
-                             count, element, what + " (sparse values)"))
+    if (Fault f = checkRange(model, sparse.values.bufferView,
+                             {.offset = uint64_t(sparse.values.byteOffset),
+                              .stride = element,
+                              .count = count,
+                              .element = element},
+                             what + " (sparse values)"))
         return f;
     const std::vector<uint32_t> rows = sparseRows(model, a);
     const auto beyond = std::ranges::find_if(rows, [&](uint32_t row) { return row >= a.count; });
@@ -89,7 +105,11 @@ Fault checkAccessors(const tinygltf::Model& model, const ImportLimits& limits) {
             return fmt::format("{} names buffer view {}, which does not exist", what, a.bufferView);
         const uint64_t given = model.bufferViews[size_t(a.bufferView)].byteStride;
         if (given != 0 && given < element) return what + " has a stride smaller than its elements";
-        if (Fault f = checkRange(model, a.bufferView, a.byteOffset, given ? given : element, a.count, element,
+        if (Fault f = checkRange(model, a.bufferView,
+                                 {.offset = a.byteOffset,
+                                  .stride = given ? given : element,
+                                  .count = a.count,
+                                  .element = element},
                                  what))
             return f;
     }

@@ -2,6 +2,7 @@
 // watching.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "engine/frame/frame_graph.h"

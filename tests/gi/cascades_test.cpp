@@ -19,7 +19,8 @@ Cascade cascade(const Bounds& casters, float scale, float extent, float end = 4)
     camera.position = scale * glm::vec3(3, 1.5f, 0.5f);
     camera.forward = glm::normalize(glm::vec3(-1, -0.1f, 0.2f));
     const Bounds scaled{casters.min * scale, casters.max * scale};
-    return fitCascade(camera, 1.6f, kSun, scaled, extent * scale, 0.1f * scale, end * scale, 1024);
+    const FrustumSlice slice{.camera = camera, .aspect = 1.6f, .near = 0.1f * scale, .far = end * scale};
+    return fitCascade(slice, kSun, scaled, extent * scale, 1024);
 }
 
 TEST(Cascades, FollowTheScenesScale) {

@@ -17,7 +17,7 @@ SceneAsset roomWithBox(float size) {
     const uint32_t white = room.material("white", glm::vec3(0.7f));
     room.room("walls", {-2, 0, -2}, {2, 4, 2}, {white, white, white, white, white, white});
     room.box("box", {0, 0.5f, 0}, glm::vec3(size), white);
-    room.spot("lamp", {0, 3.5f, 0}, {0, -1, 0}, glm::vec3(10), 40, 60);
+    room.spot("lamp", {0, 3.5f, 0}, {0, -1, 0}, glm::vec3(10), {40, 60});
     room.camera("camera", {0, 1, 1.9f}, {0, 1, 0}, 70);
     return room.finish();
 }

@@ -197,8 +197,8 @@ TEST(Denoiser, LightThatChangesArrivesAndGoes) {
     scenegen::SceneBuilder s("two lights");
     const uint32_t white = s.material("white", glm::vec3(0.7f));
     s.room("room", {-2, 0, -2}, {2, 3, 2}, {white, white, white, white, white, white});
-    s.spot("steady", {0, 2.5f, 0}, {0.3f, -1, 0.1f}, glm::vec3(10), 30, 40);
-    s.spot("switched", {1, 1.5f, 1}, {-1, -0.1f, -0.2f}, glm::vec3(30), 30, 40);
+    s.spot("steady", {0, 2.5f, 0}, {0.3f, -1, 0.1f}, glm::vec3(10), {30, 40});
+    s.spot("switched", {1, 1.5f, 1}, {-1, -0.1f, -0.2f}, glm::vec3(30), {30, 40});
     s.camera("camera", {1.8f, 1.5f, 1.8f}, {-1, 1, -1}, 70);
     const auto b = stochasticBench(s.finish(), {96, 64});
     b->settings.bounce.stochasticRsm.radius = 1;
@@ -283,7 +283,7 @@ struct MovingBox {
                        red = s.material("red", {0.7f, 0.2f, 0.1f}),
                        green = s.material("green", {0.1f, 0.7f, 0.1f});
         s.room("room", {-2, 0, -2}, {2, 3, 2}, {red, white, white, white, white, white});
-        s.spot("lamp", {-0.5f, 2.5f, 0}, {-1, -0.6f, 0.1f}, glm::vec3(20), 30, 40);
+        s.spot("lamp", {-0.5f, 2.5f, 0}, {-1, -0.6f, 0.1f}, glm::vec3(20), {30, 40});
         s.camera("camera", {1.8f, 1.6f, 1.8f}, {-0.6f, 0.8f, -0.6f}, 70);
         s.box("box", {0, 0.4f, 0}, glm::vec3(0.8f), green);
         b = stochasticBench(s.finish(), {320, 192});

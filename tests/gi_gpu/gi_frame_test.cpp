@@ -421,7 +421,7 @@ TEST(IsmAtlas, MovingBoxesLeaveTheStaticLayerAsItIs) {
         const uint32_t white = room.material("white", glm::vec3(0.7f));
         room.room("walls", {-1, 0, -1}, {1, 2, 1}, {white, white, white, white, white, white});
         room.box("box", {0.4f, 1.4f, 0.3f}, {0.4f, 0.2f, 0.4f}, white);
-        room.spot("lamp", {0, 1, 0}, {0, -1, 0}, glm::vec3(10), 40, 60);
+        room.spot("lamp", {0, 1, 0}, {0, -1, 0}, glm::vec3(10), {40, 60});
         room.camera("camera", {-0.9f, 1.5f, 0.9f}, {0, 0.8f, 0}, 70);
         auto b = std::make_unique<Bench>(room.finish());
         b->settings.bounce.ismAtlas.keepMaps = keep;

@@ -29,8 +29,7 @@ Outcome renderOn(gpu::Device& device, const char* preset) {
         o.counts = b.read<uint32_t>(c.candidateCounts);
         o.slots = b.read<uint32_t>(c.slotOfTexel);
     }
-    o.picture = renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kRadiance, 5,
-                            {.timing = TimingMode::kOff});
+    o.picture = renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kRadiance, 5);
     return o;
 }
 

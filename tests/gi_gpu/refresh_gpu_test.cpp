@@ -15,7 +15,7 @@ std::unique_ptr<Bench> roomWithBox(uint32_t pixelFrames) {
     const uint32_t glossy = room.material("glossy", glm::vec3(0.5f));
     room.room("walls", {-1, 0, -1}, {1, 2, 1}, {white, white, white, white, white, white});
     room.box("box", {0.3f, 1.1f, -0.6f}, glm::vec3(0.3f), glossy);
-    room.spot("lamp", {0, 1, 0}, {0, -1, 0}, glm::vec3(10), 40, 60);
+    room.spot("lamp", {0, 1, 0}, {0, -1, 0}, glm::vec3(10), {40, 60});
     room.camera("camera", {-0.9f, 1.5f, 0.9f}, {0, 0.8f, 0}, 70);
     SceneAsset asset = room.finish();
     asset.geometry.materials[glossy].specular = 1;

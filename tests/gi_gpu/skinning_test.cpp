@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "engine/renderer/scene_surfaces.h"
 #include "engine/scene/deform.h"

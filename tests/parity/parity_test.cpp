@@ -28,7 +28,7 @@ struct Parity {
         renderer.load(asset.geometry);
     }
     Image render(Layer layer, const RenderSettings& settings, uint32_t frames) {
-        return renderLayer(renderer, scene, size, settings, layer, frames, {.timing = TimingMode::kOff});
+        return renderLayer(renderer, scene, size, settings, layer, frames);
     }
     reference::Reference trace(const reference::ReferenceSettings& settings) {
         const reference::RayScene rays(scene);
@@ -196,7 +196,7 @@ TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
     b.room("room", {-2, 0, -2}, {2, 2, 2}, {red, white, white, white, white, white});
     for (int i = 0; i < 24; ++i)
         b.box("slat", {-1.2f + 0.1f * float(i), 1, -1 + 0.1f * float(i % 5)}, {0.03f, 1.6f, 0.03f}, white);
-    b.spot("lamp", {0, 1.9f, 1}, {-1, -0.6f, 0}, glm::vec3(10), 30, 50);
+    b.spot("lamp", {0, 1.9f, 1}, {-1, -0.6f, 0}, glm::vec3(10), {30, 50});
     b.camera("camera", {0, 1, 1.9f}, {0, 1, -1}, 50);
     const SceneAsset scene = b.finish();
     Parity p{SceneAsset(scene)}, q{SceneAsset(scene)};
@@ -338,7 +338,7 @@ TEST(Parity, ClosedRoomsKeepTheirLight) {
     const uint32_t white = b.material("white", glm::vec3(0.8f));
     b.room("lit", {-2, 0, -1}, {-0.05f, 2, 1}, {white, white, white, white, white, white});
     b.room("dark", {0.05f, 0, -1}, {2, 2, 1}, {white, white, white, white, white, white});
-    b.spot("lamp", {-1, 1.8f, 0}, {0.4f, -1, 0}, glm::vec3(10), 30, 50);
+    b.spot("lamp", {-1, 1.8f, 0}, {0.4f, -1, 0}, glm::vec3(10), {30, 50});
     b.camera("lit", {-1.9f, 1, 0.9f}, {-0.05f, 0.8f, -0.5f}, 70);
     b.camera("dark", {1.9f, 1, 0.9f}, {0.05f, 0.8f, -0.5f}, 70);
     Parity p(b.finish());

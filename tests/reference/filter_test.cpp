@@ -114,7 +114,7 @@ TEST(LitPoints, TakeEveryKindOfLight) {
     b.box("block", {0.4f, 0.5f, 0}, {0.6f, 1, 0.6f}, white);
     b.camera("camera", {1.7f, 1.8f, 1.7f}, {-1, 0.5f, -1}, 70);
     b.point("point", {0, 2, 0}, glm::vec3(1), 3);
-    b.spot("spot", {-1.5f, 2, 1}, {0.5f, -1, -0.4f}, glm::vec3(8), 10, 30);
+    b.spot("spot", {-1.5f, 2, 1}, {0.5f, -1, -0.4f}, glm::vec3(8), {10, 30});
     SceneAsset asset = b.finish();
     for (const bool shadows : {true, false}) {
         for (SceneNode& node : asset.nodes)

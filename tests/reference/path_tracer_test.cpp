@@ -227,7 +227,7 @@ TEST(Reference, BacksOfSingleSidedSurfacesReflectNothing) {
             const uint32_t gray = b.material("gray", glm::vec3(0.5f));
             b.quad("floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, b.material("floor", glm::vec3(0)));
             b.quad("curtain", {-1, 0, 1}, {2, 0, 0}, {0, 2, 0}, gray);  // faces +z
-            b.spot("lamp", {0, 1, 0.5f}, {0, 0, 1}, glm::vec3(20), 20, 40);
+            b.spot("lamp", {0, 1, 0.5f}, {0, 0, 1}, glm::vec3(20), {20, 40});
             b.camera("camera", {0, 1.5f, -1}, {0, 0, 0.6f}, 50);
             Traced t(b.finish(), {24, 16});
             t.asset.geometry.materials[gray].doubleSided = doubleSided;
@@ -256,7 +256,8 @@ TEST(Reference, RsmTexelsAgreeWithPaths) {
         LightSums halves[2] = {{t.size, 1}, {t.size, 1}}, paths(t.size, 1);
         for (uint32_t map = 0; map < kMaps; ++map) {
             const auto emitters = traceEmitters(rays, kMap, map + 1, count);
-            addEmitters(rays, hits, emitters, map, uint32_t(emitters.size()), runner, halves[map % 2]);
+            addEmitters(rays, hits, emitters, {.seed = map, .count = uint32_t(emitters.size())}, runner,
+                        halves[map % 2]);
             for (size_t i = 0; i < nearest.size(); ++i)
                 for (const Emitter& e : emitters)
                     if (io::vplTerm(hits.surfaces[i].position, hits.surfaces[i].normal, e.position,

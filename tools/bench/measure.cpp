@@ -72,14 +72,15 @@ struct Frame {
 
 }  // namespace
 
-SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::string name, ReferenceCache& cache,
-                       JobRunner& runner, const MeasureOptions& options, FunctionRef<void(double)> progress)
+SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::string name,
+                       ReferenceSource references, const MeasureOptions& options,
+                       FunctionRef<void(double)> progress)
     : renderer_(device),
       scene_(scene),
       flickerScene_(scene),
       name_(std::move(name)),
-      cache_(cache),
-      runner_(runner),
+      cache_(references.cache),
+      runner_(references.runner),
       options_(options),
       progress_(progress),
       rays_(scene) {
@@ -254,7 +255,7 @@ void SceneBench::measureEmitters(Row& row, Image& image) {
     reference::traceFirstHits(rays_, {}, {}, runner_, hits, count);
     const auto emitters = reference::traceEmitters(rays_, kEmitterMap, 1, count);
     reference::LightSums sums(options_.size, 1);
-    reference::addEmitters(rays_, hits, emitters, 1, uint32_t(emitters.size()), runner_, sums);
+    reference::addEmitters(rays_, hits, emitters, {.count = uint32_t(emitters.size())}, runner_, sums);
     row.gpuMsMedian = row.gpuMsP99 = secondsSince(start) * 1e3;
     row.frames = 1;
     row.settings["emitter_map"] = std::to_string(kEmitterMap);

@@ -23,8 +23,8 @@ struct MeasureOptions {
 class SceneBench {
   public:
     // All must outlive this. `progress`: share of the reference at hand.
-    SceneBench(gpu::Device& device, const RenderScene& scene, std::string name, ReferenceCache& cache,
-               JobRunner& runner, const MeasureOptions& options, FunctionRef<void(double)> progress);
+    SceneBench(gpu::Device& device, const RenderScene& scene, std::string name, ReferenceSource references,
+               const MeasureOptions& options, FunctionRef<void(double)> progress);
 
     Result<Row> measure(const Technique& technique, const Variant& variant);
     // Path tracing's error over time, see path_tracing.h.

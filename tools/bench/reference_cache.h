@@ -28,6 +28,12 @@ class ReferenceCache {
     std::string folder_;
 };
 
+// Where references come from: those kept, else traced.
+struct ReferenceSource {
+    ReferenceCache& cache;
+    JobRunner& runner;
+};
+
 // $XDG_CACHE_HOME/afterglow/references, or the same under ~/.cache.
 std::string defaultCacheFolder();
 double noiseOf(const Image& reference);

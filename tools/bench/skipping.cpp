@@ -215,10 +215,9 @@ std::string_view changeName(Change change) {
     return kNames[size_t(change)];
 }
 
-SceneCosts measureChanges(gpu::Device& device, SceneAsset& asset, RenderScene scene, std::string name,
-                          glm::uvec2 size, const render::RenderSettings& settings,
-                          FunctionRef<void(double)> progress) {
-    SceneCosts costs{.scene = std::move(name), .size = size};
+SceneCosts measureChanges(gpu::Device& device, SceneAsset& asset, RenderScene scene, glm::uvec2 size,
+                          const render::RenderSettings& settings, FunctionRef<void(double)> progress) {
+    SceneCosts costs{.size = size};
     Walkthrough walk(device, asset, scene, size, settings);
     for (size_t i = 0; i < costs.changes.size(); ++i) {
         costs.changes[i] = walk.measure(Change(i));

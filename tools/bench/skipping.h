@@ -38,16 +38,16 @@ struct ChangeCost {
 };
 
 struct SceneCosts {
-    std::string scene;
+    std::string scene;  // its name, for charts and tables
     glm::uvec2 size{0};
     std::array<ChangeCost, size_t(Change::kCount)> changes;
     const ChangeCost& of(Change change) const { return changes[size_t(change)]; }
 };
 
-// Adds a small box to asset and scene and measures every change. `scene` is of `asset`.
-SceneCosts measureChanges(gpu::Device& device, SceneAsset& asset, RenderScene scene, std::string name,
-                          glm::uvec2 size, const render::RenderSettings& settings,
-                          FunctionRef<void(double)> progress);
+// Adds a small box to asset and scene and measures every change. `scene` is of `asset`. Costs come without a
+// name.
+SceneCosts measureChanges(gpu::Device& device, SceneAsset& asset, RenderScene scene, glm::uvec2 size,
+                          const render::RenderSettings& settings, FunctionRef<void(double)> progress);
 
 std::string changesToSvg(const std::vector<SceneCosts>& scenes, std::string_view device);
 std::string changesToMarkdown(const std::vector<SceneCosts>& scenes, std::string_view device);

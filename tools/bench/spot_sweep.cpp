@@ -26,7 +26,7 @@ SceneAsset emptyRoom() {
     const uint32_t white = b.material("white", glm::vec3(0.75f)), red = b.material("red", {0.6f, 0.1f, 0.1f}),
                    green = b.material("green", {0.15f, 0.5f, 0.15f});
     b.room("room", {-1, 0, -1}, {1, 2, 1}, {red, green, white, white, white, white});
-    b.spot("lamp", {0, 1, 0}, {0, 0, -1}, glm::vec3(10), 25, 35);
+    b.spot("lamp", {0, 1, 0}, {0, 0, -1}, glm::vec3(10), {25, 35});
     b.camera("camera", {-0.8f, 1.2f, 0.9f}, {0.4f, 0.9f, -0.6f}, 70);
     return b.finish();
 }

@@ -128,12 +128,19 @@ void addCreate(Rows& rows) {
         });
 }
 
-// Ours and plain prepared by `prepare`, then `work` on each entity in order or at random.
+// Work on each of kCount entities.
+struct EntityWork {
+    std::string name;
+    double atMost = 0;      // see Rows::compare
+    bool random = false;    // in random order
+    bool withLife = false;  // on entities that have a Life
+};
+
 template <class OursWork, class PlainWork>
-void addPair(Rows& rows, const std::string& name, double atMost, bool random, bool withLife, OursWork ours,
-             PlainWork plain) {
+void addPair(Rows& rows, const EntityWork& work, OursWork ours, PlainWork plain) {
+    const bool random = work.random, withLife = work.withLife;
     rows.compare(
-        name, atMost,
+        work.name, work.atMost,
         [=, w = std::make_shared<Ours>()](benchmark::State& state) {
             const std::vector<uint32_t> indices = order(random);
             timed(
@@ -227,13 +234,13 @@ void addStructureRows(Rows& rows) {
     for (const bool random : {false, true}) {
         const std::string how = random ? " at random, 100k" : " in order, 100k";
         addPair(
-            rows, "destroy" + how, random ? 3.2 : 2.5, random, false,
+            rows, {.name = "destroy" + how, .atMost = random ? 3.2 : 2.5, .random = random},
             [](World& w, Entity e) { w.destroy(e); }, [](Plain& w, Entity e) { w.table.destroy(e); });
         addPair(
-            rows, "add" + how, random ? 5.5 : 3.5, random, false,
+            rows, {.name = "add" + how, .atMost = random ? 5.5 : 3.5, .random = random},
             [](World& w, Entity e) { w.add(e, Life{1}); }, [](Plain& w, Entity e) { w.add(e); });
         addPair(
-            rows, "remove" + how, random ? 5.5 : 3.8, random, true,
+            rows, {.name = "remove" + how, .atMost = random ? 5.5 : 3.8, .random = random, .withLife = true},
             [](World& w, Entity e) { w.remove<Life>(e); }, [](Plain& w, Entity e) { w.remove(e); });
     }
     addGet(rows);

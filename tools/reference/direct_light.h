@@ -43,20 +43,29 @@ inline glm::vec3 leaveSurface(const RayScene& scene, const Surface& s) {
     return s.position + s.geometricNormal * scene.offset();
 }
 
+// Surfaces that a packet of rays met; place i of each array is lane i's.
+struct SurfaceLanes {
+    uint32_t active = 0;  // bit i: lane i met one
+    Surface* surfaces = nullptr;
+    const glm::vec3* toViewer = nullptr;  // unit
+    Lit* lit = nullptr;                   // light found is added
+};
+
 // From every light, with shadow rays, for the lanes' surfaces. Looks materials up only where light
 // arrives. `weight(lane, light, irradiance)`: how much of it counts.
 template <class F>
-void directLight(const RayScene& scene, bool glossy, uint32_t lanes, Surface* surfaces,
-                 const glm::vec3* toViewer, Lit* lit, uint64_t& rayCount, F&& weight) {
+void directLight(const RayScene& scene, const SurfaceLanes& lanes, bool glossy, uint64_t& rayCount,
+                 F&& weight) {
     for (uint32_t l = 0; l < scene.lights().size(); ++l) {
         const PreparedLight& light = scene.lights()[l];
         RayLanes shadows;
         glm::vec3 irradiance[RayLanes::kCount];
-        forEachLane(lanes, [&](uint32_t i) {
-            const Arriving a = arrivingFrom(light, surfaces[i], scene.offset());
-            if (a.irradiance == glm::vec3(0) || glm::dot(surfaces[i].geometricNormal, a.toLight) <= 0) return;
+        forEachLane(lanes.active, [&](uint32_t i) {
+            const Arriving a = arrivingFrom(light, lanes.surfaces[i], scene.offset());
+            if (a.irradiance == glm::vec3(0) || glm::dot(lanes.surfaces[i].geometricNormal, a.toLight) <= 0)
+                return;
             irradiance[i] = a.irradiance;
-            shadows.set(i, leaveSurface(scene, surfaces[i]), a.toLight, a.reach);
+            shadows.set(i, leaveSurface(scene, lanes.surfaces[i]), a.toLight, a.reach);
         });
         uint32_t reached = shadows.active;
         if (light.light.castsShadow) {
@@ -64,13 +73,13 @@ void directLight(const RayScene& scene, bool glossy, uint32_t lanes, Surface* su
             reached = scene.visible(shadows);
         }
         forEachLane(reached, [&](uint32_t i) {
-            Surface& s = surfaces[i];
+            Surface& s = lanes.surfaces[i];
             scene.resolve(s);
             const glm::vec3 toLight = shadows.direction[i];
             const glm::vec3 all = irradiance[i] * std::max(glm::dot(s.normal, toLight), 0.0f),
                             e = all * weight(i, l, all);
-            lit[i].irradiance += e;
-            lit[i].radiance += e * brdf(s, toViewer[i], toLight, glossy);
+            lanes.lit[i].irradiance += e;
+            lanes.lit[i].radiance += e * brdf(s, lanes.toViewer[i], toLight, glossy);
         });
     }
 }

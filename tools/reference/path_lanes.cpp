@@ -21,17 +21,18 @@ float greatest(glm::vec3 v) {
 
 }  // namespace
 
-void traceThrough(const RayScene& scene, const Surface& first, glm::vec3 toViewer, bool glossy,
-                  Random& random, glm::vec2 uv, PixelSums& sums, uint64_t& rays) {
-    const DirectionSample sample =
-        sampleDirection(first, toViewer, glossy, uv.x, uv.y, glossy ? random.next() : 0);
+void traceThrough(const RayScene& scene, PathStart start, bool glossy, PixelSums& sums, uint64_t& rays) {
+    const Surface& first = *start.surface;
+    const DirectionSample sample = sampleDirection(first, start.toViewer, glossy, start.uv.x, start.uv.y,
+                                                   glossy ? start.random.next() : 0);
     if (sample.incident <= 0 || glm::dot(sample.direction, first.geometricNormal) <= 0) return;
     Surface met;
     glm::vec3 origin = leaveSurface(scene, first);
     while (++rays, scene.intersect(origin, sample.direction, met)) {
         const glm::vec3 back = -sample.direction;
         Lit lit;
-        directLight(scene, glossy, 1, &met, &back, &lit, rays, kAllCounts);
+        directLight(scene, {.active = 1, .surfaces = &met, .toViewer = &back, .lit = &lit}, glossy, rays,
+                    kAllCounts);
         sums.add(1, lit.radiance * sample.incident, lit.radiance * sample.reflected);
         // Far enough not to meet the same plane again when it is grazed.
         const float slant = std::abs(glm::dot(sample.direction, met.geometricNormal));
@@ -44,9 +45,9 @@ PathLanes::PathLanes(const RayScene& scene, const PathSettings& settings, const 
       settings_(settings),
       lit_(lit && !lit->empty() && !lit->points().empty() ? lit : nullptr) {}
 
-void PathLanes::begin(uint32_t lane, const Surface* first, glm::vec3 toViewer, glm::vec2 uv, Random random) {
+void PathLanes::begin(uint32_t lane, const PathStart& start) {
     Lane& l = lanes_[lane];
-    l.at = first, l.toViewer = toViewer, l.uv = uv, l.random = random;
+    l.at = start.surface, l.toViewer = start.toViewer, l.uv = start.uv, l.random = start.random;
     l.irradianceWeight = l.radianceWeight = glm::vec3(1);
     alive_ |= 1u << lane;
 }
@@ -206,7 +207,8 @@ void PathLanes::receive(uint32_t bounce, Surface* met, PixelSums& sums) {
         const float other = kCandidates / kSharing * place.density * oftener * perSteradian;
         return lanes_[i].density / (lanes_[i].density + other);
     };
-    directLight(scene_, settings_.glossy, alive_, met, toViewer, lit, rays_, weight);
+    directLight(scene_, {.active = alive_, .surfaces = met, .toViewer = toViewer, .lit = lit},
+                settings_.glossy, rays_, weight);
     forEachLane(alive_, [&](uint32_t i) {
         const Lane& l = lanes_[i];
         if (lit[i].radiance != glm::vec3(0))

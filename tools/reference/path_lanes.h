@@ -8,10 +8,17 @@
 
 namespace ag::reference {
 
+// Where a path begins.
+struct PathStart {
+    const Surface* surface = nullptr;
+    glm::vec3 toViewer{0};
+    glm::vec2 uv{0};  // in [0, 1)², chooses the first direction
+    Random random;    // for all other choices
+};
+
 // What techniques without visibility of indirect light aim at: every surface along the ray counts, as if the
-// ones before it were not there. `uv`: in [0, 1)², of the direction.
-void traceThrough(const RayScene& scene, const Surface& first, glm::vec3 toViewer, bool glossy,
-                  Random& random, glm::vec2 uv, PixelSums& sums, uint64_t& rays);
+// ones before it were not there.
+void traceThrough(const RayScene& scene, PathStart start, bool glossy, PixelSums& sums, uint64_t& rays);
 
 // Each vertex's outgoing radiance counts at the start as irradiance and, through the first surface's brdf, as
 // radiance towards the camera.
@@ -19,8 +26,7 @@ class PathLanes {
   public:
     PathLanes(const RayScene& scene, const PathSettings& settings, const LitPoints* lit);
 
-    // A path from a surface, its first direction by `uv` in [0, 1)².
-    void begin(uint32_t lane, const Surface* first, glm::vec3 toViewer, glm::vec2 uv, Random random);
+    void begin(uint32_t lane, const PathStart& start);
     // The next paths begin at surfaces like this one; null: anywhere.
     void beginTile(const Surface* surface, float spread, uint32_t tile, uint32_t seed);
     double tileSum() const { return tile_.sum(); }

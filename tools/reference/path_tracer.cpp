@@ -86,8 +86,12 @@ void forEachPixelOfTile(glm::uvec2 tile, glm::uvec2 size, const Lattice& lattice
 class PixelTracer {
   public:
     PixelTracer(const RayScene& scene, const FirstHits& hits, const PathSettings& settings,
-                const PathRound& round, const LitPoints* lit)
-        : scene_(scene), hits_(hits), settings_(settings), round_(round), paths_(scene, settings, lit) {}
+                const PathRound& round)
+        : scene_(scene),
+          hits_(hits),
+          settings_(settings),
+          round_(round),
+          paths_(scene, settings, round.lit) {}
 
     // Before the pixels of a tile, from `corner` on.
     void beginTile(glm::uvec2 corner, uint32_t tile) {
@@ -126,6 +130,14 @@ class PixelTracer {
         return {uint64_t(key_) << 32 | io::hashUint(path * 2 + 1 + io::hashUint(round_.seed))};
     }
 
+    // Of path number `path` at the pixel's centre.
+    PathStart startAt(size_t i, uint32_t path) const {
+        return {.surface = &hits_.surfaces[i],
+                .toViewer = -hits_.directions[i],
+                .uv = evenPoint(path, shift()),
+                .random = randomOf(path)};
+    }
+
     static void addPacket(const PixelSums& packet, size_t i, uint32_t paths, LightSums& sums) {
         for (size_t b = 0; b < sums.bounces.size(); ++b)
             sums.bounces[b].pixels[i] += glm::vec3(packet.bounces[b]);
@@ -135,17 +147,13 @@ class PixelTracer {
     }
 
     void throughSurfaces(size_t i, uint32_t first, uint32_t count, PixelSums& packet) {
-        for (uint32_t s = first; s < first + count; ++s) {
-            Random random = randomOf(s);
-            traceThrough(scene_, hits_.surfaces[i], -hits_.directions[i], settings_.glossy, random,
-                         evenPoint(s, shift()), packet, rays_);
-        }
+        for (uint32_t s = first; s < first + count; ++s)
+            traceThrough(scene_, startAt(i, s), settings_.glossy, packet, rays_);
     }
 
     void fromCenter(size_t i, uint32_t first, uint32_t count, PixelSums& packet) {
         for (uint32_t s = 0; s < count; ++s)
-            paths_.begin(s, &hits_.surfaces[i], -hits_.directions[i], evenPoint(first + s, shift()),
-                         randomOf(first + s));
+            paths_.begin(s, startAt(i, first + s));
         paths_.trace(packet, worths_);
     }
 
@@ -163,7 +171,8 @@ class PixelTracer {
         }
         const uint32_t seen = seeSurfaces(scene_, rays, seen_, rays_);
         Lit lit[RayLanes::kCount];
-        directLight(scene_, settings_.glossy, seen, seen_, toViewer, lit, rays_, kAllCounts);
+        directLight(scene_, {.active = seen, .surfaces = seen_, .toViewer = toViewer, .lit = lit},
+                    settings_.glossy, rays_, kAllCounts);
         const size_t i = size_t(at.y) * hits_.size.x + at.x;
         glm::vec3 measured(0);
         for (uint32_t s = 0; s < count; ++s) {
@@ -188,8 +197,10 @@ class PixelTracer {
             addDirect(at, further + p * count, count, otherShift, toViewer, sums);
         const uint32_t seen = addDirect(at, first, count, shift(), toViewer, sums);
         forEachLane(seen, [&](uint32_t s) {
-            paths_.begin(s, &seen_[s], toViewer[s], evenPair(first + s, shift()).direction,
-                         randomOf(first + s));
+            paths_.begin(s, {.surface = &seen_[s],
+                             .toViewer = toViewer[s],
+                             .uv = evenPair(first + s, shift()).direction,
+                             .random = randomOf(first + s)});
         });
         paths_.trace(packet, worths_);
     }
@@ -233,7 +244,8 @@ void traceFirstHits(const RayScene& scene, const PathSettings& settings, const L
             }
             const glm::vec3 toViewer = -hits.directions[i];
             Lit lit;
-            directLight(scene, settings.glossy, 1, &surface, &toViewer, &lit, count, kAllCounts);
+            directLight(scene, {.active = 1, .surfaces = &surface, .toViewer = &toViewer, .lit = &lit},
+                        settings.glossy, count, kAllCounts);
             hits.irradiance.pixels[i] = lit.irradiance;
             hits.radiance.pixels[i] = lit.radiance;
         }
@@ -243,7 +255,8 @@ void traceFirstHits(const RayScene& scene, const PathSettings& settings, const L
 }
 
 void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& settings,
-              const PathRound& round, JobRunner& runner, LightSums& sums, LitPoints* lit) {
+              const PathRound& round, JobRunner& runner, LightSums& sums) {
+    LitPoints* const lit = round.lit;
     const glm::uvec2 tiles = (hits.size + kTileSide - 1u) / kTileSide;
     std::atomic<uint64_t> rays{0};
     std::vector<std::vector<LitPointWorth>> worths(tiles.y);
@@ -262,7 +275,7 @@ void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& 
     };
     runner.parallelFor(tiles.y, 1, [&](uint32_t begin, uint32_t end) {
         for (uint32_t row = begin; row < end; ++row) {
-            PixelTracer tracer(scene, hits, settings, round, lit);
+            PixelTracer tracer(scene, hits, settings, round);
             for (uint32_t column = 0; column < tiles.x; ++column)
                 traceTile({column, row}, row * tiles.x + column, tracer);
             worths[row] = std::move(tracer.worths());

@@ -32,14 +32,15 @@ struct PathRound {
     uint32_t seed = 1, number = 0, count = 1;
     Lattice lattice;
     const SamplingPlan* plan = nullptr;  // null: at each pixel, one place a path
+    // Drawn for this round and joined with its paths; what they bring is noted there. Null: paths alone.
+    LitPoints* lit = nullptr;
 };
 
 void traceFirstHits(const RayScene& scene, const PathSettings& settings, const Lattice& lattice,
                     JobRunner& runner, FirstHits& hits, uint64_t& rays);
 
-// Adds the paths to each pixel. `lit`: with the points drawn for them; null: paths alone. What the points
-// brought is noted there. Results do not depend on the number of threads.
+// Adds the paths to each pixel. Results do not depend on the number of threads.
 void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& settings,
-              const PathRound& round, JobRunner& runner, LightSums& sums, LitPoints* lit = nullptr);
+              const PathRound& round, JobRunner& runner, LightSums& sums);
 
 }  // namespace ag::reference

@@ -150,11 +150,12 @@ class Half {
             const auto pixels = uint32_t(hits_.surfaces.size());
             if (lit) lit->draw(std::clamp(pixels, kLeastPoints, kMostPoints), seed, sums_.rays);
             addPaths(scene_, hits_, settings_.paths,
-                     {.seed = seed_, .number = round_, .count = count, .plan = &plan_}, runner, sums_, lit);
+                     {.seed = seed_, .number = round_, .count = count, .plan = &plan_, .lit = lit}, runner,
+                     sums_);
         } else {
             const auto emitters = traceEmitters(scene_, settings_.emitterMap, seed, sums_.rays);
             count = std::min(count, std::max(uint32_t(emitters.size()), 1u));
-            addEmitters(scene_, hits_, emitters, seed, count, runner, sums_);
+            addEmitters(scene_, hits_, emitters, {.seed = seed, .count = count}, runner, sums_);
         }
         round_ += 1;
     }
@@ -192,9 +193,10 @@ void teach(const RayScene& scene, const FirstHits& hits, const ReferenceSettings
     for (uint32_t lesson = 0; lesson < kLessons; ++lesson) {
         const uint32_t seed = io::hashUint(settings.seed ^ io::hashUint(lesson + 1));
         lit.draw(kMostPoints, seed, rays);
-        addPaths(scene, hits, settings.paths,
-                 {.seed = seed, .count = RayLanes::kCount, .lattice = {std::max(step, 1u), {0, 0}}}, runner,
-                 ignored, &lit);
+        addPaths(
+            scene, hits, settings.paths,
+            {.seed = seed, .count = RayLanes::kCount, .lattice = {std::max(step, 1u), {0, 0}}, .lit = &lit},
+            runner, ignored);
         lit.learn();
     }
     rays += ignored.rays;

@@ -30,6 +30,29 @@ glm::vec3 irradianceFrom(const RayScene& scene, const Surface& at, const Emitter
     return seen ? emitter.flux * term : glm::vec3(0);
 }
 
+glm::dvec3 fromAll(const RayScene& scene, const Surface& at, const std::vector<Emitter>& emitters,
+                   uint64_t& rays) {
+    glm::dvec3 sum(0);
+    for (const Emitter& emitter : emitters)
+        sum += glm::dvec3(irradianceFrom(scene, at, emitter, rays));
+    return sum;
+}
+
+// In steps of equal flux from a random start.
+glm::dvec3 fromChosen(const RayScene& scene, const Surface& at, const std::vector<Emitter>& emitters,
+                      EmitterChoice choice, uint32_t pixel, uint64_t& rays) {
+    const double step = emitters.back().cumulativeFlux / choice.count;
+    const double start = double(io::hashToUnit(pixel ^ io::hashUint(choice.seed)));
+    glm::dvec3 sum(0);
+    for (uint32_t s = 0; s < choice.count; ++s) {
+        const auto chosen =
+            std::ranges::lower_bound(emitters, (s + start) * step, {}, &Emitter::cumulativeFlux);
+        if (chosen == emitters.end()) continue;
+        sum += glm::dvec3(irradianceFrom(scene, at, *chosen, rays)) * step / double(mean(chosen->flux));
+    }
+    return sum;
+}
+
 }  // namespace
 
 std::vector<Emitter> traceEmitters(const RayScene& scene, uint32_t resolution, uint32_t seed,
@@ -63,32 +86,18 @@ std::vector<Emitter> traceEmitters(const RayScene& scene, uint32_t resolution, u
 }
 
 void addEmitters(const RayScene& scene, const FirstHits& hits, const std::vector<Emitter>& emitters,
-                 uint32_t seed, uint32_t count, JobRunner& runner, LightSums& sums) {
+                 EmitterChoice choice, JobRunner& runner, LightSums& sums) {
     std::atomic<uint64_t> total{0};
-    const bool all = count == emitters.size();
     runner.parallelFor(hits.size.y, 1, [&](uint32_t begin, uint32_t end) {
         uint64_t rowRays = 0;
         for (size_t i = size_t(begin) * hits.size.x; i < size_t(end) * hits.size.x; ++i) {
             const Surface& at = hits.surfaces[i];
             if (at.distance <= 0 || emitters.empty()) continue;
-            glm::dvec3 sum(0);
-            if (all) {
-                for (const Emitter& emitter : emitters)
-                    sum += glm::dvec3(irradianceFrom(scene, at, emitter, rowRays));
-            } else {
-                // Steps of equal flux from a random start.
-                const double step = emitters.back().cumulativeFlux / count;
-                const double start = double(io::hashToUnit(uint32_t(i) ^ io::hashUint(seed)));
-                for (uint32_t s = 0; s < count; ++s) {
-                    const auto chosen =
-                        std::ranges::lower_bound(emitters, (s + start) * step, {}, &Emitter::cumulativeFlux);
-                    if (chosen == emitters.end()) continue;
-                    sum += glm::dvec3(irradianceFrom(scene, at, *chosen, rowRays)) * step /
-                           double(mean(chosen->flux));
-                }
-            }
-            const glm::vec3 added = glm::vec3(sum * double(count));
-            sums.counts[i].paths.samples += count;
+            const glm::dvec3 sum = choice.count == emitters.size()
+                                       ? fromAll(scene, at, emitters, rowRays)
+                                       : fromChosen(scene, at, emitters, choice, uint32_t(i), rowRays);
+            const glm::vec3 added = glm::vec3(sum * double(choice.count));
+            sums.counts[i].paths.samples += choice.count;
             sums.bounces[1].pixels[i] += added;
             sums.indirect.pixels[i] += added;
             sums.radiance.pixels[i] += added * at.albedo * std::numbers::inv_pi_v<float>;

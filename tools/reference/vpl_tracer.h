@@ -18,9 +18,14 @@ struct Emitter {
 // random place of it, so that maps with other seeds have the true light as their mean.
 std::vector<Emitter> traceEmitters(const RayScene& scene, uint32_t resolution, uint32_t seed, uint64_t& rays);
 
-// Adds the first bounce from `count` of the emitters, evenly spread over their flux (all of them once each if
-// `count` is their number), as `count` samples.
+// Which emitters light each pixel: `count`, evenly spread over their flux from a random start; all of them
+// once each if `count` is their number.
+struct EmitterChoice {
+    uint32_t seed = 1, count = 1;
+};
+
+// Adds the first bounce from the emitters chosen, as `count` samples.
 void addEmitters(const RayScene& scene, const FirstHits& hits, const std::vector<Emitter>& emitters,
-                 uint32_t seed, uint32_t count, JobRunner& runner, LightSums& sums);
+                 EmitterChoice choice, JobRunner& runner, LightSums& sums);
 
 }  // namespace ag::reference

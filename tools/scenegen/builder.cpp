@@ -157,9 +157,9 @@ uint32_t SceneBuilder::addLight(SceneLight light, glm::vec3 position, glm::vec3 
 }
 
 uint32_t SceneBuilder::spot(const std::string& name, glm::vec3 position, glm::vec3 direction,
-                            glm::vec3 intensity, float innerDegrees, float outerDegrees, float range) {
+                            glm::vec3 intensity, SpotCone cone, float range) {
     return addLight(
-        {name, LightKind::kSpot, intensity, range, glm::radians(innerDegrees), glm::radians(outerDegrees)},
+        {name, LightKind::kSpot, intensity, range, glm::radians(cone.inner), glm::radians(cone.outer)},
         position, direction);
 }
 

@@ -9,6 +9,11 @@
 
 namespace ag::scenegen {
 
+// A spot has its whole intensity within the inner angle off its axis, none past the outer, degrees.
+struct SpotCone {
+    float inner = 0, outer = 45;
+};
+
 class SceneBuilder {
   public:
     explicit SceneBuilder(std::string name) { asset_.name = std::move(name); }
@@ -36,7 +41,7 @@ class SceneBuilder {
               const std::array<uint32_t, 6>& materials);
 
     uint32_t spot(const std::string& name, glm::vec3 position, glm::vec3 direction, glm::vec3 intensity,
-                  float innerDegrees, float outerDegrees, float range = 0);
+                  SpotCone cone, float range = 0);
     uint32_t point(const std::string& name, glm::vec3 position, glm::vec3 intensity, float range = 0);
     uint32_t sun(const std::string& name, glm::vec3 direction, glm::vec3 irradiance);
     uint32_t camera(const std::string& name, glm::vec3 position, glm::vec3 target, float verticalFovDegrees);

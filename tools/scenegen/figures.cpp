@@ -123,8 +123,8 @@ SceneAsset figures(uint32_t param) {
         b.node(node).extras.clipStart = kSeconds * io::hashToUnit(7 * i + 1);
     }
     const float height = half + 3;
-    b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(3 * height * height), 34,
-           52);
+    b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(3 * height * height),
+           {34, 52});
     b.camera("camera", {0.3f * half, 0.3f * half + 1.2f, 1.1f * half + 1}, {0, 0.7f, 0}, 50);
     const auto mesh = uint32_t(b.node(first).mesh);
     SceneAsset asset = b.finish();

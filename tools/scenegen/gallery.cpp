@@ -174,7 +174,7 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     addBox(tripod, f.iron, {0, -0.5f, 0}, {0.05f, 0.6f, 0.05f});
     addBox(tripod, f.iron, {0, -0.82f, 0}, {0.4f, 0.05f, 0.4f});
     b.node(b.model("tripod", tripod, lamp + glm::vec3(0.15f, 0, 0))).extras.collider = true;
-    b.node(b.spot("beam", lamp, {-1, 0, 0}, glm::vec3(46, 41, 33), 4, 8)).extras.tag = "beam";
+    b.node(b.spot("beam", lamp, {-1, 0, 0}, glm::vec3(46, 41, 33), {4, 8})).extras.tag = "beam";
     f.plinth({-2.6f, 0, -26.6f}, 0.3f);
     f.flower(2, kWhitePaint, 0.08f, {-2.6f, 0.3f, -26.6f}, 0.4f);
     f.crate(nullptr, {0.4f, 0.5f, -25.1f}, 1.0f, 24);
@@ -284,7 +284,7 @@ SceneAsset gallery(uint32_t) {
     int room = 0;
     for (const float z : {-8.15f, -20.15f, -32.15f, -44.15f})
         f.door(room++, {0, 0, z}, kDoor);
-    b.spot("hand_lamp", {0.22f, 1.4f, -1.35f}, {-0.2f, -0.1f, -1}, kLampColor, 5, 25);
+    b.spot("hand_lamp", {0.22f, 1.4f, -1.35f}, {-0.2f, -0.1f, -1}, kLampColor, {5, 25});
     const uint32_t camera = b.camera("player", {0, 1.65f, -1.2f}, {-0.4f, 1.5f, -8}, 65);
     b.node(camera).extras.tag = "spawn";
     return b.finish();

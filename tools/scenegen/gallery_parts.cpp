@@ -230,7 +230,7 @@ void Furnisher::lantern(int room, glm::vec3 from, float chain) {
     b_.node(flame).extras.room = room;
     // Downwards, from under its own iron: one shadow map each, and the ceiling stays dark.
     const uint32_t light = b_.spot(fmt::format("lantern light {}", lanterns_++), at - glm::vec3(0, 0.2f, 0),
-                                   {0, -1, 0}, glm::vec3(5.0f, 3.5f, 1.9f), 30, 72, 6);
+                                   {0, -1, 0}, glm::vec3(5.0f, 3.5f, 1.9f), {30, 72}, 6);
     NodeExtras& extras = b_.node(light).extras;
     extras.tag = "lantern";
     extras.room = room;

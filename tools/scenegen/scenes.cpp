@@ -28,7 +28,7 @@ SceneAsset cornell(uint32_t param) {
         b.box("tall", {-0.35f, 0.6f, -0.3f}, {0.6f, 1.2f, 0.6f}, white, 0.3f);
         b.box("short", {0.35f, 0.3f, 0.35f}, {0.6f, 0.6f, 0.6f}, white, -0.3f);
     }
-    b.spot("lamp", {0, 1.98f, 0}, {0, -1, 0}, glm::vec3(10), 40, 70);
+    b.spot("lamp", {0, 1.98f, 0}, {0, -1, 0}, glm::vec3(10), {40, 70});
     // A little off the middle, so that the room's edges do not run exactly through pixel centres.
     b.camera("camera", {0.03f, 1.02f, 4.0f}, {0.01f, 1, 0}, 36);
     return b.finish();
@@ -53,7 +53,7 @@ SceneAsset occluder(uint32_t) {
     const uint32_t red = b.material("red", kRed), white = b.material("white", kWhite);
     b.room("room", {-2, 0, -1.5f}, {2, 2, 1.5f}, {red, white, white, white, white, ~0u});
     b.box("slab", {-0.6f, 0.7f, 0}, {0.2f, 1.4f, 2.0f}, white);
-    b.spot("lamp", {-0.9f, 1.9f, 0}, {-1, -0.9f, 0}, glm::vec3(10), 20, 40);
+    b.spot("lamp", {-0.9f, 1.9f, 0}, {-1, -0.9f, 0}, glm::vec3(10), {20, 40});
     b.camera("camera", {0.6f, 1.1f, 4.2f}, {0, 0.9f, 0}, 40);
     return b.finish();
 }
@@ -80,7 +80,7 @@ SceneAsset glossy(uint32_t param) {
     MeshParts ball;
     addLathe(ball, metal, arc, 64, glm::vec3(0));
     b.model("ball", ball, {0.7f, 0.35f, 0.1f});
-    b.spot("lamp", {0, 1.7f, 0.6f}, {0, -0.15f, -1}, glm::vec3(10), 20, 28);
+    b.spot("lamp", {0, 1.7f, 0.6f}, {0, -0.15f, -1}, glm::vec3(10), {20, 28});
     b.camera("camera", {0.05f, 1.1f, 4.1f}, {0, 0.6f, 0}, 38);
     return b.finish();
 }
@@ -122,8 +122,8 @@ SceneAsset hall(uint32_t) {
     mover(b, b.box("slider", {-1.5f, 0.4f, -0.4f}, {0.8f, 0.8f, 0.8f}, white), {0, 0, 1.6f}, 6, 0);
     mover(b, b.box("spinner", {4.2f, 0.9f, -1.6f}, {0.6f, 1.8f, 0.6f}, blue), {}, 0, 0.7f);
     mover(b, b.box("lift", {-4.4f, 1.0f, 1.6f}, {0.7f, 0.7f, 0.7f}, ochre), {0, 0.8f, 0}, 5, 0.5f);
-    b.spot("ceiling lamp", {4.0f, 3.9f, -1.0f}, {0.3f, -1, -0.6f}, glm::vec3(40, 37, 31), 25, 50);
-    b.spot("hand_lamp", {-1.2f, 1.5f, 1.0f}, {-1, -0.15f, -0.35f}, glm::vec3(90, 84, 72), 16, 34);
+    b.spot("ceiling lamp", {4.0f, 3.9f, -1.0f}, {0.3f, -1, -0.6f}, glm::vec3(40, 37, 31), {25, 50});
+    b.spot("hand_lamp", {-1.2f, 1.5f, 1.0f}, {-1, -0.15f, -0.35f}, glm::vec3(90, 84, 72), {16, 34});
     b.camera("player", {0.8f, 1.65f, 1.4f}, {-4.0f, 1.3f, -1.0f}, 65);
     return b.finish();
 }
@@ -239,8 +239,8 @@ SceneAsset crowd(uint32_t param) {
         mover(b, node, {0.3f * io::hashToUnit(3 * i), 0.2f, 0}, 2 + 3 * io::hashToUnit(5 * i), 0.5f);
     }
     const float height = half + 2;
-    b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(6 * height * height), 30,
-           50);
+    b.spot("lamp", {-0.5f * half, height, 0.6f * half}, {0.4f, -1, -0.5f}, glm::vec3(6 * height * height),
+           {30, 50});
     b.camera("camera", {0, 0.5f * half + 1.5f, 1.25f * half + 2}, {0, 0.3f, 0}, 55);
     if (firstSkinnedMesh == ~0u) return b.finish();
     const auto mesh = uint32_t(b.node(firstSkinnedMesh).mesh);

@@ -25,7 +25,7 @@ SceneAsset patch(float side) {
     const uint32_t gray = b.material("gray", glm::vec3(0.5f));
     b.quad("patch", {-side / 2, 0, -side / 2}, {0, 0, side}, {side, 0, 0}, gray);
     b.quad("wall", {-1, 0, -0.5f}, {2, 0, 0}, {0, 1, 0}, gray);
-    b.spot("lamp", {0.0156f, 2, 0.0156f}, {0, -1, 0}, glm::vec3(100), 10, 14);
+    b.spot("lamp", {0.0156f, 2, 0.0156f}, {0, -1, 0}, glm::vec3(100), {10, 14});
     b.camera("camera", {0, 0.6f, 2}, {0, 0.3f, -0.5f}, 50);
     return b.finish();
 }

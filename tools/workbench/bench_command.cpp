@@ -136,13 +136,13 @@ Result<std::vector<bench::Row>> rowsOf(const bench::RowCache& kept, uint64_t key
 }
 
 Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& device,
-                  std::span<const bench::Technique* const> techniques, bench::ReferenceCache& cache,
-                  JobRunner& runner, bench::Report& report) {
+                  std::span<const bench::Technique* const> techniques, bench::ReferenceSource references,
+                  bench::Report& report) {
     auto loaded = loadScene(sceneArguments(o, name));
     if (!loaded) return loaded.error();
     ProgressLine line(name + ", reference: ");
     const auto progress = [&](double share) { line(share); };
-    bench::SceneBench scene(device, loaded->scene, name, cache, runner, o.measure, progress);
+    bench::SceneBench scene(device, loaded->scene, name, references, o.measure, progress);
     const bench::RowCache kept(o.again ? "" : o.cache + "/rows");
     const uint64_t run = hashRun(o, report), sceneHash = bench::sceneHash(loaded->scene);
     std::map<std::string, std::vector<bench::Row>, std::less<>> pathCurves;  // by term
@@ -192,7 +192,7 @@ int runBench(BenchOptions o) {
         .device = (*device)->info().name, .driver = (*device)->info().driver, .commit = commitOfSource()};
     std::cout << fmt::format("{}, {}\n", report.device, report.driver);
     for (const std::string& scene : o.scenes)
-        if (const Status done = benchScene(o, scene, **device, *techniques, cache, runner, report); !done)
+        if (const Status done = benchScene(o, scene, **device, *techniques, {cache, runner}, report); !done)
             return refuse(done.error().message);
     return 0;
 }

@@ -33,8 +33,15 @@ struct CaptureOptions {
     capture::DiffSettings diffSettings;
 };
 
-// Status of everything the options say beyond the scene.
-Status readSettings(const CaptureOptions& o, capture::RecordSettings& settings, std::string& repeatPass) {
+// What the options say beyond the scene. Refers to their text.
+struct CapturePlan {
+    capture::RecordSettings settings;
+    glm::vec3 walk{0};  // m the camera moves in each frame
+};
+
+Result<CapturePlan> readPlan(const CaptureOptions& o) {
+    CapturePlan plan;
+    capture::RecordSettings& settings = plan.settings;
     if (!render::applyPreset(o.preset, settings.gi))
         return Error{fmt::format("there is no preset '{}' (there are: {})", o.preset,
                                  fmt::join(render::presetNames(), ", "))};
@@ -47,14 +54,16 @@ Status readSettings(const CaptureOptions& o, capture::RecordSettings& settings, 
         if (const Status set = registry.set(assignment); !set) return set.error();
     settings.frames = o.frames;
     settings.warmUp = o.warmUp;
-    if (o.repeat.empty()) return Ok{};
+    const auto walk = parseStep(o.walk);
+    if (!walk) return walk.error();
+    plan.walk = *walk;
+    if (o.repeat.empty()) return plan;
     const size_t at = o.repeat.find('=');
     const auto times = parseNumber(at == std::string::npos ? "" : o.repeat.substr(at + 1), 1, 10000, true);
     if (!times) return Error{fmt::format("--repeat takes PASS=N with N from 1 to 10000, not '{}'", o.repeat)};
-    repeatPass = o.repeat.substr(0, at);
-    settings.graph.repeatPass = repeatPass;
+    settings.graph.repeatPass = std::string_view(o.repeat).substr(0, at);
     settings.graph.repeats = uint32_t(*times);
-    return Ok{};
+    return plan;
 }
 
 void moveCamera(RenderScene& scene, glm::vec3 step) {
@@ -103,39 +112,49 @@ void printSummary(const CaptureOptions& o, const capture::Capture& seen,
 }
 
 // Frames, pictures, graphs of the scene as it is or as entities.
-Status captureScene(const CaptureOptions& o, LoadedScene& loaded, render::Renderer& renderer, glm::vec3 walk,
-                    const capture::RecordSettings& settings, gpu::RenderDoc renderDoc,
-                    const std::string& rdcPath, capture::Capture& seen) {
+Result<capture::Capture> captureScene(const CaptureOptions& o, const CapturePlan& plan, LoadedScene& loaded,
+                                      render::Renderer& renderer, gpu::RenderDoc renderDoc,
+                                      const std::string& rdcPath) {
+    const capture::RecordSettings& settings = plan.settings;
+    const gpu::DeviceInfo& device = renderer.device().info();
+    capture::Capture seen{.scene = o.scene.scene,
+                          .device = device.name,
+                          .driver = device.driver,
+                          .settings = settingsText(o),
+                          .size = loaded.size};
     std::optional<capture::WorldSource> world;
-    if (o.schedule) world.emplace(*loaded.asset, loaded.scene, loaded.size, walk);
+    if (o.schedule) world.emplace(*loaded.asset, loaded.scene, loaded.size, plan.walk);
     const RenderScene* last = &loaded.scene;
     const auto next = [&](std::vector<capture::Span>& systems) -> const RenderScene& {
         if (world)
             last = &world->next(systems);
-        else if (walk != glm::vec3(0))
-            moveCamera(loaded.scene, walk);
+        else if (plan.walk != glm::vec3(0))
+            moveCamera(loaded.scene, plan.walk);
         return *last;
     };
     capture::recordFrames(renderer, next, settings, seen);
     if (world) capture::describeSchedule(world->schedule(), seen);
     const Status captured = capture::recordPictures(renderer, *last, settings, renderDoc, rdcPath, seen);
-    if (o.reference && captured) addReference(o, *last, seen);
-    return captured;
+    if (!captured) return captured.error();
+    if (o.reference) addReference(o, *last, seen);
+    return seen;
+}
+
+Status checkOptions(const CaptureOptions& o) {
+    const SceneOptions& s = o.scene;
+    if (s.scene.empty()) return Error{"capture needs a SCENE"};
+    if (o.output.empty()) return Error{"capture needs -o DIR"};
+    if (o.schedule &&
+        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.lights || s.noSceneLights))
+        return Error{"--schedule takes the lights of the scene's file: leave the light options out"};
+    return Ok{};
 }
 
 int runCapture(const CaptureOptions& o) {
     if (!o.diff.empty()) return runDiff(o);
-    if (o.scene.scene.empty()) return refuse("capture needs a SCENE");
-    if (o.output.empty()) return refuse("capture needs -o DIR");
-    capture::RecordSettings settings;
-    std::string repeatPass;
-    if (const Status read = readSettings(o, settings, repeatPass); !read) return refuse(read.error().message);
-    const auto walk = parseStep(o.walk);
-    if (!walk) return refuse(walk.error().message);
-    const SceneOptions& s = o.scene;
-    if (o.schedule &&
-        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.lights || s.noSceneLights))
-        return refuse("--schedule takes the lights of the scene's file: leave the light options out");
+    if (const Status usable = checkOptions(o); !usable) return refuse(usable.error().message);
+    auto plan = readPlan(o);
+    if (!plan) return refuse(plan.error().message);
     auto loaded = loadScene(o.scene);
     if (!loaded) return refuse(loaded.error().message);
     auto folder = capture::Folder::open(o.output);
@@ -147,21 +166,17 @@ int runCapture(const CaptureOptions& o) {
 
     render::Renderer renderer(**device);
     renderer.load(loaded->asset->geometry);
-    settings.size = loaded->size;
-    capture::Capture seen{.scene = o.scene.scene,
-                          .device = (*device)->info().name,
-                          .driver = (*device)->info().driver,
-                          .settings = settingsText(o),
-                          .size = loaded->size};
+    plan->settings.size = loaded->size;
     const std::string rdcPath = *renderDoc ? folder->place("frame.rdc") : "";
-    const Status captured = captureScene(o, *loaded, renderer, *walk, settings, *renderDoc, rdcPath, seen);
-    if (!captured) return refuse(captured.error().message);
-    const std::vector<capture::PassRow> table = capture::makeTable(seen);
-    if (!repeatPass.empty() && std::ranges::count(table, repeatPass, &capture::PassRow::name) == 0)
-        return refuse(fmt::format("no pass of the frame is named '{}'", repeatPass));
-    if (const Status written = capture::saveCapture(*folder, seen, table, o.exr); !written)
+    const auto seen = captureScene(o, *plan, *loaded, renderer, *renderDoc, rdcPath);
+    if (!seen) return refuse(seen.error().message);
+    const std::vector<capture::PassRow> table = capture::makeTable(*seen);
+    const std::string_view repeated = plan->settings.graph.repeatPass;
+    if (!repeated.empty() && std::ranges::count(table, repeated, &capture::PassRow::name) == 0)
+        return refuse(fmt::format("no pass of the frame is named '{}'", repeated));
+    if (const Status written = capture::saveCapture(*folder, *seen, table, o.exr); !written)
         return refuse(written.error().message);
-    printSummary(o, seen, table);
+    printSummary(o, *seen, table);
     return (*device)->validationMessageCount() == 0 ? 0 : 1;
 }
 

@@ -41,8 +41,9 @@ int runSkipping(const SkippingArguments& o) {
         auto loaded = loadScene({.scene = scene, .size = o.size});
         if (!loaded) return refuse(loaded.error().message);
         ProgressLine line(scene + ": ");
-        all.push_back(bench::measureChanges(**device, *loaded->asset, loaded->scene, scene, loaded->size,
-                                            settings, [&](double share) { line(share); }));
+        all.push_back(bench::measureChanges(**device, *loaded->asset, loaded->scene, loaded->size, settings,
+                                            [&](double share) { line(share); }));
+        all.back().scene = scene;
         const bench::ChangeCost& whole = all.back().of(bench::Change::kEverything);
         for (size_t i = 0; i < all.back().changes.size(); ++i) {
             const bench::ChangeCost& cost = all.back().changes[i];
