@@ -27,6 +27,8 @@ uint32_t lookPeriod(ValClusteringHistory& h, uint64_t lightVersion, uint32_t set
     return moves ? kWhileLightMoves : kWhileCameraMoves;
 }
 
+constexpr uint32_t kStepsBetweenSeeds = 1361;  // of the sequence that clusters start from
+
 struct SeedPush {
     io::ClusterSettings settings;
     uint32_t faceCount;
@@ -184,7 +186,7 @@ Clusters addValClustering(GraphScope scope, const RsmSet& rsm, const Importance&
         .mapCount = rsm.atlas.mapCount,
         .viewWeight = importance.viewWeight,
         .lookPeriod = late ? kNever : lookPeriod(history, light, settings.settleFrames),
-        .step = step};
+        .step = step + kStepsBetweenSeeds * settings.seed};
 
     const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
     const State state{

@@ -19,6 +19,7 @@ struct ValClusteringSettings {
     float planeWeight = 12;      // of the distance from the cluster's plane, 1/m²
     bool adaptive = true;        // split clusters with much error, drop those with little (ACRSM 4.8)
     uint32_t settleFrames = 32;  // steps taken after the RSMs last changed; then clusters rest
+    uint32_t seed = 0;           // other places to start from: another of many arrangements
 
     static constexpr auto fields() {
         return std::tuple{SettingField{"count", &ValClusteringSettings::count, 16, 1024, "clusters",
@@ -34,7 +35,9 @@ struct ValClusteringSettings {
                           SettingField{"adaptive", &ValClusteringSettings::adaptive, 0, 0, "",
                                        "split clusters with much error, drop those with little"},
                           SettingField{"settle_frames", &ValClusteringSettings::settleFrames, 0, 1000,
-                                       "frames", "clustering steps after the RSMs last changed"}};
+                                       "frames", "clustering steps after the RSMs last changed"},
+                          SettingField{"seed", &ValClusteringSettings::seed, 0, 1000, "",
+                                       "of where clusters start: another of many arrangements"}};
     }
 
     bool operator==(const ValClusteringSettings&) const = default;

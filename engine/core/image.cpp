@@ -266,12 +266,6 @@ Result<std::string> encode(const Image& image, const std::string& extension) {
     return Error{"the name must end in .exr, .pfm or .png"};
 }
 
-bool finite(const Image& image) {
-    return std::ranges::all_of(image.pixels, [](const glm::vec3& p) {
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    });
-}
-
 }  // namespace
 
 Status saveImage(const Image& image, const std::string& path) {
@@ -286,44 +280,6 @@ Result<Image> loadImage(const std::string& path) {
     if (extension == ".exr") return loadExr(path);
     if (extension == ".pfm") return loadPfm(path);
     return Error{path + " is neither .exr nor .pfm"};
-}
-
-Result<ImageDifference> compareImages(const Image& truth, const Image& test) {
-    if (truth.width != test.width || truth.height != test.height)
-        return Error{
-            fmt::format("sizes differ: {}x{} and {}x{}", truth.width, truth.height, test.width, test.height)};
-    if (!finite(truth) || !finite(test)) return Error{"an image holds values that are not finite"};
-    glm::dvec3 sumTruth(0), sumTest(0);
-    for (size_t i = 0; i < truth.pixels.size(); ++i) {
-        sumTruth += glm::dvec3(truth.pixels[i]);
-        sumTest += glm::dvec3(test.pixels[i]);
-    }
-    const double count = double(truth.pixels.size()) * 3;
-    const double mean = (sumTruth.x + sumTruth.y + sumTruth.z) / count;
-    const double meanTest = (sumTest.x + sumTest.y + sumTest.z) / count;
-    const double floor = 0.01 * std::max(mean, 1e-30);
-    double squares = 0, relativeSquares = 0;
-    std::vector<float> relative(truth.pixels.size());
-    for (size_t i = 0; i < truth.pixels.size(); ++i) {
-        double difference = 0, level = 0;
-        for (int c = 0; c < 3; ++c) {
-            const double a = truth.pixels[i][c], d = double(test.pixels[i][c]) - a;
-            squares += d * d;
-            relativeSquares += d * d / (a * a + floor * floor * 100);
-            difference += std::abs(d);
-            level += std::abs(a);
-        }
-        relative[i] = float(difference / (level + 3 * floor));
-    }
-    const auto nth = relative.begin() + std::ptrdiff_t(0.99 * double(relative.size() - 1));
-    std::nth_element(relative.begin(), nth, relative.end());
-    ImageDifference result;
-    result.meanRatio = mean > 0 ? meanTest / mean : (meanTest == 0 ? 1 : INFINITY);
-    result.rmse = std::sqrt(squares / count);
-    result.relativeRmse = mean > 0 ? result.rmse / mean : (result.rmse == 0 ? 0 : INFINITY);
-    result.relMse = relativeSquares / count;
-    result.p99 = double(*nth);
-    return result;
 }
 
 }  // namespace ag

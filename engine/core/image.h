@@ -26,16 +26,4 @@ struct Image {
 Status saveImage(const Image& image, const std::string& path);
 Result<Image> loadImage(const std::string& path);  // .exr or .pfm
 
-// Differences of `test` from `truth`, over all pixels and channels.
-struct ImageDifference {
-    double meanRatio = 0;  // mean(test) / mean(truth)
-    double rmse = 0;
-    double relativeRmse = 0;  // rmse / mean(truth)
-    double relMse = 0;        // mean of (test - truth)² / (truth² + 0.01 mean²)
-    double p99 = 0;           // 99th percentile of |test - truth| / (truth + 0.01 mean), by pixel
-};
-
-// Fails when sizes differ or a value is not finite.
-Result<ImageDifference> compareImages(const Image& truth, const Image& test);
-
 }  // namespace ag

@@ -56,10 +56,11 @@ TEST(Bench, FilesHoldEveryRow) {
     const auto json = nlohmann::json::parse(toJson(report));
     ASSERT_EQ(json["rows"].size(), 2u);
     for (const char* field :
-         {"scene",         "technique",      "settings",        "size",    "vals",      "gpu_ms_median",
-          "gpu_ms_p99",    "cpu_ms_median",  "passes",          "skipped", "gpu_bytes", "term",
-          "mean_ratio",    "rel_rmse",       "rel_mse",         "p99",     "flip",      "noise_floor",
-          "flicker_still", "flicker_moving", "flicker_walking", "ghosting"})
+         {"scene",         "technique",      "settings",        "size",     "vals",      "gpu_ms_median",
+          "gpu_ms_p99",    "cpu_ms_median",  "passes",          "skipped",  "gpu_bytes", "term",
+          "mean_ratio",    "rel_rmse",       "rel_mse",         "p99",      "flip",      "noise_floor",
+          "flicker_still", "flicker_moving", "flicker_walking", "ghosting", "tone_rmse", "rel_rmse_trimmed",
+          "median_rel",    "leak_pixels"})
         EXPECT_TRUE(json["rows"][0].contains(field)) << field;
     EXPECT_TRUE(json["rows"][0]["flicker_still"].is_null()) << "not measured is not 0";
     std::istringstream csv(toCsv(report));
@@ -146,6 +147,27 @@ TEST(Bench, TrendTakesTheTruthsOwnMotionAway) {
         frames.push_back(*cache.get(moved, size, settings, runner, silent));
     }
     EXPECT_LT(flickerOf(frames, &*trend), 0.3 * flickerOf(frames, nullptr));
+}
+
+TEST(Bench, TwoReferencesHaveTheNoiseOfTheirMean) {
+    const SceneAsset asset = *scenegen::buildScene("corner", 0);
+    RenderScene scene = staticScene(asset);
+    const glm::uvec2 size(32, 18);
+    setCamera(scene, cameraOf(asset, 0), size);
+    const std::string folder = (std::filesystem::path(testing::TempDir()) / "two_references").string();
+    std::filesystem::remove_all(folder);
+    ReferenceCache cache(folder);
+    JobRunner runner(2);
+    const reference::ReferenceSettings settings{
+        .samplesPerPixel = 4096, .maxError = 0.02, .layer = "bounce1"};
+    const auto two = cache.getTwo(scene, size, settings, runner, [](double) {});
+    ASSERT_TRUE(two);
+    EXPECT_NE(two->a.pixels, two->b.pixels);
+    EXPECT_GT(two->noise, 0.005);
+    EXPECT_LT(two->noise, 0.03);
+    const auto ofOne = compareImages(two->a, two->b);
+    EXPECT_NEAR(ofOne->relativeRmse, 2 * two->noise, 0.2 * two->noise)
+        << "the difference of both is twice that";
 }
 
 TEST(Bench, CacheKnowsWhatAReferenceDependsOn) {

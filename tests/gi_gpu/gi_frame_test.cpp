@@ -302,6 +302,23 @@ TEST(ValClustering, NoneIsSplitInTheSecondHalfOfSettling) {
     EXPECT_GE(youngest[1], frames / 2 - 2);
 }
 
+TEST(ValClustering, SeedsAreOtherArrangements) {
+    const auto clustersOf = [](uint32_t seed) {
+        Bench b(*scenegen::buildScene("cornell", 0));
+        b.settings.bounce.valClustering.seed = seed;
+        for (int i = 0; i < 40; ++i)
+            b.frame();
+        checkClusters(b);
+        std::vector<glm::vec3> places;
+        for (const io::Cluster& c : b.read<io::Cluster>(b.last.bounce.clusters.clusters))
+            places.push_back(c.position);
+        return places;
+    };
+    const auto first = clustersOf(0);
+    EXPECT_EQ(first, clustersOf(0));
+    EXPECT_NE(first, clustersOf(1));
+}
+
 TEST(ValClustering, PointLightAndFewTexelsKeepTheInvariants) {
     Bench furnace(*scenegen::buildScene("furnace", 50));
     for (int i = 0; i < 5; ++i)

@@ -1,4 +1,5 @@
 // Kernels whose lanes exchange values, as subgroups and through shared memory, in groups of 4 to 64.
+#include "engine/core/image_difference.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/scenes.h"
 

@@ -6,6 +6,7 @@
 
 #include "common/hemisphere_map.h"
 #include "common/sampling.h"
+#include "engine/core/image_difference.h"
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/renderer.h"
 #include "engine/renderer/scene_surfaces.h"

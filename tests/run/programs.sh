@@ -61,6 +61,10 @@ expect 1 '"rel_rmse"' "$bin/afterglow" compare "$work/a.pfm" "$work/direct.pfm" 
 expect 2 "does not exist" "$bin/afterglow" compare "$work/none.exr" "$work/a.pfm"
 expect 0 '"flip"' "$bin/afterglow" compare "$work/a.pfm" "$work/direct.pfm" --heatmap "$work/heat.png"
 [[ -s $work/heat.png ]] || fail "compare left no heatmap"
+expect 0 '"tone_rmse"' "$bin/afterglow" compare "$work/a.exr" "$work/a.pfm" "$work/a.pfm" --max-rel-rmse 1e-6
+for name in rel_rmse_trimmed median_rel leak_pixels noise_floor; do
+  grep -q "\"$name\"" "$work/out" || fail "compare says nothing of $name"
+done
 "$bin/afterglow" render cornell -o "$work/small.pfm" --size 32x18 --frames 1 2>/dev/null
 expect 1 "sizes differ: 160x90 and 32x18" "$bin/afterglow" compare "$work/a.pfm" "$work/small.pfm"
 printf 'PF\n1 1\n-1.0\n\x00\x00\xc0\x7f\x00\x00\x00\x00\x00\x00\x00\x00' >"$work/nan.pfm"
@@ -93,6 +97,9 @@ expect 0 "rsmc" "$bin/afterglow" bench --scenes cornell --techniques rsmc,none -
 for file in b.json b.csv b.svg b.md; do
   grep -q rsmc "$work/$file" || fail "bench left no rows in $file"
 done
+expect 0 "each texel by itself, traced" "$bin/afterglow" bench --ladder corner --size 32x18 --reference-spp 64 \
+  --clusterings 1 --cache "$work/cache" --markdown "$work/ladder.md" --json "$work/ladder.json"
+grep -q tone_rmse "$work/ladder.json" && grep -q "today" "$work/ladder.md" || fail "the ladder left no tables"
 expect 2 "there is no technique 'magic'" "$bin/afterglow" bench --techniques magic
 expect 2 "does not exist" "$bin/afterglow" bench --scenes nowhere --techniques none
 

@@ -50,6 +50,7 @@ struct Frame {
     render::Layer layer;
     ImageHandle shown{};
     uint32_t emitters = 0;
+    bool clustered = false;
 
     void render(const RenderScene& scene, const render::RenderSettings& settings,
                 const FrameGraphOptions& options) {
@@ -59,6 +60,7 @@ struct Frame {
                 shown = render::addLayer(scope, view, frame, layer);
                 if (shown) scope.output(shown);
                 emitters = settings.technique == render::Technique::kAreaLights ? frame.bounce.vals.count : 0;
+                clustered = bool(frame.bounce.clusters.clusters);
             });
     }
     void settle(const RenderScene& scene, const render::RenderSettings& settings) {
@@ -95,10 +97,10 @@ reference::ReferenceSettings SceneBench::referenceSettings(std::string_view term
             .layer = std::string(layerOfTerm(term))};
 }
 
-Result<const Image*> SceneBench::reference(std::string_view term) {
+Result<const TwoReferences*> SceneBench::reference(std::string_view term) {
     const auto known = references_.find(term);
     if (known != references_.end()) return &known->second;
-    auto made = cache_.get(scene_, options_.size, referenceSettings(term), runner_, progress_);
+    auto made = cache_.getTwo(scene_, options_.size, referenceSettings(term), runner_, progress_);
     if (!made) return made.error();
     return &references_.emplace(term, std::move(*made)).first->second;
 }
@@ -221,14 +223,15 @@ void SceneBench::measureWalking(const render::RenderSettings& settings, render::
     row.ghosting = walk.ghosting;
 }
 
-Status SceneBench::measureGpu(const Technique& technique, const Variant& variant, Row& row, Image& image) {
+Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, const Variant& variant,
+                                                  Row& row) {
     render::RenderSettings settings;
     Settings registry;
     render::registerSettings(registry, settings);
     const std::string_view preset = technique.preset.empty() ? technique.name : technique.preset;
     if (!render::applyPreset(preset, settings)) return Error{fmt::format("there is no preset '{}'", preset)};
     for (const std::string& assignment : variant.settings) {
-        if (const Status set = registry.set(assignment); !set) return set;
+        if (const Status set = registry.set(assignment); !set) return set.error();
         const size_t equals = assignment.find('=');
         row.settings[assignment.substr(0, equals)] = assignment.substr(equals + 1);
     }
@@ -239,16 +242,24 @@ Status SceneBench::measureGpu(const Technique& technique, const Variant& variant
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};
     frame.settle(scene_, settings);
-    image = frame.image();
+    std::vector<Image> images = {frame.image()};
     row.vals = frame.emitters;
     row.gpuBytes = renderer_.deviceBytes();
     timeFrames(settings, *layer, row);
-    if (!options_.flicker || row.gpuMsMedian > kSlowestMovingMs) return Ok{};
-    measureWalking(settings, *layer, row);
-    return measureFlicker(settings, *layer, row);
+    if (options_.flicker && row.gpuMsMedian <= kSlowestMovingMs) {
+        measureWalking(settings, *layer, row);
+        if (const Status done = measureFlicker(settings, *layer, row); !done) return done.error();
+    }
+    for (uint32_t seed = 1; frame.clustered && seed < options_.clusterings; ++seed) {
+        settings.bounce.valClustering.seed = seed;
+        renderer_.load(*scene_.geometry);
+        frame.settle(scene_, settings);
+        images.push_back(frame.image());
+    }
+    return images;
 }
 
-void SceneBench::measureEmitters(Row& row, Image& image) {
+Image SceneBench::measureEmitters(Row& row) {
     const auto start = Clock::now();
     uint64_t count = 0;
     reference::FirstHits hits(options_.size);
@@ -259,9 +270,10 @@ void SceneBench::measureEmitters(Row& row, Image& image) {
     row.gpuMsMedian = row.gpuMsP99 = secondsSince(start) * 1e3;
     row.frames = 1;
     row.settings["emitter_map"] = std::to_string(kEmitterMap);
-    image = sums.bounces[1];
+    Image image = sums.bounces[1];
     for (glm::vec3& p : image.pixels)
         p /= float(std::max(emitters.size(), size_t(1)));
+    return image;
 }
 
 uint64_t SceneBench::hashPathTracing(std::string_view term) const {
@@ -272,11 +284,11 @@ Result<std::vector<Row>> SceneBench::measurePathTracing(std::string_view term) {
     const auto truth = reference(term);
     if (!truth) return truth.error();
     const std::string layer(layerOfTerm(term));
-    auto rows = tracePathCurve(rays_, referenceSettings(term).paths, layer, **truth, runner_);
+    auto rows = tracePathCurve(rays_, referenceSettings(term).paths, layer, (*truth)->both(), runner_);
     for (Row& row : rows) {
         row.scene = name_;
         row.term = term;
-        row.noiseFloor = noiseOf(**truth);
+        row.noiseFloor = (*truth)->noise;
     }
     return rows;
 }
@@ -290,18 +302,34 @@ Result<Row> SceneBench::measure(const Technique& technique, const Variant& varia
     row.variant = variant.label;
     row.size = options_.size;
     row.term = technique.term;
-    row.noiseFloor = noiseOf(**truth);
-    Image image;
-    if (technique.runner == Runner::kEmitters)
-        measureEmitters(row, image);
-    else if (const Status done = measureGpu(technique, variant, row, image); !done)
-        return done.error();
-    const auto difference = compareImages(**truth, image);
-    if (!difference)
-        return Error{fmt::format("{} on {}: {}", technique.name, name_, difference.error().message)};
-    row.error = *difference;
-    row.flip = meanFlip(**truth, image);
+    row.noiseFloor = (*truth)->noise;
+    std::vector<Image> images;
+    if (technique.runner == Runner::kEmitters) {
+        images.push_back(measureEmitters(row));
+    } else {
+        auto measured = measureGpu(technique, variant, row);
+        if (!measured) return measured.error();
+        images = std::move(*measured);
+    }
+    if (const Status done = compare(images, **truth, row); !done)
+        return Error{fmt::format("{} on {}: {}", technique.name, name_, done.error().message)};
     return row;
+}
+
+Status SceneBench::compare(const std::vector<Image>& images, const TwoReferences& truth, Row& row) {
+    std::vector<ImageDifference> differences;
+    const Image middle = meanOf(truth.both());
+    for (const Image& image : images) {
+        const auto difference = compareImages(truth.both(), image);
+        if (!difference) return difference.error();
+        differences.push_back(*difference);
+        row.flip += meanFlip(middle, image) / double(images.size());
+    }
+    row.clusterings = uint32_t(images.size());
+    row.error = meanOf(differences);
+    const auto [least, most] = std::ranges::minmax(differences, {}, &ImageDifference::relativeRmse);
+    row.relRmseSpread = most.relativeRmse - least.relativeRmse;
+    return Ok{};
 }
 
 }  // namespace ag::bench

@@ -15,9 +15,10 @@ struct MeasureOptions {
     glm::uvec2 flickerSize{160, 90};
     uint32_t frames = 30;              // timed, unless they take longer than `secondsPerTiming`
     double secondsPerTiming = 3;       // then at least five
-    uint32_t referenceSamples = 4096;  // at most, a pixel
-    double referenceError = 0.01;      // relative RMSE at which the reference is good enough
+    uint32_t referenceSamples = 4096;  // at most, a pixel, of both seeds
+    double referenceError = 0.01;      // relative RMSE at which the references' mean is good enough
     bool flicker = true;
+    uint32_t clusterings = 3;  // errors are means over so many: one moves by a tenth
 };
 
 class SceneBench {
@@ -33,11 +34,13 @@ class SceneBench {
     uint64_t hashPathTracing(std::string_view term) const;
 
   private:
-    Result<const Image*> reference(std::string_view term);
+    Result<const TwoReferences*> reference(std::string_view term);
     Result<const ReferenceTrend*> trend(std::string_view term);
     reference::ReferenceSettings referenceSettings(std::string_view term) const;
-    Status measureGpu(const Technique& technique, const Variant& variant, Row& row, Image& image);
-    void measureEmitters(Row& row, Image& image);
+    // Pictures of each clustering, one where nothing is clustered.
+    Result<std::vector<Image>> measureGpu(const Technique& technique, const Variant& variant, Row& row);
+    Image measureEmitters(Row& row);
+    Status compare(const std::vector<Image>& images, const TwoReferences& truth, Row& row);
     void timeFrames(const render::RenderSettings& settings, render::Layer layer, Row& row);
     Status measureFlicker(const render::RenderSettings& settings, render::Layer layer, Row& row);
     void settleBudget(double budgetMs, render::RenderSettings& settings, render::Layer layer, Row& row);
@@ -52,7 +55,7 @@ class SceneBench {
     MeasureOptions options_;
     FunctionRef<void(double)> progress_;
     reference::RayScene rays_;
-    std::map<std::string, Image, std::less<>> references_;
+    std::map<std::string, TwoReferences, std::less<>> references_;
     std::map<std::string, ReferenceTrend, std::less<>> trends_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/flip.h"
+#include "engine/core/image_difference.h"
 
 namespace ag::bench {
 namespace {
@@ -16,12 +17,13 @@ constexpr uint32_t kTimes = 11;  // the last after 5.1 s
 }  // namespace
 
 std::vector<Row> tracePathCurve(const reference::RayScene& rays, const reference::PathSettings& paths,
-                                const std::string& layer, const Image& truth, JobRunner& runner) {
+                                const std::string& layer, TwoEstimates truth, JobRunner& runner) {
+    const Image middle = meanOf(truth);
     std::vector<double> seconds;
     for (uint32_t i = 0; i < kTimes; ++i)
         seconds.push_back(kFirstMs * 1e-3 * std::exp2(i));
     std::vector<Row> rows;
-    const glm::uvec2 size(truth.width, truth.height);
+    const glm::uvec2 size(middle.width, middle.height);
     traceOverTime(rays, size, paths, seconds, runner, [&](double after, const reference::Reference& traced) {
         Row row{.technique = std::string(kPathTracing), .variant = fmt::format("{:.0f} ms", after * 1e3)};
         row.size = size;
@@ -29,7 +31,7 @@ std::vector<Row> tracePathCurve(const reference::RayScene& rays, const reference
         row.gpuMsMedian = row.gpuMsP99 = after * 1e3;
         const Image& image = *reference::layerOf(traced, layer);
         if (const auto difference = compareImages(truth, image)) row.error = *difference;
-        row.flip = meanFlip(truth, image);
+        row.flip = meanFlip(middle, image);
         rows.push_back(row);
     });
     return rows;

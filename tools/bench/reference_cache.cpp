@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 
 #include "engine/core/hash.h"
 #include "engine/core/log.h"
@@ -97,6 +99,20 @@ Result<Image> ReferenceCache::get(const RenderScene& scene, glm::uvec2 size,
     return image;
 }
 
+Result<TwoReferences> ReferenceCache::getTwo(const RenderScene& scene, glm::uvec2 size,
+                                             reference::ReferenceSettings settings, JobRunner& runner,
+                                             FunctionRef<void(double)> progress) {
+    settings.samplesPerPixel = std::max(settings.samplesPerPixel / 2, 2u);
+    settings.maxError *= std::numbers::sqrt2;
+    auto a = get(scene, size, settings, runner, [&](double share) { progress(share / 2); });
+    if (!a) return a.error();
+    ++settings.seed;
+    auto b = get(scene, size, settings, runner, [&](double share) { progress((1 + share) / 2); });
+    if (!b) return b.error();
+    const double noise = reference::noiseOf(*a, *b);
+    return TwoReferences{std::move(*a), std::move(*b), noise};
+}
+
 std::string defaultCacheFolder() {
     const char* cache = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");
@@ -104,11 +120,6 @@ std::string defaultCacheFolder() {
                           : home          ? fs::path(home) / ".cache"
                                           : fs::temp_directory_path();
     return (base / "afterglow" / "references").string();
-}
-
-double noiseOf(const Image& reference) {
-    const auto found = reference.attributes.find("noise");
-    return found == reference.attributes.end() ? 0 : parseNumber(found->second).value_or(0);
 }
 
 }  // namespace ag::bench

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/image.h"
+#include "engine/core/image_difference.h"
 
 namespace ag::bench {
 
@@ -27,12 +27,14 @@ struct Row {
     std::map<std::string, double> skipped;  // share of frames under a slowly moving light
     uint64_t gpuBytes = 0;
     std::string term;
-    ImageDifference error;
+    ImageDifference error;  // by two references; the mean over the clusterings
     double flip = 0;
-    double noiseFloor = 0;                              // relative RMSE of the reference itself
+    double noiseFloor = 0;                              // relative RMSE of the references' mean itself
     std::optional<double> flickerStill, flickerMoving;  // none: not measured
     std::optional<double> flickerWalking, ghosting;     // see walking.h
     double pathTracingRelRmse = 0;  // of path tracing stopped after this row's time; 0: not traced
+    uint32_t clusterings = 1;       // with other seeds, that the errors are the means of
+    double relRmseSpread = 0;       // the largest relative RMSE of one less the least
     bool pareto = false;            // nothing in the scene is both faster and nearer to the truth
     // Path tracing for another row's time: a row of its own in the files, a column and a curve elsewhere.
     bool isPathTracing() const { return technique == kPathTracing; }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/core/image.h"
+#include "engine/core/image_difference.h"
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/renderer.h"
 #include "engine/scene/static_scene.h"

@@ -11,6 +11,7 @@
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/figures.h"
 #include "tools/scenegen/gallery.h"
+#include "tools/scenegen/openings.h"
 
 namespace ag::scenegen {
 namespace {
@@ -257,7 +258,7 @@ struct Entry {
 
 // Percent below a hundred, so that light in a closed box comes to an end; things within what an import
 // allows.
-constexpr std::array<Entry, 11> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 15> kScenes = {{{"cornell", cornell},
                                             {"corner", corner},
                                             {"occluder", occluder},
                                             {"corridor", corridor},
@@ -267,7 +268,11 @@ constexpr std::array<Entry, 11> kScenes = {{{"cornell", cornell},
                                             {"crowd", crowd, 500'000},
                                             {"figures", figures, 10'000},
                                             {"hall", hall},
-                                            {"gallery", gallery}}};
+                                            {"gallery", gallery},
+                                            {"window", window, 1},
+                                            {"shell", shell, 1},
+                                            {"ledges", ledges},
+                                            {"nave", nave}}};
 constexpr auto kNames = [] {
     std::array<std::string_view, kScenes.size()> names;
     for (size_t i = 0; i < names.size(); ++i)

@@ -1,5 +1,6 @@
 #include "tools/stress/stress.h"
 
+#include "engine/core/image_difference.h"
 #include "tools/stress/cases.h"
 
 namespace ag::stress {

@@ -6,6 +6,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/log.h"
+#include "tools/bench/ladder.h"
 #include "tools/bench/measure.h"
 #include "tools/bench/path_tracing.h"
 #include "tools/bench/row_cache.h"
@@ -21,7 +22,7 @@ namespace {
 struct BenchOptions {
     std::vector<double> budgets;  // ms
     std::vector<std::string> scenes = {"cornell", "occluder", "corridor"};
-    std::vector<std::string> techniques;
+    std::vector<std::string> techniques, ladders;
     std::string size = "640x360", flickerSize = "160x90";
     std::string json, csv, plot, markdown;
     std::string cache = bench::defaultCacheFolder();
@@ -105,7 +106,7 @@ uint64_t hashRun(const BenchOptions& o, const bench::Report& report) {
     uint64_t h = hashText(report.driver, hashText(report.device, bench::RowCache::programHash()));
     const bench::MeasureOptions& m = o.measure;
     h = hashValue(m.flickerSize, hashValue(m.size, h));
-    for (const uint32_t v : {m.frames, m.referenceSamples, uint32_t(m.flicker)})
+    for (const uint32_t v : {m.frames, m.referenceSamples, uint32_t(m.flicker), m.clusterings})
         h = combineHash(h, v);
     return hashValue(m.referenceError, hashValue(m.secondsPerTiming, h));
 }
@@ -171,10 +172,46 @@ Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& d
     return Ok{};
 }
 
+// What the first bounce's error is made of, scene by scene; tables are written after each.
+int runLadders(const BenchOptions& o, glm::uvec2 size) {
+    if (const Status ready = prepareTextFiles({o.json, o.markdown}); !ready)
+        return refuse(ready.error().message);
+    auto device = gpu::Device::create({});
+    if (!device) return refuse(device.error().message);
+    const std::string name = fmt::format("{}, {}", (*device)->info().name, (*device)->info().driver);
+    bench::ReferenceCache cache(o.cache);
+    JobRunner runner;
+    std::vector<bench::Ladder> ladders;
+    std::string tables;
+    for (const std::string& scene : o.ladders) {
+        auto loaded = loadScene(sceneArguments(o, scene));
+        if (!loaded) return refuse(loaded.error().message);
+        ProgressLine line(scene + ", reference: ");
+        const bench::LadderOptions options{.size = size,
+                                           .clusterings = o.measure.clusterings,
+                                           .reference = {.samplesPerPixel = o.measure.referenceSamples,
+                                                         .maxError = o.measure.referenceError,
+                                                         .layer = "bounce1"}};
+        auto ladder = bench::measureLadder(**device, loaded->scene, options, cache, runner,
+                                           [&](double share) { line(share); });
+        if (!ladder) return refuse(scene + ": " + ladder.error().message);
+        ladder->scene = scene;
+        const std::string table = ladderToMarkdown(*ladder, name);
+        std::cout << table << '\n' << std::flush;
+        tables += (tables.empty() ? "" : "\n") + table;
+        ladders.push_back(std::move(*ladder));
+        for (const Status& written :
+             {writeTextFile(o.markdown, tables), writeTextFile(o.json, laddersToJson(ladders, name))})
+            if (!written) return refuse(written.error().message);
+    }
+    return 0;
+}
+
 int runBench(BenchOptions o) {
     const auto size = parseSize(o.size), flickerSize = parseSize(o.flickerSize);
     if (!size) return refuse(size.error().message);
     if (!flickerSize) return refuse(flickerSize.error().message);
+    if (!o.ladders.empty()) return runLadders(o, *size);
     auto techniques = chosenTechniques(o.techniques);
     if (!techniques) return refuse(techniques.error().message);
     const bench::Technique budget = bench::budgetTechnique(o.budgets);
@@ -215,6 +252,16 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
                      "ms of a frame's passes, comma-separated: ours with the quality each allows")
         ->delimiter(',')
         ->check(numberFrom(0.1, 100000));
+    command
+        ->add_option("--ladder", o->ladders,
+                     "comma-separated scenes: instead, what the first bounce's error is made of, with lights "
+                     "and maps replaced by traced rays one after another")
+        ->delimiter(',');
+    command
+        ->add_option("--clusterings", o->measure.clusterings,
+                     "errors are means over so many, of what has clusters")
+        ->check(numberFrom(1, 100))
+        ->capture_default_str();
     command->add_option("--param", o->param, "number of the built-in scenes that take one");
     command->add_option("--size", o->size, "pixels, WxH")->capture_default_str();
     command->add_option("--frames", o->measure.frames, "to time")

@@ -6,15 +6,18 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/flip.h"
+#include "engine/core/image_difference.h"
 #include "engine/core/number_option.h"
 #include "engine/core/safe_file.h"
+#include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
 
 namespace ag::workbench {
 namespace {
 
 struct CompareOptions {
-    std::string truth, test, heatmap;
+    std::vector<std::string> images;  // the truth once or twice, then the one that is compared
+    std::string heatmap;
     double most = std::numeric_limits<double>::infinity();
 };
 
@@ -33,32 +36,54 @@ Image heatmapOf(const Image& truth, const Image& test) {
     return out;
 }
 
+Result<std::vector<Image>> loadAll(const std::vector<std::string>& paths) {
+    std::vector<Image> images;
+    for (const std::string& path : paths) {
+        auto image = loadImage(path);
+        if (!image) return image.error();
+        images.push_back(std::move(*image));
+    }
+    return images;
+}
+
+nlohmann::ordered_json numbersOf(const ImageDifference& d) {
+    return {{"mean_ratio", d.meanRatio},
+            {"rmse", d.rmse},
+            {"rel_rmse", d.relativeRmse},
+            {"rel_mse", d.relMse},
+            {"p99", d.p99}};
+}
+
 int runCompare(const CompareOptions& o) {
     if (const Status writable = checkWritable({o.heatmap}); !writable)
         return refuse(writable.error().message);
-    const auto truth = loadImage(o.truth);
-    if (!truth) return refuse(truth.error().message);
-    const auto test = loadImage(o.test);
-    if (!test) return refuse(test.error().message);
-    const auto difference = compareImages(*truth, *test);
+    const auto images = loadAll(o.images);
+    if (!images) return refuse(images.error().message);
+    const Image &first = images->front(), &test = images->back();
+    const bool twoTruths = images->size() == 3;
+    const TwoEstimates truths(first, twoTruths ? (*images)[1] : first);
+    const auto difference = compareImages(truths, test);
     if (!difference) {
         std::cerr << "afterglow: " << difference.error().message << '\n';
         return 1;
     }
-    nlohmann::ordered_json out = {{"mean_ratio", difference->meanRatio},
-                                  {"rmse", difference->rmse},
-                                  {"rel_rmse", difference->relativeRmse},
-                                  {"rel_mse", difference->relMse},
-                                  {"p99", difference->p99},
-                                  {"flip", meanFlip(*truth, *test)}};
-    if (const auto noise = truth->attributes.find("noise"); noise != truth->attributes.end())
+    const Image truth = meanOf(truths);
+    nlohmann::ordered_json out = numbersOf(*difference);
+    out["flip"] = meanFlip(truth, test);
+    if (twoTruths)
+        out["noise_floor"] = reference::noiseOf(truths.a, truths.b);
+    else if (const auto noise = first.attributes.find("noise"); noise != first.attributes.end())
         out["noise_floor"] = parseNumber(noise->second).value_or(0);
-    for (const auto& [name, image] : {std::pair("filter_a", &*truth), {"filter_b", &*test}})
+    for (const auto& [name, image] : {std::pair("filter_a", &first), {"filter_b", &test}})
         if (const auto filter = image->attributes.find("filter"); filter != image->attributes.end())
             out[name] = filter->second;
+    out["tone_rmse"] = difference->toneRmse;
+    out["rel_rmse_trimmed"] = difference->trimmedRelativeRmse;
+    out["median_rel"] = difference->medianRelative;
+    out["leak_pixels"] = difference->leakPixels;
     std::cout << out.dump(2) << '\n';
     if (!o.heatmap.empty())
-        if (const Status saved = saveImage(heatmapOf(*truth, *test), o.heatmap); !saved)
+        if (const Status saved = saveImage(heatmapOf(truth, test), o.heatmap); !saved)
             return refuse(saved.error().message);
     return difference->relativeRmse <= o.most ? 0 : 1;
 }
@@ -68,8 +93,11 @@ int runCompare(const CompareOptions& o) {
 void addCompareCommand(CLI::App& program, int& exitCode) {
     const auto o = std::make_shared<CompareOptions>();
     CLI::App* command = program.add_subcommand("compare", "differences of image B from image A as JSON");
-    command->add_option("a", o->truth, "EXR or PFM, taken as the truth")->required();
-    command->add_option("b", o->test, "EXR or PFM")->required();
+    command
+        ->add_option("images", o->images,
+                     "A B, or A1 A2 B: EXR or PFM, A the truth; of two seeds its noise does not count")
+        ->required()
+        ->expected(2, 3);
     command->add_option("--max-rel-rmse", o->most, "exit with 1 above this relative RMSE")
         ->check(numberFrom(0, 1e30));
     command->add_option("--heatmap", o->heatmap,
