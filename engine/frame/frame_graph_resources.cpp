@@ -239,6 +239,17 @@ VkDescriptorPool makePool(gpu::Context& context) {
     return pool;
 }
 
+void checkRange(const VkPhysicalDeviceLimits& limits, gpu::BindingKind kind, const gpu::BufferDesc& buffer) {
+    const auto check = [&](const char* limit, uint32_t most) {
+        if (buffer.sizeBytes > most)
+            gpu::failBeyondLimit("the buffer " + buffer.name, limit, buffer.sizeBytes, most);
+    };
+    if (kind == gpu::BindingKind::kStorageBuffer)
+        check("maxStorageBufferRange", limits.maxStorageBufferRange);
+    if (kind == gpu::BindingKind::kUniformBuffer)
+        check("maxUniformBufferRange", limits.maxUniformBufferRange);
+}
+
 VkDescriptorSet tryAllocate(gpu::Context& context, VkDescriptorPool pool, VkDescriptorSetLayout layout) {
     const VkDescriptorSetAllocateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                            .descriptorPool = pool,
@@ -311,6 +322,7 @@ VkDescriptorSet FrameGraph::Impl::descriptorSet(const Pass& pass, const gpu::Pip
                              accessOf(bound[i]->kind).layout};
         } else {
             const gpu::Buffer& buffer = bufferOf(r);
+            checkRange(context->info().limits, b.kind, buffer.desc());
             bufferInfos[i] = {buffer.handle(), 0, VK_WHOLE_SIZE};
             views[i] = buffer.texelView();
         }

@@ -24,8 +24,10 @@ struct DeviceOptions {
     bool validation = false;              // core and synchronization validation; messages are counted
     std::optional<WindowSurface> window;  // none: headless, no surface or swapchain extension
     std::string deviceName;  // part of a device name to prefer; empty: discrete, integrated, then CPU
-    std::vector<std::string> without;  // features and extensions to do without, as if the device lacked them
-    FaultPlan fault;                   // for tests
+    // Features to do without and limits to take as lower ("maxImageDimension2D=4096"), as if the device had
+    // no more.
+    std::vector<std::string> without;
+    FaultPlan fault;  // for tests
 };
 
 // The same moment on the device's clock and on the host's (std::chrono::steady_clock).

@@ -14,7 +14,7 @@ struct DeviceChoice {
 };
 
 // The best device that has everything required; otherwise a sentence saying what each one lacks. `without`:
-// features to take as missing.
+// features to take as missing, limits to take as lower (LIMIT=N).
 Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSurfaceKHR surface,
                                   const std::string& preferredName, std::span<const std::string> without);
 

@@ -63,13 +63,6 @@ void startAnewAfter(AgiContext context, AgiView failed, uint64_t frame) noexcept
         if (view == failed || view->view.last.frame == frame) (void)across([&] { view->view.startAnew(); });
 }
 
-std::string requirementsMissing(const gpu::DeviceInfo& info) {
-    std::string missing;
-    for (const std::string& m : info.missing)
-        missing += (missing.empty() ? "" : ", ") + m;
-    return missing.empty() ? missing : info.name + " lacks " + missing;
-}
-
 // A frame as one of the view's size would be, for agiPrepare before the first one.
 AgiFrame frameLike(const AgiFrame& last) {
     AgiFrame f = last;
@@ -108,7 +101,7 @@ AgiResult agiGetRequirements(VkInstance instance, VkPhysicalDevice device,
         }();
         const gpu::Functions vk = loadFunctions(getInstanceProcAddr, instance, VK_NULL_HANDLE);
         const gpu::DeviceInfo info = gpu::describeDevice(vk, device);
-        if (const std::string missing = requirementsMissing(info); !missing.empty())
+        if (const std::string missing = gpu::whatIsMissing(info); !missing.empty())
             throw Failure(FailureKind::kUnsupported, missing);
         AgiRequirements out{};
         out.features = &features->core;

@@ -7,6 +7,7 @@
 // s; one of another normal sends its light elsewhere at any distance.
 #include "common/lane_loop.glsl"
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "importance/importance_io.h"
 #include "val_clustering/covariance.glsl"
 #include "val_clustering/val_clustering_io.h"
@@ -16,7 +17,7 @@ layout(constant_id = 0) const bool kFromView = false;
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Previous { Cluster items[]; } previous;
-layout(set = 0, binding = 1) uniform samplerBuffer viewPoints;
+layout(set = 0, binding = 1) VEC4_TEXELS(viewPoints);
 layout(set = 0, binding = 2, scalar) writeonly buffer Errors { ClusterError items[]; } errors;
 
 float sum3(vec3 v) { return v.x + v.y + v.z; }
@@ -34,7 +35,7 @@ vec2 viewedFrom(Cluster c, vec4 place, vec3 normal) {
 vec2 meanOverView(Cluster c) {
     vec2 sum = vec2(0.0);
     for (uint i = gl_SubgroupInvocationID; i < kViewPointCount; i += kSubgroupSize)
-        sum += viewedFrom(c, texelFetch(viewPoints, int(i) * 2), texelFetch(viewPoints, int(i) * 2 + 1).xyz);
+        sum += viewedFrom(c, fetchTexel(viewPoints, int(i) * 2), fetchTexel(viewPoints, int(i) * 2 + 1).xyz);
     return subgroupAdd(sum) / float(kViewPointCount);
 }
 

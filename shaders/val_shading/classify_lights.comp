@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 // For each tile of the screen, which lights are near and which far.
 #include "common/lane_loop.glsl"
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "val_shading/screen_tiles.glsl"
 
@@ -13,8 +14,8 @@ layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D depthMap;
 layout(set = 0, binding = 1, scalar) uniform Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 2) uniform samplerBuffer vals;
-layout(set = 0, binding = 3) uniform samplerBuffer shapes;
+layout(set = 0, binding = 2) VEC4_TEXELS(vals);
+layout(set = 0, binding = 3) VEC4_TEXELS(shapes);
 layout(set = 0, binding = 4, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 5, scalar) writeonly buffer Counts { uvec2 items[]; } counts;
 layout(set = 0, binding = 6, scalar) writeonly buffer LackingCounts { uint items[]; } lackingCounts;

@@ -5,16 +5,17 @@
 // 2002; ACRSM section 3.2.3); four pixels an invocation share the loads.
 layout(constant_id = 0) const uint kShape = 2;
 layout(constant_id = 2) const uint kInterleave = 1;
+#include "common/texels.glsl"
 #include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 8) const bool kListed = false;  // else every workgroup
-layout(set = 0, binding = 10) uniform usamplerBuffer listed;
+layout(set = 0, binding = 10) UINT_TEXELS(listed);
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D partsToward;
 
 void main() {
-    uint group = kListed ? texelFetch(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
+    uint group = kListed ? fetchTexel(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
     TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, kInterleave);
     uvec2 size = camera.camera.size;
     Receiver r[kPixels];
@@ -31,7 +32,7 @@ void main() {
     if (kLaneParallel) {
         for (uint base = block.part; base < count; base += kSubgroupSize * kParts) {
             uint entry = base + gl_SubgroupInvocationID * kParts;
-            AreaLight mine = loadLight(texelFetch(lists, int(start + min(entry, count - 1))).x);
+            AreaLight mine = loadLight(fetchTexel(lists, int(start + min(entry, count - 1))).x);
             if (entry >= count) mine.power = vec4(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
                 AreaLight l = lightOfLane(mine, lane);
@@ -40,7 +41,7 @@ void main() {
         }
     } else {
         for (uint entry = block.part; entry < count; entry += kParts) {
-            AreaLight l = loadLight(texelFetch(lists, int(start + entry)).x);
+            AreaLight l = loadLight(fetchTexel(lists, int(start + entry)).x);
             [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
         }
     }
