@@ -80,8 +80,11 @@ void findNearest(inout Probe probes[kProbesPerLane], uvec2 place, uint map, uint
 bool isNearestOfAny(Probe probes[kProbesPerLane], uint cluster) {
     bool found = false;
     [[dont_unroll]] for (uint lane = 0; lane < min(kSubgroupSize, kProbes); ++lane)
-        [[unroll]] for (uint i = 0; i < kProbesPerLane; ++i)
-            found = found || subgroupShuffle(probes[i].nearest, lane) == cluster;
+        [[unroll]] for (uint i = 0; i < kProbesPerLane; ++i) {
+            // Not behind a ||, which leaves lanes out: what these hold is then undefined.
+            bool same = subgroupShuffle(probes[i].nearest, lane) == cluster;
+            found = found || same;
+        }
     return found;
 }
 

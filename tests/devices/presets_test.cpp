@@ -3,9 +3,11 @@
 // in AFTERGLOW_DEVICES_FOLDER.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <map>
+#include <numeric>
 
 #include "engine/core/image.h"
 #include "engine/core/safe_file.h"
@@ -19,9 +21,11 @@ namespace {
 
 constexpr const char* kScenes[] = {"cornell", "corridor"};
 constexpr glm::uvec2 kSize{160, 90};
-constexpr uint32_t kFrames = 4;
-// Where nothing is clustered: edges of triangles and of shadows fall otherwise on another rasteriser.
-constexpr double kLeastSpread = 0.005;
+constexpr uint32_t kFrames = 3;
+// Pixels left out, those that differ most: edges of triangles and of shadows fall otherwise on another
+// rasteriser (a hundred pixels of the corridor's are all that differs by more than 0.2 %).
+constexpr double kEdges = 0.02;
+constexpr double kLeastSpread = 0.01;  // where little is clustered
 
 // All passes of the preset, with less of each: a device without a cache of shaders has a minute.
 render::RenderSettings settingsOf(std::string_view preset, uint32_t moreClusters = 0) {
@@ -40,61 +44,88 @@ std::string folder() {
 }
 
 struct Stage {
-    explicit Stage(const char* name)
-        : asset(*scenegen::buildScene(name, 0)), scene(staticScene(asset)), renderer(test::device()) {
+    Stage() : renderer(test::device()) {}
+    Image draw(const std::string& name, const render::RenderSettings& settings) {
+        const SceneAsset asset = *scenegen::buildScene(name, 0);
+        RenderScene scene = staticScene(asset);
         setCamera(scene, cameraOf(asset, 0), kSize);
-    }
-    Image draw(const render::RenderSettings& settings) {
         renderer.load(asset.geometry);  // without histories
         return render::renderLayer(renderer, scene, kSize, settings, render::Layer::kRadiance, kFrames,
                                    {.timing = TimingMode::kOff});
     }
-    SceneAsset asset;
-    RenderScene scene;
-    render::Renderer renderer;
+    render::Renderer renderer;  // of all: pipelines are made once
 };
 
-double difference(const Image& a, const Image& b) {
-    const auto d = compareImages(a, b);
-    EXPECT_TRUE(d) << d.error().message;
-    return d ? d->relativeRmse : 1e9;
+struct Difference {
+    double meanRatio = 0, relativeRmse = 0;  // without the edges
+};
+
+Difference differ(const Image& truth, const Image& test) {
+    std::vector<double> squares;
+    double sum = 0, other = 0;
+    for (size_t i = 0; i < truth.pixels.size(); ++i) {
+        const glm::dvec3 d = glm::dvec3(test.pixels[i]) - glm::dvec3(truth.pixels[i]);
+        squares.push_back(glm::dot(d, d) / 3);
+        sum += double(truth.pixels[i].x + truth.pixels[i].y + truth.pixels[i].z) / 3;
+        other += double(test.pixels[i].x + test.pixels[i].y + test.pixels[i].z) / 3;
+    }
+    std::ranges::sort(squares);
+    squares.resize(size_t(double(squares.size()) * (1 - kEdges)));
+    const double mse = std::accumulate(squares.begin(), squares.end(), 0.0) / double(squares.size());
+    return {other / sum, std::sqrt(mse) * double(truth.pixels.size()) / sum};
+}
+
+// Presets that differ here: some are others with more of the same.
+std::vector<std::string> presets() {
+    std::vector<render::RenderSettings> known;
+    std::vector<std::string> names;
+    for (const std::string_view name : render::presetNames()) {
+        const render::RenderSettings s = settingsOf(name);
+        if (std::ranges::find(known, s) != known.end()) continue;
+        known.push_back(s);
+        names.emplace_back(name);
+    }
+    return names;
+}
+
+std::string pictureOf(const std::string& scene, const std::string& preset) {
+    return folder() + scene + "_" + preset + ".pfm";
 }
 
 // The pictures, and how far other clusters lead.
 void drawAll() {
-    ASSERT_TRUE(makeFolderOf(folder() + "spreads.txt"));
-    std::ofstream spreads(folder() + "spreads.txt");
-    for (const char* name : kScenes) {
-        Stage stage(name);
-        for (const std::string_view preset : render::presetNames()) {
-            const Image image = stage.draw(settingsOf(preset));
-            ASSERT_TRUE(saveImage(image, folder() + name + "_" + std::string(preset) + ".pfm"));
-            double spread = kLeastSpread;
-            for (const uint32_t more : {4u, 8u})
-                spread = std::max(spread, difference(image, stage.draw(settingsOf(preset, more))));
-            spreads << name << ' ' << preset << ' ' << spread << '\n';
+    const std::string list = folder() + "spreads.txt";
+    ASSERT_TRUE(makeFolderOf(list));
+    std::ofstream spreads(list);
+    Stage stage;
+    for (const std::string scene : kScenes)
+        for (const std::string& preset : presets()) {
+            const Image image = stage.draw(scene, settingsOf(preset));
+            ASSERT_TRUE(saveImage(image, pictureOf(scene, preset)));
+            const Image other = stage.draw(scene, settingsOf(preset, 4));
+            const double spread = std::max(kLeastSpread, differ(image, other).relativeRmse);
+            spreads << scene << ' ' << preset << ' ' << spread << '\n';
         }
-    }
     ASSERT_TRUE(spreads.good());
 }
 
 void compareAll() {
     std::ifstream spreads(folder() + "spreads.txt");
     ASSERT_TRUE(spreads.good()) << "devices.default has not run";
-    std::map<std::string, Stage> stages;
-    std::string name, preset;
+    Stage stage;
+    std::string scene, preset;
     double spread = 0;
-    int compared = 0;
-    for (; spreads >> name >> preset >> spread; ++compared) {
-        const auto truth = loadImage(folder() + name + "_" + preset + ".pfm");
+    size_t compared = 0;
+    for (; spreads >> scene >> preset >> spread; ++compared) {
+        const auto truth = loadImage(pictureOf(scene, preset));
         ASSERT_TRUE(truth) << truth.error().message;
-        Stage& stage = stages.try_emplace(name, name.c_str()).first->second;
-        const double off = difference(*truth, stage.draw(settingsOf(preset)));
-        std::printf("%-9s %-18s relative RMSE %.4f, other clusters %.4f\n", name.c_str(), preset.c_str(), off,
-                    spread);
-        EXPECT_LE(off, spread) << name << ' ' << preset;
+        const Difference d = differ(*truth, stage.draw(scene, settingsOf(preset)));
+        std::printf("%-9s %-18s mean %.4f, relative RMSE %.4f, of other clusters %.4f\n", scene.c_str(),
+                    preset.c_str(), d.meanRatio, d.relativeRmse, spread);
+        EXPECT_LE(d.relativeRmse, spread) << scene << ' ' << preset;
+        EXPECT_NEAR(d.meanRatio, 1, 0.01) << scene << ' ' << preset;
     }
-    EXPECT_EQ(size_t(compared), std::size(kScenes) * render::presetNames().size());
+    EXPECT_EQ(compared, std::size(kScenes) * presets().size());
 }
 
 TEST(Devices, PresetsDrawWhatTheDefaultDeviceDraws) {
