@@ -12,7 +12,7 @@ constexpr size_t kBytes = 64 * 64 * 4;
 
 BufferHandle addBlueNoise(GraphScope scope) {
     const BufferHandle buffer =
-        scope.buffer("blue_noise.pixels", {.sizeBytes = kBytes, .texelFormat = VK_FORMAT_R16G16_UNORM});
+        scope.buffer("blue_noise.pixels", {.sizeBytes = kBytes, .texelFormat = VK_FORMAT_R32_UINT});
     scope.upload("blue_noise.pixels", buffer, std::span(afterglow_blue_noise, kBytes));
     return buffer;
 }

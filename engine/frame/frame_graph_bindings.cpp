@@ -44,6 +44,17 @@ VkDescriptorSet tryAllocate(gpu::Context& context, VkDescriptorPool pool, VkDesc
                                                                                             : VK_NULL_HANDLE;
 }
 
+void checkRange(const VkPhysicalDeviceLimits& limits, gpu::BindingKind kind, const gpu::BufferDesc& buffer) {
+    const auto check = [&](const char* limit, uint32_t most) {
+        if (buffer.sizeBytes > most)
+            gpu::failBeyondLimit("the buffer " + buffer.name, limit, buffer.sizeBytes, most);
+    };
+    if (kind == gpu::BindingKind::kStorageBuffer)
+        check("maxStorageBufferRange", limits.maxStorageBufferRange);
+    if (kind == gpu::BindingKind::kUniformBuffer)
+        check("maxUniformBufferRange", limits.maxUniformBufferRange);
+}
+
 }  // namespace
 
 void FrameGraph::Impl::checkBindings(const Pass& pass, const gpu::Pipeline& pipeline) {
@@ -119,6 +130,7 @@ void FrameGraph::Impl::writeSet(VkDescriptorSet set, std::span<const gpu::Shader
                              accessOf(use.kind).layout};
         } else {
             const gpu::Buffer& buffer = bufferOf(r);
+            checkRange(context->info().limits, bindings[i].kind, buffer.desc());
             bufferInfos[i] = {buffer.handle(), 0, VK_WHOLE_SIZE};
             views[i] = buffer.texelView();
         }

@@ -24,7 +24,9 @@ struct DeviceOptions {
     bool validation = false;              // core and synchronization validation; messages are counted
     std::optional<WindowSurface> window;  // none: headless, no surface or swapchain extension
     std::string deviceName;  // part of a device name to prefer; empty: discrete, integrated, then CPU
-    std::vector<std::string> without;  // features and extensions to do without, as if the device lacked them
+    // Features to do without and limits to take as lower ("maxImageDimension2D=4096"), as if the device had
+    // no more.
+    std::vector<std::string> without;
     // Instead of subgroups workgroups of so many lanes that share memory, 4 to 64; 0: as the device can.
     uint32_t sharedLanes = 0;
     FaultPlan fault;  // for tests

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/core/number.h"
+
 namespace ag::gpu {
 namespace {
 
@@ -39,15 +41,43 @@ bool isFeature(std::string_view name) {
            std::ranges::any_of(requiredFeatures(), [&](const RequiredFeature& f) { return name == f.name; });
 }
 
-std::string featureNames() {
+std::string knownNames() {
     std::string names = std::string(kTimestamps) + ", " + kSubgroupOperations;
     for (const RequiredFeature& f : requiredFeatures())
         names += std::string(", ") + f.name;
+    for (const DeviceLimit& limit : deviceLimits())
+        names += ", " + std::string(limit.name) + "=N";
     return names;
 }
 
-void leaveOut(std::span<const std::string> without, DeviceInfo& info) {
-    for (const std::string& name : without) {
+struct Without {
+    std::vector<std::string> features;
+    std::vector<LoweredLimit> limits;
+};
+
+// Names of features, and LIMIT=N.
+Result<Without> parseWithout(std::span<const std::string> texts) {
+    Without without;
+    for (const std::string& text : texts) {
+        const size_t equals = text.find('=');
+        const DeviceLimit* limit =
+            equals == std::string::npos ? nullptr : findDeviceLimit(text.substr(0, equals));
+        if (!limit && !isFeature(text))
+            return Error{"there is no feature or limit '" + text +
+                         "' to do without (there are: " + knownNames() + ")"};
+        if (!limit) {
+            without.features.push_back(text);
+            continue;
+        }
+        const auto most = parseNumber(text.substr(equals + 1), 0, double(UINT32_MAX), true);
+        if (!most) return Error{"'" + text + "' gives the limit no whole number from 0 to 4294967295"};
+        without.limits.push_back({limit, uint32_t(*most)});
+    }
+    return without;
+}
+
+void leaveOut(std::span<const std::string> features, DeviceInfo& info) {
+    for (const std::string& name : features) {
         if (name == kTimestamps)
             info.timestampPeriodNs = 0;  // passes then have no times of their own
         else if (std::erase(info.enabled, name) > 0)
@@ -70,10 +100,8 @@ int score(const Functions& vk, VkPhysicalDevice physical, const DeviceInfo& info
 
 Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSurfaceKHR surface,
                                   const DeviceOptions& options) {
-    for (const std::string& name : options.without)
-        if (!isFeature(name))
-            return Error{"there is no feature '" + name + "' to do without (there are: " + featureNames() +
-                         ")"};
+    const auto less = parseWithout(options.without);
+    if (!less) return less.error();
     uint32_t count = 0;
     vk.EnumeratePhysicalDevices(instance, &count, nullptr);
     std::vector<VkPhysicalDevice> devices(count);
@@ -82,8 +110,8 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
     int bestScore = 0;
     std::string lacks;
     for (VkPhysicalDevice physical : devices) {
-        DeviceChoice choice{.physical = physical, .info = describeDevice(vk, physical)};
-        leaveOut(options.without, choice.info);
+        DeviceChoice choice{.physical = physical, .info = describeDevice(vk, physical, less->limits)};
+        leaveOut(less->features, choice.info);
         if (options.sharedLanes) choice.info.lanes = {.count = options.sharedLanes, .shared = true};
         const auto family = findQueueFamily(vk, physical, surface);
         if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");

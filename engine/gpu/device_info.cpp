@@ -112,11 +112,23 @@ std::span<const char* const> extensionsOf13() {
     return kExtensionsOf13;
 }
 
-DeviceInfo describeDevice(const Functions& vk, VkPhysicalDevice physical) {
+DeviceInfo describeDevice(const Functions& vk, VkPhysicalDevice physical,
+                          std::span<const LoweredLimit> lowered) {
     DeviceInfo info;
     readProperties(vk, physical, info);
     listFeatures(vk, physical, info);
+    lowerLimits(lowered, info.limits);
+    for (std::string& limit : lackingLimits(info.limits))
+        info.missing.push_back(std::move(limit));
+    info.storageTexels = !hasLargeTexelBuffers(info.limits);
     return info;
+}
+
+std::string whatIsMissing(const DeviceInfo& info) {
+    std::string missing;
+    for (const std::string& m : info.missing)
+        missing += (missing.empty() ? "" : ", ") + m;
+    return missing.empty() ? missing : info.name + " lacks " + missing;
 }
 
 bool hasExtension(const Functions& vk, VkPhysicalDevice physical, const char* name) {

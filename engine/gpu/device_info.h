@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/gpu/functions.h"
+#include "engine/gpu/device_limits.h"
 #include "engine/gpu/lanes.h"
 
 namespace ag::gpu {
@@ -24,6 +24,7 @@ struct DeviceInfo {
     bool counts = false;          // pipeline statistics
     bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
     VkPhysicalDeviceLimits limits{};
+    bool storageTexels = false;        // shaders read storage buffers where they would texel buffers
     std::vector<std::string> enabled;  // feature and extension names switched on
     std::vector<std::string> missing;  // "name: what is done without it"
 };
@@ -64,7 +65,10 @@ constexpr const char* kSubgroupOperations = "subgroup shuffle, ballot and arithm
 std::span<const char* const> extensionsOf13();
 
 // Everything but `calibrated`; what is required and not there is in `missing`.
-DeviceInfo describeDevice(const Functions& vk, VkPhysicalDevice physical);
+DeviceInfo describeDevice(const Functions& vk, VkPhysicalDevice physical,
+                          std::span<const LoweredLimit> lowered = {});
+// "NAME lacks this, that", or empty.
+std::string whatIsMissing(const DeviceInfo& info);
 bool hasExtension(const Functions& vk, VkPhysicalDevice physical, const char* name);
 
 }  // namespace ag::gpu

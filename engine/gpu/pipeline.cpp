@@ -82,7 +82,7 @@ struct PipelineLibrary::Impl {
 };
 
 bool PipelineLibrary::Impl::open(const std::string& path, Shader& shader, std::string* error) const {
-    auto loaded = source(path);
+    auto loaded = source(context.info().storageTexels ? kStorageTexelShaders + path : path);
     if (!loaded) {
         *error = loaded.error().message;
         return false;

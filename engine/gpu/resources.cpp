@@ -99,6 +99,11 @@ void Buffer::create() {
 
 void Buffer::createTexelView() {
     if (desc_.texelFormat == VK_FORMAT_UNDEFINED) return;
+    const uint64_t most = context_.info().limits.maxTexelBufferElements;
+    const uint64_t elements = desc_.sizeBytes / texelSizeBytes(desc_.texelFormat);
+    if (elements > most && context_.info().storageTexels) return;  // nothing wants the view
+    if (elements > most)
+        failBeyondLimit("the texel buffer " + desc_.name, "maxTexelBufferElements", elements, most);
     const VkBufferViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .buffer = handle_,
                                       .format = desc_.texelFormat,
@@ -160,6 +165,13 @@ void Image::destroy() {
 }
 
 VkImage makeImage(Context& context, const ImageDesc& desc) {
+    const VkPhysicalDeviceLimits& limits = context.info().limits;
+    if (const uint32_t side = std::max(desc.size.x, desc.size.y); side > limits.maxImageDimension2D)
+        failBeyondLimit("a side of the image " + desc.name, "maxImageDimension2D", side,
+                        limits.maxImageDimension2D);
+    if (desc.layers > limits.maxImageArrayLayers)
+        failBeyondLimit("the image " + desc.name, "maxImageArrayLayers", desc.layers,
+                        limits.maxImageArrayLayers);
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                  .imageType = VK_IMAGE_TYPE_2D,
                                  .format = desc.format,

@@ -44,7 +44,8 @@ class Buffer {
     const BufferDesc& desc() const { return desc_; }
     uint64_t sizeBytes() const { return desc_.sizeBytes; }
     std::byte* mapped() const { return mapped_; }  // null unless hostVisible
-    // Texel view over the whole buffer in desc.texelFormat; null without a format.
+    // Texel view over the whole buffer in desc.texelFormat; null without a format, and where the device's
+    // texel buffers are too small (DeviceInfo::storageTexels).
     VkBufferView texelView() const { return texelView_; }
     bool isBorrowed() const { return borrowed_; }
 

@@ -62,6 +62,9 @@ struct ShaderModule {
     std::vector<ShaderStruct> structs;
 };
 
+// Before the path of a shader that reads storage buffers instead of texel buffers.
+const std::string kStorageTexelShaders = "storage/";
+
 // Where shaders come from, by path.
 using ShaderSource = std::function<Result<ShaderModule>(const std::string& path)>;
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/core/settings.h"
+#include "shaders/shadow_maps/shadow_maps_io.h"
 
 namespace ag::render {
 namespace {
@@ -190,6 +191,14 @@ bool applyPreset(std::string_view name, RenderSettings& s) {
     if (found->mapResolution) s.bounce.rsm.resolution = found->mapResolution;
     if (!found->waits) s.bounce.refresh.lightFrames = 1;
     return true;
+}
+
+void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s) {
+    constexpr uint32_t kAtlasColumns = 4;  // of views of kMaxShadowViews
+    static_assert(kAtlasColumns * kAtlasColumns == io::kMaxShadowViews);
+    const uint32_t side = limits.maxImageDimension2D;
+    s.shadowMaps.resolution = std::min(s.shadowMaps.resolution, side / kAtlasColumns);
+    s.punctualShadows.atlasSize = std::min(s.punctualShadows.atlasSize, side);
 }
 
 void registerSettings(Settings& settings, RenderSettings& s) {

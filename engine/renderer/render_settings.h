@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "engine/gpu/functions.h"
 #include "engine/renderer/composite.h"
 #include "engine/renderer/punctual_lighting.h"
 #include "engine/renderer/shadow_maps.h"
@@ -55,6 +56,9 @@ struct RenderSettings {
 // published, "afterglow-lights" (the default's). False if there is no such preset.
 bool applyPreset(std::string_view name, RenderSettings& s);
 std::span<const std::string_view> presetNames();
+
+// Smaller shadow maps where the device has no images of the size that was asked for.
+void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s);
 
 // Registers every group's settings. `s` must outlive `settings`.
 void registerSettings(Settings& settings, RenderSettings& s);

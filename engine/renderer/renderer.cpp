@@ -92,6 +92,7 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     view.units = units_;
     view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     RenderSettings asked = settings;
+    fitToDevice(device_.info().limits, asked);
     asked.bounce.ismAtlas.keepMaps = settings.bounce.ismAtlas.keepMaps && options.skip;
     asked.composite.exposure += std::log2(units_.light);
     const RenderFrame frame = addFrame(graph_, view, asked, history_);

@@ -63,13 +63,6 @@ void startAnewAfter(AgiContext context, AgiView failed, uint64_t frame) noexcept
         if (view == failed || view->view.last.frame == frame) (void)across([&] { view->view.startAnew(); });
 }
 
-std::string requirementsMissing(const gpu::DeviceInfo& info) {
-    std::string missing;
-    for (const std::string& m : info.missing)
-        missing += (missing.empty() ? "" : ", ") + m;
-    return missing.empty() ? missing : info.name + " lacks " + missing;
-}
-
 // What to switch on, for as long as the library lives.
 const VkPhysicalDeviceFeatures2* featuresFor(const gpu::DeviceInfo& info) {
     static const auto make = [](bool subgroupSizes) {
@@ -114,7 +107,7 @@ AgiResult agiGetRequirements(VkInstance instance, VkPhysicalDevice device,
                      "instance, device or getInstanceProcAddr is null");
         const gpu::Functions vk = loadFunctions(getInstanceProcAddr, instance, VK_NULL_HANDLE);
         const gpu::DeviceInfo info = gpu::describeDevice(vk, device);
-        if (const std::string missing = requirementsMissing(info); !missing.empty())
+        if (const std::string missing = gpu::whatIsMissing(info); !missing.empty())
             throw Failure(FailureKind::kUnsupported, missing);
         AgiRequirements out{};
         out.features = featuresFor(info);

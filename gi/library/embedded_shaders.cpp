@@ -7,6 +7,8 @@ namespace ag::guest {
 Result<gpu::ShaderModule> embeddedShader(const std::string& path) {
     const auto all = embeddedShaders();
     const auto found = std::ranges::find_if(all, [&](const EmbeddedShader& s) { return path == s.path; });
+    if (found == all.end() && path.starts_with(gpu::kStorageTexelShaders))
+        return embeddedShader(path.substr(gpu::kStorageTexelShaders.size()));  // it reads no texel buffers
     if (found == all.end()) return Error{"the library was built without the shader " + path};
     gpu::ShaderModule module{
         .path = path,

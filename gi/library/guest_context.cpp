@@ -1,5 +1,6 @@
 #include "gi/library/guest_context.h"
 
+#include "engine/core/failure.h"
 #include "engine/gpu/barrier.h"
 #include "gi/library/embedded_shaders.h"
 
@@ -32,6 +33,8 @@ gpu::MemorySource memoryOf(const AgiContextInfo& info) {
 
 gpu::DeviceInfo describe(const gpu::Functions& vk, VkPhysicalDevice physical) {
     gpu::DeviceInfo info = gpu::describeDevice(vk, physical);
+    if (const std::string missing = gpu::whatIsMissing(info); !missing.empty())
+        fail(FailureKind::kUnsupported, missing);
     info.counts = false;  // the host may not have switched it on
     return info;
 }

@@ -4,10 +4,11 @@
 // Punctual lights in the colours of the clusters whose shadow map they share: surfaces by the one they have most light of, and the
 // lights themselves as dots, each cluster's centre as a large one.
 #include "common/false_color.h"
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 
 layout(push_constant, scalar) uniform Push { uint lightCount; } push;
-layout(set = 0, binding = 0) uniform samplerBuffer lights;
+layout(set = 0, binding = 0) VEC4_TEXELS(lights);
 #include "direct_lighting/punctual_light.glsl"
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2) uniform sampler2D normalMap;

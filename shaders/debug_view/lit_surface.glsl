@@ -2,9 +2,10 @@
 #ifndef AG_LIT_SURFACE_GLSL
 #define AG_LIT_SURFACE_GLSL
 
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 
 // Index of the emitter at `position`, ~0 if no face sees that point.

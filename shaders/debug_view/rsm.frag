@@ -2,10 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // The RSMs as radiosity, flux over area, in W/m².
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 
 layout(push_constant, scalar) uniform Push { RsmAtlas atlas; float light; } push;  // light: its unit, W/m²
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;
 

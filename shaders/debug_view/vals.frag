@@ -4,12 +4,13 @@
 // Virtual area lights drawn as the polygons they are: a surface point inside one takes its flux's hue in a shade of its
 // own, the rim dark; the rest of the scene in grey.
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "val_fit/val_fit_io.h"
 
 layout(push_constant) uniform Push { uint valCount; } push;
-layout(set = 0, binding = 0) uniform samplerBuffer vals;
-layout(set = 0, binding = 1) uniform samplerBuffer shapes;
+layout(set = 0, binding = 0) VEC4_TEXELS(vals);
+layout(set = 0, binding = 1) VEC4_TEXELS(shapes);
 layout(set = 0, binding = 2) uniform sampler2D depthMap;
 layout(set = 0, binding = 3) uniform sampler2D normalMap;
 layout(set = 0, binding = 4, scalar) uniform Camera { CameraConstants camera; } camera;
@@ -18,7 +19,7 @@ layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;
 
 vec2 cornerOf(uint light, uint i) {
-    vec4 two = texelFetch(shapes, int(light * kValShapeVec4s + 2 + i / 2));
+    vec4 two = fetchTexel(shapes, int(light * kValShapeVec4s + 2 + i / 2));
     return i % 2 == 0 ? two.xy : two.zw;
 }
 
@@ -42,9 +43,9 @@ void main() {
     vec3 base = vec3(0.1);
     float deepest = 0.0;  // polygons overlap a little: the one whose rim is farthest wins
     for (uint i = 0; i < push.valCount; ++i) {
-        vec4 place = texelFetch(vals, int(i) * 3);
-        vec3 n = texelFetch(vals, int(i) * 3 + 1).xyz;
-        vec3 flux = texelFetch(vals, int(i) * 3 + 2).xyz;
+        vec4 place = fetchTexel(vals, int(i) * 3);
+        vec3 n = fetchTexel(vals, int(i) * 3 + 1).xyz;
+        vec3 flux = fetchTexel(vals, int(i) * 3 + 2).xyz;
         if (flux == vec3(0.0)) continue;
         vec3 t, b, d = position - place.xyz;
         orthonormalBasis(n, t, b);

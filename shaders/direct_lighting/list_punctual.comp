@@ -4,6 +4,7 @@
 // For each tile of the screen the lights whose range reaches into the boxes round its near and far surfaces, in ascending
 // order, by one group of lanes a tile.
 #include "common/lanes.glsl"
+#include "common/texels.glsl"
 #include "direct_lighting/direct_lighting_io.h"
 #include "gbuffer/gbuffer.glsl"
 
@@ -12,7 +13,7 @@ layout(push_constant, scalar) uniform Push { PunctualPush p; } push;
 layout(constant_id = 0) const bool kByRange = true;  // false: all lights everywhere
 layout(set = 0, binding = 0) uniform sampler2D depthMap;
 layout(set = 0, binding = 1, scalar) uniform Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 2) uniform samplerBuffer lights;
+layout(set = 0, binding = 2) VEC4_TEXELS(lights);
 layout(set = 0, binding = 3, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 4, scalar) writeonly buffer Counts { uint items[]; } counts;
 
@@ -61,7 +62,7 @@ void main() {
     uint count = 0;
     for (uint base = 0; base < push.p.lightCount && count < kMaxPunctualLightsPerTile; base += kLanes) {
         uint light = base + laneIndex();
-        vec4 place = texelFetch(lights, int(min(light, push.p.lightCount - 1)) * 4);
+        vec4 place = fetchTexel(lights, int(min(light, push.p.lightCount - 1)) * 4);
         bool reaches = !kByRange || reachesBox(place, near) || reachesBox(place, far);
         bool mine = any && light < push.p.lightCount && reaches;
         LaneVote vote = laneVote(mine);

@@ -6,8 +6,8 @@
 
 PunctualLight punctualLightAt(uint index) {
     int at = int(index) * 4;
-    vec4 a = texelFetch(lights, at), b = texelFetch(lights, at + 1), c = texelFetch(lights, at + 2);
-    vec4 d = texelFetch(lights, at + 3);
+    vec4 a = fetchTexel(lights, at), b = fetchTexel(lights, at + 1), c = fetchTexel(lights, at + 2);
+    vec4 d = fetchTexel(lights, at + 3);
     PunctualLight light;
     light.position = a.xyz;
     light.inverseRange2 = a.w;

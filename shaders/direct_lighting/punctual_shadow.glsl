@@ -17,8 +17,8 @@ vec2 diskTap(int i, int count) {
 }
 
 LightClusterRow fetchCluster(uint index) {
-    vec4 a = texelFetch(clusters, int(index) * 4), b = texelFetch(clusters, int(index) * 4 + 1);
-    vec4 c = texelFetch(clusters, int(index) * 4 + 2), d = texelFetch(clusters, int(index) * 4 + 3);
+    vec4 a = fetchTexel(clusters, int(index) * 4), b = fetchTexel(clusters, int(index) * 4 + 1);
+    vec4 c = fetchTexel(clusters, int(index) * 4 + 2), d = fetchTexel(clusters, int(index) * 4 + 3);
     LightClusterRow cluster;
     cluster.center = a.xyz;
     cluster.radius = a.w;

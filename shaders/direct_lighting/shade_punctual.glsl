@@ -1,14 +1,15 @@
 // Irradiance straight from a tile's punctual lights. They come sorted by cluster, so that each cluster's visibility is found once a
 // pixel for all of its lights. Four pixels an invocation share the loads. AG_QUADS: for one pixel in each 2 x 2, and
 // beside it what arrived if nothing cast shadows.
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 
 layout(constant_id = 0) const bool kFirst = true;  // starts from zero instead of adding
 layout(constant_id = 2) const float kShadowReach = 0.0;
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 3) uniform samplerBuffer lights;
-layout(set = 0, binding = 7) uniform usamplerBuffer lists;
+layout(set = 0, binding = 3) VEC4_TEXELS(lights);
+layout(set = 0, binding = 7) UINT_TEXELS(lists);
 #include "direct_lighting/punctual_light.glsl"
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
@@ -24,12 +25,12 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
 #endif
 #ifdef AG_SHADOW
-layout(set = 0, binding = 4) uniform samplerBuffer clusters;
+layout(set = 0, binding = 4) VEC4_TEXELS(clusters);
 layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
 #include "direct_lighting/punctual_shadow.glsl"
 #endif
 
-uint lightIndex(uint entry) { return texelFetch(lists, int(entry)).x; }
+uint lightIndex(uint entry) { return fetchTexel(lists, int(entry)).x; }
 
 // Of a cluster, for each pixel. A loop, so that what is long is there once.
 vec4 clusterShares(uint cluster, Receiver r[kPixels]) {

@@ -5,6 +5,7 @@
 // that does arrive about here, from the up to four neighbours for which shadows were found. Four pixels an invocation
 // share the loads.
 #include "common/lane_loop.glsl"
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 
 layout(local_size_x = 64) in;  // one tile
@@ -12,8 +13,8 @@ layout(local_size_x = 64) in;  // one tile
 layout(constant_id = 0) const bool kFirst = true;  // starts from zero instead of adding
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 3) uniform samplerBuffer lights;
-layout(set = 0, binding = 7) uniform usamplerBuffer lists;
+layout(set = 0, binding = 3) VEC4_TEXELS(lights);
+layout(set = 0, binding = 7) UINT_TEXELS(lists);
 #include "direct_lighting/punctual_light.glsl"
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 #include "direct_lighting/receiver.glsl"
@@ -53,7 +54,7 @@ void main() {
     if (kLaneParallel) {
         for (uint base = first; base < end; base += kSubgroupSize) {
             uint entry = base + gl_SubgroupInvocationID;
-            PunctualLight mine = punctualLightAt(texelFetch(lists, int(min(entry, end - 1))).x);
+            PunctualLight mine = punctualLightAt(fetchTexel(lists, int(min(entry, end - 1))).x);
             if (entry >= end) mine.intensity = vec3(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
                 PunctualLight light = lightOfLane(mine, lane);
@@ -63,7 +64,7 @@ void main() {
         }
     } else {
         for (uint entry = first; entry < end; ++entry) {
-            PunctualLight light = punctualLightAt(texelFetch(lists, int(entry)).x);
+            PunctualLight light = punctualLightAt(fetchTexel(lists, int(entry)).x);
             [[unroll]] for (int p = 0; p < kPixels; ++p)
                 e[p] += irradianceFrom(light, r[p].position, r[p].normal, distance2);
         }

@@ -1,10 +1,11 @@
 // What moved, where gbuffer/fill.vert put it, and the way back to where it was a frame ago.
 #define AG_SCENE_INSTANCES
+#include "common/texels.glsl"
 #include "scene/scene.glsl"
 #ifdef AG_SKINNED
 #include "skinning/skin.glsl"
 
-layout(set = 0, binding = 2) uniform samplerBuffer previousJoints;
+layout(set = 0, binding = 2) VEC4_TEXELS(previousJoints);
 layout(set = 0, binding = 3, scalar) readonly buffer SkinnedMeshes { SkinRow items[]; } skinnedMeshes;
 layout(set = 0, binding = 4, scalar) readonly buffer Skin { SkinnedVertex items[]; } skin;
 layout(set = 0, binding = 5, scalar) readonly buffer Positions { vec3 items[]; } modelled;
@@ -18,7 +19,7 @@ vec3 bentBefore(uint skinnedMesh) {
 }
 #endif
 
-layout(set = 0, binding = 1) uniform samplerBuffer previousInstances;
+layout(set = 0, binding = 1) VEC4_TEXELS(previousInstances);
 layout(push_constant, scalar) uniform Push { mat4 clipFromWorld; } push;
 
 layout(location = 0) in vec3 position;
@@ -32,9 +33,9 @@ void main() {
 #ifdef AG_SKINNED
     if (t.skinnedMesh != kNoSkinnedMesh) p.xyz = bentBefore(t.skinnedMesh);
 #endif
-    vec3 before = vec3(dot(texelFetch(previousInstances, gl_InstanceIndex * 4 + 0), p),
-                       dot(texelFetch(previousInstances, gl_InstanceIndex * 4 + 1), p),
-                       dot(texelFetch(previousInstances, gl_InstanceIndex * 4 + 2), p));
+    vec3 before = vec3(dot(fetchTexel(previousInstances, gl_InstanceIndex * 4 + 0), p),
+                       dot(fetchTexel(previousInstances, gl_InstanceIndex * 4 + 1), p),
+                       dot(fetchTexel(previousInstances, gl_InstanceIndex * 4 + 2), p));
     outMotion = before - now;
     gl_Position = push.clipFromWorld * vec4(now, 1.0);
 }

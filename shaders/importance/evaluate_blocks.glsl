@@ -2,18 +2,19 @@
 // (rho_f), and how much of the view it faces (rho_v, cosine form of ACRSM). A small share for every lit block makes
 // seeding uniform over lit texels when all else is zero.
 #include "common/lane_loop.glsl"
+#include "common/texels.glsl"
 #include "importance/pyramid.glsl"
 #include "rsm/rsm.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { ImportanceSettings settings; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 2, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Pyramid { float items[]; } pyramid;
 #ifdef AG_VIEW_TERM
-layout(set = 0, binding = 4) uniform samplerBuffer viewPoints;
+layout(set = 0, binding = 4) VEC4_TEXELS(viewPoints);
 #endif
 
 struct BlockSum {
@@ -56,14 +57,14 @@ float viewTerm(vec3 position, vec3 normal) {
     if (kLaneParallel) {
         for (uint base = 0; base < kSeedingViewPoints; base += kSubgroupSize) {
             int mine = int(base + gl_SubgroupInvocationID) * 2;
-            vec4 a = texelFetch(viewPoints, mine);
-            vec3 n = texelFetch(viewPoints, mine + 1).xyz;
+            vec4 a = fetchTexel(viewPoints, mine);
+            vec3 n = fetchTexel(viewPoints, mine + 1).xyz;
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane)
                 sum += facingTerm(subgroupShuffle(a, lane), subgroupShuffle(n, lane), position, normal);
         }
     } else {
         for (uint i = 0; i < kSeedingViewPoints; ++i)
-            sum += facingTerm(texelFetch(viewPoints, int(i) * 2), texelFetch(viewPoints, int(i) * 2 + 1).xyz,
+            sum += facingTerm(fetchTexel(viewPoints, int(i) * 2), fetchTexel(viewPoints, int(i) * 2 + 1).xyz,
                               position, normal);
     }
     return sum / float(kSeedingViewPoints);

@@ -67,7 +67,7 @@ uint litTexelOfBlock(uint atlasWidth, uint face, uvec2 block, vec2 u) {
         uint place = (start + i) % count;
         uvec2 coord = origin + uvec2(place % side, place / side);
         uint index = rsmIndexOfCoord(coord, atlasWidth);
-        if (found == kNoCluster && texelFetch(texels, int(index) * 3 + 1).w > 0.0) found = index;
+        if (found == kNoCluster && fetchTexel(texels, int(index) * 3 + 1).w > 0.0) found = index;
     }
     return found;
 }

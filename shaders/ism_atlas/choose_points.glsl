@@ -16,7 +16,7 @@ uint firstEntryOf(uint map) { return map * push.p.entryCount; }
 
 // Of a segment, relative to other segments.
 float weightOf(IsmLight light, uint segment) {
-    vec4 ball = texelFetch(segments, int(min(segment, push.p.endSegment - 1)));
+    vec4 ball = fetchTexel(segments, int(min(segment, push.p.endSegment - 1)));
     vec2 radiusAndArea = unpackHalf2x16(floatBitsToUint(ball.w));
     float radius = radiusAndArea.x, area = radiusAndArea.y;
     vec3 d = ball.xyz - light.place;

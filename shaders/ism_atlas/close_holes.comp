@@ -6,6 +6,7 @@
 // its neighbours on two opposite sides share is a hole in that plane. What is empty then is filled by pull-push (Marroquim
 // et al. 2007; Ritschel et al. 2008): from the finest coarser level that was met there, whose texels are the lower medians
 // of four. Each lane has two by two texels.
+#include "common/texels.glsl"
 #include "ism_atlas/ism_map.glsl"
 #include "ism_atlas/lower_median.glsl"
 #include "ism_atlas/regions.glsl"
@@ -13,7 +14,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;  // a region
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer resolved;
+layout(set = 0, binding = 0) VEC4_TEXELS(resolved);
 layout(set = 0, binding = 1, scalar) readonly buffer Listed { uint items[]; } listed;
 layout(set = 0, binding = 2, scalar) writeonly buffer Planes { vec4 items[]; } planes;
 
@@ -28,7 +29,7 @@ void closeBetween(vec4 a, vec4 b, vec3 direction, inout vec4 texel) {
     if (onePlane && beyond) texel = vec4(a.xyz, 1.0 / along);
 }
 
-vec4 resolvedAt(uint map, ivec2 at) { return texelFetch(resolved, int(regionTexel(map, uvec2(at), push.p.tileSize))); }
+vec4 resolvedAt(uint map, ivec2 at) { return fetchTexel(resolved, int(regionTexel(map, uvec2(at), push.p.tileSize))); }
 
 vec4 closed(uint map, ivec2 at, int size) {
     const ivec2 kSides[4] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1));

@@ -10,7 +10,7 @@ struct IsmLight {
     bool lit;
 };
 
-#define AG_ISM_LIGHT(vals, map) ismLight_(texelFetch(vals, int(map) * 3).xyz, texelFetch(vals, int(map) * 3 + 1).xyz, texelFetch(vals, int(map) * 3 + 2))
+#define AG_ISM_LIGHT(vals, map) ismLight_(fetchTexel(vals, int(map) * 3).xyz, fetchTexel(vals, int(map) * 3 + 1).xyz, fetchTexel(vals, int(map) * 3 + 2))
 
 // From just before all of the light's own texels (power.w, m), so that it does not stand in its own way.
 IsmLight ismLight_(vec3 place, vec3 normal, vec4 power) {

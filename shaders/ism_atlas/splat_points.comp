@@ -5,6 +5,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 // Each map's own points (Ritschel et al. 2008) as disks in the surfaces' planes: a texel is met where the disk is, at
 // the distance of its plane there, and keeps the nearest by an atomic minimum of its key.
+#include "common/texels.glsl"
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"
 #include "ism_atlas/ism_map.glsl"
@@ -13,12 +14,12 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer points;
-layout(set = 0, binding = 1) uniform samplerBuffer vals;
-layout(set = 0, binding = 3) uniform usamplerBuffer chosen;
+layout(set = 0, binding = 0) VEC4_TEXELS(points);
+layout(set = 0, binding = 1) VEC4_TEXELS(vals);
+layout(set = 0, binding = 3) UINT_TEXELS(chosen);
 layout(set = 0, binding = 4, scalar) readonly buffer States { IsmMapState items[]; } states;
 layout(set = 0, binding = 2, scalar) buffer Keys { uint items[]; } keys;
-layout(set = 0, binding = 5) uniform usamplerBuffer listed;  // maps, in any order
+layout(set = 0, binding = 5) UINT_TEXELS(listed);  // maps, in any order
 
 layout(set = 0, binding = 6, scalar) buffer Finishes { IsmFinish items[]; } finishes;
 
@@ -54,17 +55,17 @@ vec2 reachOf(Splat s, vec3 normal) {
 }
 
 Splat splatOf(uint map, uint entry, IsmLight light) {
-    uint packed = texelFetch(chosen, int(map * push.p.entryCount + entry - push.p.firstEntry)).x;
+    uint packed = fetchTexel(chosen, int(map * push.p.entryCount + entry - push.p.firstEntry)).x;
     uint point = min(pointOf(packed), push.p.pointCount - 1);
     Splat s;
     s.entry = entry;
-    s.place = toLight(light, texelFetch(points, int(point) * 4).xyz - light.place);
-    vec4 normalAndRadius = texelFetch(points, int(point) * 4 + 1);
+    s.place = toLight(light, fetchTexel(points, int(point) * 4).xyz - light.place);
+    vec4 normalAndRadius = fetchTexel(points, int(point) * 4 + 1);
     vec3 normal = toLight(light, normalAndRadius.xyz);
     s.radius = normalAndRadius.w * growthOf(packed);
     s.plane = planeThrough(s.place, normal);
     for (int k = 0; k < 2; ++k) {
-        vec4 edge = texelFetch(points, int(point) * 4 + 2 + k);
+        vec4 edge = fetchTexel(points, int(point) * 4 + 2 + k);
         s.edges[k] = vec4(toLight(light, edge.xyz), edge.w);
     }
     float distance_ = length(s.place);
@@ -124,7 +125,7 @@ Splat splatOfLane(Splat mine, uint lane) {
 }
 
 void main() {
-    uint map = kListed ? texelFetch(listed, int(gl_WorkGroupID.y)).x : gl_WorkGroupID.y;
+    uint map = kListed ? fetchTexel(listed, int(gl_WorkGroupID.y)).x : gl_WorkGroupID.y;
     uint entry = push.p.firstEntry + min(gl_GlobalInvocationID.x, push.p.entryCount - 1);
     Splat mine = splatOf(map, entry, AG_ISM_LIGHT(vals, map));
     if (gl_GlobalInvocationID.x >= states.items[map].pointCount) mine.high = mine.low - 1;

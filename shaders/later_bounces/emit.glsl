@@ -1,5 +1,6 @@
 // What the points reflect of the light that fell on them a frame ago: emitters like an RSM's texels.
 #define AG_SCENE_INSTANCES
+#include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
 #include "rsm/rsm_io.h"
 #include "scene/scene.glsl"
@@ -12,7 +13,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { EmitPush p; } push;
 
 layout(set = 0, binding = 1, scalar) readonly buffer Points { BouncePoint items[]; } points;
-layout(set = 0, binding = 2) uniform samplerBuffer irradiance;  // W/m²
+layout(set = 0, binding = 2) VEC4_TEXELS(irradiance);  // W/m²
 layout(set = 0, binding = 3, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 4, scalar) writeonly buffer Edges { SurfaceEdge items[]; } edges;  // two a point
 #ifdef AG_SKINNED
@@ -37,7 +38,7 @@ void main() {
 #ifdef AG_SKINNED
     if (t.skinnedMesh != kNoSkinnedMesh) followSkinnedMesh(p);
 #endif
-    vec3 e = push.p.known == 1 ? texelFetch(irradiance, int(i)).rgb : vec3(0.0);
+    vec3 e = push.p.known == 1 ? fetchTexel(irradiance, int(i)).rgb : vec3(0.0);
     vec3 flux = min(p.albedo, vec3(kMostAlbedo)) * e * p.area;
     texels.items[i] = RsmTexel(transformPoint(t, p.positionLocal), p.area, normalize(transformNormal(t, p.normalLocal)),
                                (flux.x + flux.y + flux.z) / 3.0, flux, 1.0);

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/texels.glsl"
 // Irradiance at the points from the area lights of one of their run's lists, through the shadow maps the screen is lit
 // through.
 layout(constant_id = 0) const uint kShape = 4;
@@ -8,9 +9,9 @@ layout(constant_id = 1) const int kVisibilityTaps = 0;
 layout(constant_id = 2) const uint kList = 0;
 layout(constant_id = 5) const bool kAdd = false;  // to what the other list's light made
 
-layout(set = 0, binding = 3) uniform samplerBuffer vals;
-layout(set = 0, binding = 4) uniform samplerBuffer shapes;
-layout(set = 0, binding = 5) uniform samplerBuffer isms;
+layout(set = 0, binding = 3) VEC4_TEXELS(vals);
+layout(set = 0, binding = 4) VEC4_TEXELS(shapes);
+layout(set = 0, binding = 5) VEC4_TEXELS(isms);
 #include "later_bounces/later_bounces_io.h"
 #include "val_shading/area_light.glsl"
 #include "val_shading/light_lists.glsl"
@@ -19,8 +20,8 @@ const int kPoints = 4;  // an invocation: a light in registers shines on all of 
 layout(local_size_x = kRunPoints / kPoints) in;
 
 layout(push_constant, scalar) uniform Push { GatherPush p; } push;
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
-layout(set = 0, binding = 1) uniform usamplerBuffer lists;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
+layout(set = 0, binding = 1) UINT_TEXELS(lists);
 layout(set = 0, binding = 2, scalar) readonly buffer Counts { uvec2 items[]; } counts;
 layout(set = 0, binding = 6, scalar) buffer Irradiance { vec4 items[]; } irradiance;
 
@@ -38,7 +39,7 @@ void main() {
     Points points;
     [[unroll]] for (int p = 0; p < kPoints; ++p) {
         int at = int(min(first + p, push.p.count - 1)) * 3;
-        points.x[p] = texelFetch(texels, at).xyz, points.n[p] = texelFetch(texels, at + 1).xyz, points.e[p] = vec3(0.0);
+        points.x[p] = fetchTexel(texels, at).xyz, points.n[p] = fetchTexel(texels, at + 1).xyz, points.e[p] = vec3(0.0);
     }
     uint start = listStart(run_, kList, push.p.valCount), count = counts.items[run_][kList];
     AG_MEET_LIGHTS(start, count, addLight(l, points))

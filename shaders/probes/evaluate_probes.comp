@@ -1,14 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "common/texels.glsl"
 // The light at a probe: bounced, from the area lights the screen is lit by, through their shadow maps; and direct, from
 // the lights that have RSMs, by these maps' depth. One group of lanes a probe; its lanes share out the lights.
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 1) const int kVisibilityTaps = 0;
 
-layout(set = 0, binding = 0) uniform samplerBuffer vals;
-layout(set = 0, binding = 1) uniform samplerBuffer shapes;
-layout(set = 0, binding = 2) uniform samplerBuffer isms;
+layout(set = 0, binding = 0) VEC4_TEXELS(vals);
+layout(set = 0, binding = 1) VEC4_TEXELS(shapes);
+layout(set = 0, binding = 2) VEC4_TEXELS(isms);
 layout(set = 0, binding = 3) uniform sampler2D depthMap;
 #include "common/lanes.glsl"
 #include "common/lights.h"

@@ -5,6 +5,7 @@
 // beside a crease are listed to be trimmed. Texels that are points on surfaces are taken in as they are.
 #include "common/lights.h"
 #include "common/rsm_math.h"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 
 layout(local_size_x = 256) in;  // one tile
@@ -18,7 +19,7 @@ layout(set = 0, binding = 3, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]
 layout(set = 0, binding = 4, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 5, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 6, scalar) writeonly buffer TileMaps { uint items[]; } tileMaps;
-layout(set = 0, binding = 7) uniform samplerBuffer later;
+layout(set = 0, binding = 7) VEC4_TEXELS(later);
 #define PIXEL_LIST_BINDING 8
 #include "common/pixel_list.glsl"
 
@@ -89,7 +90,7 @@ bool atCrease(RsmFace face, uvec2 coord, vec3 normal) {
 
 RsmTexel pointTexel(RsmFace face, uint index) {
     int at = int(rsmIndexInFace(index, face, push.atlas.size.x)) * 3;
-    vec4 a = texelFetch(later, at), b = texelFetch(later, at + 1), c = texelFetch(later, at + 2);
+    vec4 a = fetchTexel(later, at), b = fetchTexel(later, at + 1), c = fetchTexel(later, at + 2);
     return RsmTexel(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w);
 }
 

@@ -12,7 +12,7 @@ struct RsmSurface {
     float area, weight, cosine;
 };
 
-#define AG_RSM_FETCH(texels, index) fetchRsmTexel_(texelFetch(texels, int(index) * 3), texelFetch(texels, int(index) * 3 + 1), texelFetch(texels, int(index) * 3 + 2))
+#define AG_RSM_FETCH(texels, index) fetchRsmTexel_(fetchTexel(texels, int(index) * 3), fetchTexel(texels, int(index) * 3 + 1), fetchTexel(texels, int(index) * 3 + 2))
 
 RsmSurface fetchRsmTexel_(vec4 a, vec4 b, vec4 c) { return RsmSurface(a.xyz, b.xyz, c.xyz, a.w, b.w, c.w); }
 

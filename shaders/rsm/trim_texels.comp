@@ -4,12 +4,13 @@
 // A texel stands for the part of its square up to where its surface meets its neighbours', not for all of it: area and
 // flux move across creases to the surface they belong to. Only those that were listed. What neighbours are read for,
 // position, normal and cosine, stays as it is.
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 layout(set = 0, binding = 2, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 3, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;

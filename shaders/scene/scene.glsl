@@ -3,13 +3,14 @@
 #define AG_SCENE_GLSL
 
 #include "common/brdf.h"
+#include "common/texels.glsl"
 #include "scene/scene_io.h"
 
 // Interpolated normals may cancel: zero stays zero.
 vec3 unitNormal(vec3 n) { return n * inversesqrt(max(dot(n, n), 1e-37)); }
 
 #ifdef AG_SCENE_INSTANCES
-layout(set = 0, binding = 0) uniform samplerBuffer instances;
+layout(set = 0, binding = 0) VEC4_TEXELS(instances);
 
 struct InstanceTransform {
     vec4 row0, row1, row2;
@@ -18,10 +19,10 @@ struct InstanceTransform {
 
 InstanceTransform fetchInstance(int slot) {
     InstanceTransform t;
-    t.row0 = texelFetch(instances, slot * 4 + 0);
-    t.row1 = texelFetch(instances, slot * 4 + 1);
-    t.row2 = texelFetch(instances, slot * 4 + 2);
-    vec4 ids = texelFetch(instances, slot * 4 + 3);
+    t.row0 = fetchTexel(instances, slot * 4 + 0);
+    t.row1 = fetchTexel(instances, slot * 4 + 1);
+    t.row2 = fetchTexel(instances, slot * 4 + 2);
+    vec4 ids = fetchTexel(instances, slot * 4 + 3);
     t.material = floatBitsToUint(ids.x);
     t.skinnedMesh = floatBitsToUint(ids.z);
     return t;
@@ -52,7 +53,7 @@ layout(constant_id = 0) const uint kTextureClass = 0;  // TextureClass: 0 means 
 layout(constant_id = 1) const bool kAlphaMask = false;
 layout(constant_id = 2) const bool kNormalMaps = false;
 
-layout(set = 0, binding = 1) uniform samplerBuffer materials;
+layout(set = 0, binding = 1) VEC4_TEXELS(materials);
 layout(set = 0, binding = 2) uniform sampler2DArray srgb256;
 layout(set = 0, binding = 3) uniform sampler2DArray srgb512;
 layout(set = 0, binding = 4) uniform sampler2DArray srgb1024;
@@ -90,15 +91,15 @@ struct SurfaceMaterial {
     vec2 uv;
 };
 
-bool isDoubleSided(uint material) { return texelFetch(materials, int(material) * 6 + 4).w > 0.0; }
+bool isDoubleSided(uint material) { return fetchTexel(materials, int(material) * 6 + 4).w > 0.0; }
 
 // Base colour, metallic and roughness with their textures applied; discards below the alpha cut-off.
 SurfaceMaterial fetchMaterial(uint index, vec2 uv) {
     int base = int(index) * 6;
-    vec4 emissiveCutoff = texelFetch(materials, base + 1);
-    vec4 factors = texelFetch(materials, base + 2);
+    vec4 emissiveCutoff = fetchTexel(materials, base + 1);
+    vec4 factors = fetchTexel(materials, base + 2);
     SurfaceMaterial m;
-    m.baseColor = texelFetch(materials, base);
+    m.baseColor = fetchTexel(materials, base);
     m.emissive = emissiveCutoff.xyz;
     m.metallic = factors.x;
     m.roughness = factors.y;
@@ -107,9 +108,9 @@ SurfaceMaterial fetchMaterial(uint index, vec2 uv) {
     m.layers = ivec4(-1);
     m.uv = uv;
     if (kTextureClass != 0) {
-        m.layers = floatBitsToInt(texelFetch(materials, base + 3));
-        vec4 row0 = texelFetch(materials, base + 4);
-        vec4 row1 = texelFetch(materials, base + 5);
+        m.layers = floatBitsToInt(fetchTexel(materials, base + 3));
+        vec4 row0 = fetchTexel(materials, base + 4);
+        vec4 row1 = fetchTexel(materials, base + 5);
         m.uv = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
         m.baseColor *= sampleSrgb(m.uv, m.layers.x);
         vec4 metallicRoughness = sampleLinear(m.uv, m.layers.w);

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // A skinned mesh's own vertices: those of its mesh, moved by its joints.
+#include "common/texels.glsl"
 #include "skinning/skin.glsl"
 
 layout(local_size_x = 64) in;  // kSkinGroup
@@ -9,7 +10,7 @@ layout(push_constant, scalar) uniform Push { uint firstGroup; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Groups { uint items[]; } groups;  // the skinned mesh of each
 layout(set = 0, binding = 1, scalar) readonly buffer SkinnedMeshes { SkinRow items[]; } skinnedMeshes;
-layout(set = 0, binding = 2) uniform samplerBuffer joints;
+layout(set = 0, binding = 2) VEC4_TEXELS(joints);
 layout(set = 0, binding = 3, scalar) readonly buffer Skin { SkinnedVertex items[]; } skin;
 layout(set = 0, binding = 4, scalar) readonly buffer Positions { vec3 items[]; } positions;
 layout(set = 0, binding = 5, scalar) readonly buffer Attributes { VertexRow items[]; } attributes;

@@ -7,8 +7,8 @@
 
 // Macros, as functions take no texel buffers.
 #define AG_JOINT(source, index)                                                                    \
-    SkinMatrix(texelFetch(source, int(index) * 3), texelFetch(source, int(index) * 3 + 1),         \
-               texelFetch(source, int(index) * 3 + 2))
+    SkinMatrix(fetchTexel(source, int(index) * 3), fetchTexel(source, int(index) * 3 + 1),         \
+               fetchTexel(source, int(index) * 3 + 2))
 
 #define AG_SKIN(source, first, vertex)                                                             \
     blendJoints(AG_JOINT(source, (first) + ((vertex).joints.x & 0xffffu)),                         \

@@ -5,6 +5,7 @@
 #include "common/lights.h"
 #include "common/rsm_math.h"
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "rsm/rsm.glsl"
 #include "stochastic_rsm/stochastic_rsm_io.h"
@@ -18,34 +19,34 @@ layout(constant_id = 2) const bool kFirst = true;    // starts from zero instead
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 3) uniform samplerBuffer texels;
+layout(set = 0, binding = 3) VEC4_TEXELS(texels);
 layout(set = 0, binding = 4, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 5, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(constant_id = 4) const bool kRandom = false;  // the pattern is shifted in each pixel and frame
 layout(constant_id = 5) const bool kWhole = false;   // every other sample from anywhere in the map; not of point lights
-layout(set = 0, binding = 6) uniform samplerBuffer pattern;  // unit direction; radius in the disk; share of the full angle
-layout(set = 0, binding = 9) uniform samplerBuffer noise;
+layout(set = 0, binding = 6) VEC4_TEXELS(pattern);  // unit direction; radius in the disk; share of the full angle
+layout(set = 0, binding = 9) UINT_TEXELS(noise);  // two 16-bit shares each
 layout(set = 0, binding = 7, scalar) readonly buffer List { uint count; uint pixels[]; } list;
 layout(set = 0, binding = 8, rgba16f) uniform image2D irradiance;
 
 #ifdef AG_VISIBLE
-#include "ism_atlas/ism_lookup.glsl"
 #include "val_clustering/val_clustering_io.h"
-layout(set = 0, binding = 10) uniform usamplerBuffer slotOfTexel;
-layout(set = 0, binding = 11) uniform usamplerBuffer candidates;
-layout(set = 0, binding = 12) uniform samplerBuffer vals;
-layout(set = 0, binding = 13) uniform samplerBuffer isms;
+layout(set = 0, binding = 10) UINT_TEXELS(slotOfTexel);
+layout(set = 0, binding = 11) UINT_TEXELS(candidates);
+layout(set = 0, binding = 12) VEC4_TEXELS(vals);
+layout(set = 0, binding = 13) VEC4_TEXELS(isms);
+#include "ism_atlas/ism_lookup.glsl"
 
 float sampleVisibility(uint texel, vec3 x) {
-    uint slot = texelFetch(slotOfTexel, int(texel)).x, tile = texel / (kRsmTileSize * kRsmTileSize);
+    uint slot = fetchTexel(slotOfTexel, int(texel)).x, tile = texel / (kRsmTileSize * kRsmTileSize);
     bool known = slot != kNoCluster;
-    int cluster = int(texelFetch(candidates, known ? int(tile * kMaxCandidates + slot) : 0).x);
-    vec3 center = texelFetch(vals, cluster * 3).xyz, normal = texelFetch(vals, cluster * 3 + 1).xyz, t, b;
-    float before = texelFetch(vals, cluster * 3 + 2).w;  // how far texels stand before the centre, m
+    int cluster = int(fetchTexel(candidates, known ? int(tile * kMaxCandidates + slot) : 0).x);
+    vec3 center = fetchTexel(vals, cluster * 3).xyz, normal = fetchTexel(vals, cluster * 3 + 1).xyz, t, b;
+    float before = fetchTexel(vals, cluster * 3 + 2).w;  // how far texels stand before the centre, m
     orthonormalBasis(normal, t, b);
     vec3 d = x - center;
     IsmTile map = IsmTile(cluster * int(push.p.ismTileSize * push.p.ismTileSize), int(push.p.ismTileSize));
-    float seen = ismHardVisibility(isms, map, vec3(dot(d, t), dot(d, b), dot(d, normal) - before));
+    float seen = ismHardVisibility(map, vec3(dot(d, t), dot(d, b), dot(d, normal) - before));
     return known ? seen : 1.0;
 }
 #endif
@@ -131,7 +132,7 @@ vec3 gather(vec3 x, vec3 n, vec2 by) {
     Shift shift = Shift(by, vec2(cos(2.0 * kPi * by.y), sin(2.0 * kPi * by.y)));
     vec3 e = vec3(0.0);
     for (uint i = 0; i < push.p.sampleCount; ++i) {
-        vec4 point = texelFetch(pattern, int(i));
+        vec4 point = fetchTexel(pattern, int(i));
         vec3 unit = shifted(point, shift);
         Tap tap = kKind == kLightPoint ? pointTap(map, toPixel, t, b, unit)
                   : kWhole             ? mixedTap(face, center, ahead, unit, fract(point.zw + by), core2, i % 2 == 0)
@@ -155,7 +156,7 @@ void main() {
     ivec2 pixel = ivec2(min(cell * push.p.step + push.p.step / 2, size - 1));
     float depth = texelFetch(depthMap, pixel, 0).x;
     vec3 x = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
-    vec2 by = kRandom ? texelFetch(noise, int((cell.y & 63u) * 64u + (cell.x & 63u))).xy + push.p.shift : vec2(0.0);
+    vec2 by = kRandom ? unpackUnorm2x16(fetchTexel(noise, int((cell.y & 63u) * 64u + (cell.x & 63u))).x) + push.p.shift : vec2(0.0);
     vec3 e = depth > 0.0 ? gather(x, texelFetch(normalMap, pixel, 0).xyz, by) : vec3(0.0);
     if (!there) return;
     if (!kFirst) e += imageLoad(irradiance, ivec2(cell)).rgb;

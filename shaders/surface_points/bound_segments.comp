@@ -2,22 +2,23 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // A ball round the points of each segment of the curve: about the middle of their box.
+#include "common/texels.glsl"
 #include "surface_points/surface_points_io.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PointPush p; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer points;
+layout(set = 0, binding = 0) VEC4_TEXELS(points);
 layout(set = 0, binding = 1, scalar) writeonly buffer Segments { SurfaceSegment items[]; } segments;
 
 vec3 placeOf(uint segment, uint i) {
-    return texelFetch(points, int(min(segment * kSegmentPoints + i, push.p.pointCount - 1)) * 4).xyz;
+    return fetchTexel(points, int(min(segment * kSegmentPoints + i, push.p.pointCount - 1)) * 4).xyz;
 }
 
 // The last segment may have fewer points.
 float areaOf(uint segment, uint i) {
     uint point = segment * kSegmentPoints + i;
-    float radius = texelFetch(points, int(min(point, push.p.pointCount - 1)) * 4 + 1).w;
+    float radius = fetchTexel(points, int(min(point, push.p.pointCount - 1)) * 4 + 1).w;
     return point < push.p.pointCount ? kPi * radius * radius : 0.0;
 }
 

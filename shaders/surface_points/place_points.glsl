@@ -1,5 +1,6 @@
 // Samples of the surfaces to where their instances are this frame.
 #define AG_SCENE_INSTANCES
+#include "common/texels.glsl"
 #include "scene/scene.glsl"
 #include "surface_points/place_edge.glsl"
 #ifdef AG_SKINNED
@@ -9,8 +10,8 @@
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { PointPush p; } push;
 
-layout(set = 0, binding = 1) uniform samplerBuffer samples;
-layout(set = 0, binding = 5) uniform samplerBuffer areas;
+layout(set = 0, binding = 1) VEC4_TEXELS(samples);
+layout(set = 0, binding = 5) FLOAT_TEXELS(areas);
 layout(set = 0, binding = 2, scalar) writeonly buffer Points { SurfacePoint items[]; } points;
 #ifdef AG_SKINNED
 layout(set = 0, binding = 3, scalar) readonly buffer Positions { vec3 items[]; } deformedPositions;
@@ -18,13 +19,13 @@ layout(set = 0, binding = 4, scalar) readonly buffer Attributes { VertexRow item
 #endif
 
 SurfaceSample fetchSample(int i) {
-    vec4 a = texelFetch(samples, i * 4), n = texelFetch(samples, i * 4 + 1);
+    vec4 a = fetchTexel(samples, i * 4), n = fetchTexel(samples, i * 4 + 1);
     SurfaceSample s;
     s.positionLocal = a.xyz;
     s.instance = floatBitsToUint(a.w);
     s.normalLocal = n.xyz;
     s.curvatureLocal = n.w;
-    for (int k = 0; k < 2; ++k) s.edgesLocal[k] = edgeOf(texelFetch(samples, i * 4 + 2 + k));
+    for (int k = 0; k < 2; ++k) s.edgesLocal[k] = edgeOf(fetchTexel(samples, i * 4 + 2 + k));
     return s;
 }
 
@@ -42,7 +43,7 @@ void main() {
     p.position = transformPoint(t, s.positionLocal);
     p.normal = normalize(transformNormal(t, s.normalLocal));
     p.curvature = s.curvatureLocal / max(length(transformDirection(t, s.normalLocal)), 1e-20);
-    p.radius = sqrt(texelFetch(areas, int(s.instance)).x / kPi);
+    p.radius = sqrt(fetchTexel(areas, int(s.instance)).x / kPi);
     for (int k = 0; k < 2; ++k) p.edges[k] = placeEdge(t, s.edgesLocal[k]);
     points.items[i] = p;
 }

@@ -8,6 +8,7 @@
 #include "common/clustering_metric.h"
 #include "common/lanes.glsl"
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
@@ -16,7 +17,7 @@ layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 layout(set = 0, binding = 0, scalar) readonly buffer Previous { Cluster items[]; } previous;
 layout(set = 0, binding = 1, scalar) readonly buffer PreviousExtents { ClusterExtent items[]; } extents;
 layout(set = 0, binding = 2, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
-layout(set = 0, binding = 3) uniform samplerBuffer texels;
+layout(set = 0, binding = 3) VEC4_TEXELS(texels);
 layout(set = 0, binding = 5, scalar) readonly buffer Errors { ClusterError items[]; } errors;
 layout(set = 0, binding = 4, scalar) writeonly buffer Plans { uint items[]; } plans;
 

@@ -5,6 +5,7 @@
 // texels of a tile meet the same candidates, so lanes load different ones and hand them round.
 #include "common/clustering_metric.h"
 #include "common/lane_loop.glsl"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
@@ -13,9 +14,9 @@ const uint kPerLane = 4;  // texels: what lanes hand round serves them all
 layout(local_size_x = 64) in;  // one tile
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
-layout(set = 0, binding = 1) uniform samplerBuffer seeds;
-layout(set = 0, binding = 2) uniform usamplerBuffer candidates;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
+layout(set = 0, binding = 1) VEC4_TEXELS(seeds);
+layout(set = 0, binding = 2) UINT_TEXELS(candidates);
 layout(set = 0, binding = 3, scalar) readonly buffer CandidateCounts { uint items[]; } candidateCounts;
 layout(set = 0, binding = 4, scalar) writeonly buffer SlotOfTexel { uint items[]; } slotOfTexel;
 
@@ -31,8 +32,8 @@ struct Seed {
 };
 
 Seed seedAt(uint candidate) {
-    int at = int(texelFetch(candidates, int(candidate)).x) * 3;
-    return Seed(texelFetch(seeds, at).xyz, texelFetch(seeds, at + 1).xyz, texelFetch(seeds, at + 2).xyz);
+    int at = int(fetchTexel(candidates, int(candidate)).x) * 3;
+    return Seed(fetchTexel(seeds, at).xyz, fetchTexel(seeds, at + 1).xyz, fetchTexel(seeds, at + 2).xyz);
 }
 
 void consider(inout Texel texel[kPerLane], Seed seed, uint slot, bool real) {

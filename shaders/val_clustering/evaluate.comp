@@ -6,6 +6,7 @@
 // s; one of another normal sends its light elsewhere at any distance.
 #include "common/lanes.glsl"
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "importance/importance_io.h"
 #include "val_clustering/covariance.glsl"
 #include "val_clustering/val_clustering_io.h"
@@ -14,7 +15,7 @@ layout(constant_id = 0) const bool kFromView = false;
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Previous { Cluster items[]; } previous;
-layout(set = 0, binding = 1) uniform samplerBuffer viewPoints;
+layout(set = 0, binding = 1) VEC4_TEXELS(viewPoints);
 layout(set = 0, binding = 2, scalar) writeonly buffer Errors { ClusterError items[]; } errors;
 
 float sum3(vec3 v) { return v.x + v.y + v.z; }
@@ -32,7 +33,7 @@ vec2 viewedFrom(Cluster c, vec4 place, vec3 normal) {
 vec2 meanOverView(Cluster c) {
     vec2 sum = vec2(0.0);
     for (uint i = laneIndex(); i < kViewPointCount; i += kLanes)
-        sum += viewedFrom(c, texelFetch(viewPoints, int(i) * 2), texelFetch(viewPoints, int(i) * 2 + 1).xyz);
+        sum += viewedFrom(c, fetchTexel(viewPoints, int(i) * 2), fetchTexel(viewPoints, int(i) * 2 + 1).xyz);
     return laneAdd(sum) / float(kViewPointCount);
 }
 

@@ -7,19 +7,20 @@
 // Where no seed is near, the nearest ones: every lit texel finds a cluster. One group of lanes a tile, so that the order is fixed.
 #include "common/clustering_metric.h"
 #include "common/lanes.glsl"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
 layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer seeds;
+layout(set = 0, binding = 0) VEC4_TEXELS(seeds);
 layout(set = 0, binding = 1, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 2, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Candidates { uint items[]; } candidates;
 layout(set = 0, binding = 4, scalar) writeonly buffer CandidateCounts { uint items[]; } candidateCounts;
 layout(set = 0, binding = 5, scalar) writeonly buffer PartialOf { uint items[]; } partialOf;
 
-layout(set = 0, binding = 6) uniform samplerBuffer texels;
+layout(set = 0, binding = 6) VEC4_TEXELS(texels);
 
 const uint kProbes = 16;  // of a tile: one a row and a column
 const uint kProbesPerLane = (kProbes + kLanes - 1) / kLanes;
@@ -27,8 +28,8 @@ const uint kFar = 1u << 20;  // tiles: beyond any map
 
 // Chebyshev distance in tiles; kFar for dead seeds and other maps' clusters.
 uint tileDistance(uint cluster, uvec2 tile, uint map) {
-    uint seedTile = floatBitsToUint(texelFetch(seeds, int(cluster) * 3).w);
-    uint seedMap = floatBitsToUint(texelFetch(seeds, int(cluster) * 3 + 1).w);
+    uint seedTile = floatBitsToUint(fetchTexel(seeds, int(cluster) * 3).w);
+    uint seedMap = floatBitsToUint(fetchTexel(seeds, int(cluster) * 3 + 1).w);
     uint tilesX = push.settings.atlasSize.x / kRsmTileSize;
     ivec2 d = abs(ivec2(seedTile % tilesX, seedTile / tilesX) - ivec2(tile));
     return seedTile == kNoCluster || seedMap != map ? kFar : uint(max(d.x, d.y));
@@ -55,8 +56,8 @@ Probe probeOf(uint tile, uint index) {
 void findNearest(inout Probe probes[kProbesPerLane], uvec2 place, uint map, uint count) {
     for (uint base = 0; base < count; base += kLanes) {
         uint mine = min(base + laneIndex(), count - 1);
-        vec3 position = texelFetch(seeds, int(mine) * 3).xyz, normal = texelFetch(seeds, int(mine) * 3 + 1).xyz,
-             chroma = texelFetch(seeds, int(mine) * 3 + 2).xyz;
+        vec3 position = fetchTexel(seeds, int(mine) * 3).xyz, normal = fetchTexel(seeds, int(mine) * 3 + 1).xyz,
+             chroma = fetchTexel(seeds, int(mine) * 3 + 2).xyz;
         bool live = tileDistance(mine, place, map) < kFar;
         uint here = min(kLanes, count - base);
         [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {

@@ -4,6 +4,7 @@
 // Where each cluster starts this step: its place of the last step (carried over in world space), or, if it was empty,
 // changed its light or left the map, a Halton point warped by importance (RSMC section 4; ACRSM algorithm 5.3).
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
@@ -15,7 +16,7 @@ layout(push_constant, scalar) uniform Push {
     uint pyramidStride;
 } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 2, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 3, scalar) readonly buffer Pyramid { float items[]; } pyramid;

@@ -7,15 +7,16 @@
 // directions of the seed's plane are noted too: the corners of the cluster's convex hull.
 #include "common/lanes.glsl"
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 
 layout(push_constant, scalar) uniform Push { uint clusterCount, mostPartials; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
-layout(set = 0, binding = 1) uniform samplerBuffer seeds;
-layout(set = 0, binding = 2) uniform usamplerBuffer candidates;
-layout(set = 0, binding = 3) uniform usamplerBuffer slotOfTexel;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
+layout(set = 0, binding = 1) VEC4_TEXELS(seeds);
+layout(set = 0, binding = 2) UINT_TEXELS(candidates);
+layout(set = 0, binding = 3) UINT_TEXELS(slotOfTexel);
 layout(set = 0, binding = 4, scalar) readonly buffer CandidateCounts { uint items[]; } candidateCounts;
 layout(set = 0, binding = 5, scalar) writeonly buffer Partials { vec4 items[]; } partials;
 layout(set = 0, binding = 6, scalar) writeonly buffer PartialOf { uint items[]; } partialOf;
@@ -116,16 +117,16 @@ void store(uint at, Sums s) {
 
 Sums sumCandidate(uint tile, uint slot, uint cluster) {
     Frame frame;
-    frame.origin = texelFetch(seeds, int(cluster) * 3).xyz;
-    frame.n = texelFetch(seeds, int(cluster) * 3 + 1).xyz;
+    frame.origin = fetchTexel(seeds, int(cluster) * 3).xyz;
+    frame.n = fetchTexel(seeds, int(cluster) * 3 + 1).xyz;
     orthonormalBasis(frame.n, frame.t, frame.b);
     Sums sums = noTexels();
     int first = int(rsmTexelIndex(tile, 0));
     for (uint base = 0; base < kTileTexels; base += kLanes) {
         uint texel = base + laneIndex();
         int at = first + int(texel);
-        addTexel(sums, texelFetch(slotOfTexel, at).x == slot, frame, texelFetch(texels, at * 3),
-                 texelFetch(texels, at * 3 + 1), texelFetch(texels, at * 3 + 2).xyz, texel);
+        addTexel(sums, fetchTexel(slotOfTexel, at).x == slot, frame, fetchTexel(texels, at * 3),
+                 fetchTexel(texels, at * 3 + 1), fetchTexel(texels, at * 3 + 2).xyz, texel);
     }
     return addLanes(sums);
 }
@@ -134,7 +135,7 @@ Sums sumCandidate(uint tile, uint slot, uint cluster) {
 uint membersFrom(uint tile, uint first) {
     uint found = 0;
     for (uint base = 0; base < kTileTexels; base += kLanes) {
-        uint slot = texelFetch(slotOfTexel, int(rsmTexelIndex(tile, base + laneIndex()))).x - first;
+        uint slot = fetchTexel(slotOfTexel, int(rsmTexelIndex(tile, base + laneIndex()))).x - first;
         found |= slot < 32 ? 1u << (slot & 31u) : 0u;  // unlit: beyond
     }
     return laneOr(found);
@@ -148,7 +149,7 @@ void main() {
         at = laneBroadcastFirst(at);
         for (uint left = members; left != 0; left &= left - 1, ++at) {
             uint slot = first + uint(findLSB(left));
-            uint cluster = texelFetch(candidates, int(tile * kMaxCandidates + slot)).x;
+            uint cluster = fetchTexel(candidates, int(tile * kMaxCandidates + slot)).x;
             Sums sums = sumCandidate(tile, slot, cluster);
             if (laneIndex() == 0 && at < push.mostPartials) {
                 store(at * kPartialVec4s, sums);

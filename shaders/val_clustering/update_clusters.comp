@@ -4,6 +4,7 @@
 // Segmented update, second half: each cluster gathers its sums from the tiles that list it and becomes their
 // flux-weighted mean. Flux and area are sums over the texels (not the centre's sample: ACRSM section 4.7 differs).
 #include "common/lanes.glsl"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/covariance.glsl"
 
@@ -11,8 +12,8 @@ layout(push_constant, scalar) uniform Push { ClusterSettings settings; } push;
 
 layout(set = 0, binding = 0, scalar) readonly buffer Seeds { ClusterSeed items[]; } seeds;
 layout(set = 0, binding = 1, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
-layout(set = 0, binding = 2) uniform usamplerBuffer partialOf;
-layout(set = 0, binding = 3) uniform samplerBuffer partials;
+layout(set = 0, binding = 2) UINT_TEXELS(partialOf);
+layout(set = 0, binding = 3) VEC4_TEXELS(partials);
 layout(set = 0, binding = 4, scalar) writeonly buffer Clusters { Cluster items[]; } clusters;
 layout(set = 0, binding = 5, scalar) writeonly buffer Extents { ClusterExtent items[]; } extents;
 
@@ -41,7 +42,7 @@ uint findTiles(uint cluster, uint first, uint tileCount) {
     uint found = 0;
     for (uint base = 0; base < kBatch; base += kLanes) {
         uint tile = first + base + laneIndex();
-        bool lists = texelFetch(partialOf, int(min(tile, tileCount - 1) * push.settings.clusterCount + cluster)).x !=
+        bool lists = fetchTexel(partialOf, int(min(tile, tileCount - 1) * push.settings.clusterCount + cluster)).x !=
                      kNoCluster;
         lists = lists && tile < tileCount;
         LaneVote vote = laneVote(lists);
@@ -59,12 +60,12 @@ struct Gathered {
 };
 
 void addTile(inout Gathered g, uint cluster, uint tile) {
-    int at = int(texelFetch(partialOf, int(tile * push.settings.clusterCount + cluster)).x * kPartialVec4s);
-    for (int i = 0; i < kSumVec4s; ++i) g.sums[i] += texelFetch(partials, at + i);
-    g.before = max(g.before, texelFetch(partials, at + 3).w);
+    int at = int(fetchTexel(partialOf, int(tile * push.settings.clusterCount + cluster)).x * kPartialVec4s);
+    for (int i = 0; i < kSumVec4s; ++i) g.sums[i] += fetchTexel(partials, at + i);
+    g.before = max(g.before, fetchTexel(partials, at + 3).w);
     for (int i = 0; i < int(kExtremes); ++i) {
-        float reach = texelFetch(partials, at + kSumVec4s + i / 4)[i % 4];
-        uint texel = rsmTexelIndex(tile, uint(texelFetch(partials, at + kSumVec4s + 2 + i / 4)[i % 4]));
+        float reach = fetchTexel(partials, at + kSumVec4s + i / 4)[i % 4];
+        uint texel = rsmTexelIndex(tile, uint(fetchTexel(partials, at + kSumVec4s + 2 + i / 4)[i % 4]));
         if (reach > g.extremes[i].reach) g.extremes[i] = Extreme(reach, texel);
     }
 }

@@ -5,6 +5,7 @@
 // light's plane (a uniform rectangle's are a third of its half sides squared), and the convex polygon of its farthest
 // texels. Empty clusters and the padding to whole subgroups become black lights.
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "surface_points/surface_points_io.h"
 #include "val_clustering/covariance.glsl"
@@ -19,7 +20,7 @@ layout(push_constant, scalar) uniform Push {
 
 layout(set = 0, binding = 0, scalar) readonly buffer Clusters { Cluster items[]; } clusters;
 layout(set = 0, binding = 3, scalar) readonly buffer Extents { ClusterExtent items[]; } extents;
-layout(set = 0, binding = 4) uniform samplerBuffer texels;
+layout(set = 0, binding = 4) VEC4_TEXELS(texels);
 layout(set = 0, binding = 5, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 6, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 7, scalar) readonly buffer Edges { SurfaceEdge items[]; } edges;

@@ -39,23 +39,23 @@ struct AreaLight {
 AreaLight loadLight(uint index) {
     AreaLight l;
     int at = int(index) * 3, shape = int(index * kValShapeVec4s);
-    l.place = texelFetch(vals, at);
-    vec4 normal = texelFetch(vals, at + 1);
+    l.place = fetchTexel(vals, at);
+    vec4 normal = fetchTexel(vals, at + 1);
     l.normal = normal.xyz;
     l.thickness = kPolygon ? normal.w : 0.0;
-    l.power = texelFetch(vals, at + 2);
-    vec4 u = kRectangle ? texelFetch(shapes, shape) : vec4(0.0);
+    l.power = fetchTexel(vals, at + 2);
+    vec4 u = kRectangle ? fetchTexel(shapes, shape) : vec4(0.0);
 #ifdef AG_SHARED_MAPS
     l.map = kSharedMaps ? uint(u.w) : index;
 #else
     l.map = index;
 #endif
-    vec4 v = kRectangle || kPolygon ? texelFetch(shapes, shape + 1) : vec4(0.0);
+    vec4 v = kRectangle || kPolygon ? fetchTexel(shapes, shape + 1) : vec4(0.0);
     l.halfU = u.xyz;
     l.halfV = v.xyz;
     [[unroll]] for (int i = 0; i < int(kValCorners) / 2; ++i)
-        l.corners[i] = kPolygon ? texelFetch(shapes, shape + 2 + i) : vec4(0.0);
-    l.gradient = kPolygon ? texelFetch(shapes, shape + 6) : vec4(0.0);
+        l.corners[i] = kPolygon ? fetchTexel(shapes, shape + 2 + i) : vec4(0.0);
+    l.gradient = kPolygon ? fetchTexel(shapes, shape + 6) : vec4(0.0);
     if (kShape == kShapeVectorDisk) {
         l.power.rgb /= l.place.w;
         l.place.w *= kInvPi;
@@ -123,7 +123,7 @@ float sharedVisibility(vec3 x, AreaLight l, uint ismTileSize) {
     vec3 t, b, d = x - l.halfU;
     orthonormalBasis(l.halfV, t, b);
     d = vec3(dot(d, t), dot(d, b), dot(d, l.halfV));
-    return l.map == kNoMap ? 1.0 : ismHardVisibility(isms, tileOf(l, ismTileSize), d);
+    return l.map == kNoMap ? 1.0 : ismHardVisibility(tileOf(l, ismTileSize), d);
 }
 #endif
 
@@ -134,8 +134,8 @@ float visibility(vec3 x, AreaLight l, LightFrame f, uint ismTileSize) {
 #endif
     vec3 d = toFrame(f, x - l.place.xyz) - vec3(0.0, 0.0, l.power.w);
     IsmTile tile = tileOf(l, ismTileSize);
-    if (!kSoft) return ismHardVisibility(isms, tile, d);
-    return ismSoftVisibility(isms, tile, d, toFrame(f, l.halfU).xy, toFrame(f, l.halfV).xy, kVisibilityTaps);
+    if (!kSoft) return ismHardVisibility(tile, d);
+    return ismSoftVisibility(tile, d, toFrame(f, l.halfU).xy, toFrame(f, l.halfV).xy, kVisibilityTaps);
 }
 
 // At a receiver of some width, m, that the light may be as near to.

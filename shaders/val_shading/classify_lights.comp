@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // For each tile of the screen, which lights are near and which far.
 #include "common/lanes.glsl"
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "val_shading/screen_tiles.glsl"
 
@@ -10,8 +11,8 @@ layout(push_constant, scalar) uniform Push { ValShadingPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D depthMap;
 layout(set = 0, binding = 1, scalar) uniform Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 2) uniform samplerBuffer vals;
-layout(set = 0, binding = 3) uniform samplerBuffer shapes;
+layout(set = 0, binding = 2) VEC4_TEXELS(vals);
+layout(set = 0, binding = 3) VEC4_TEXELS(shapes);
 layout(set = 0, binding = 4, scalar) writeonly buffer Lists { uint items[]; } lists;
 layout(set = 0, binding = 5, scalar) writeonly buffer Counts { uvec2 items[]; } counts;
 

@@ -3,16 +3,17 @@
 #extension GL_EXT_scalar_block_layout : require
 // Irradiance from a tile's far lights; four pixels an invocation share the loads.
 layout(constant_id = 0) const uint kShape = 2;
+#include "common/texels.glsl"
 #include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 8) const bool kListed = false;  // else every workgroup
-layout(set = 0, binding = 10) uniform usamplerBuffer listed;
+layout(set = 0, binding = 10) UINT_TEXELS(listed);
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D far;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D farToward;
 
 void main() {
-    uint group = kListed ? texelFetch(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
+    uint group = kListed ? fetchTexel(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
     TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     uvec2 size = camera.camera.size;
     Receiver r[kPixels];
@@ -28,7 +29,7 @@ void main() {
     if (kLaneParallel) {
         for (uint base = 0; base < count; base += kSubgroupSize) {
             uint entry = base + gl_SubgroupInvocationID;
-            AreaLight mine = loadLight(texelFetch(lists, int(start + min(entry, count - 1))).x);
+            AreaLight mine = loadLight(fetchTexel(lists, int(start + min(entry, count - 1))).x);
             if (entry >= count) mine.power = vec4(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
                 AreaLight l = lightOfLane(mine, lane);
@@ -37,7 +38,7 @@ void main() {
         }
     } else {
         for (uint entry = 0; entry < count; ++entry) {
-            AreaLight l = loadLight(texelFetch(lists, int(start + entry)).x);
+            AreaLight l = loadLight(fetchTexel(lists, int(start + entry)).x);
             [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
         }
     }

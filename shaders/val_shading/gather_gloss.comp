@@ -6,6 +6,7 @@
 #define AG_GLOSSY
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 5) const uint kList = 0;
+#include "common/texels.glsl"
 #include "val_shading/gather_inputs.glsl"
 #include "val_shading/gloss.glsl"
 
@@ -13,7 +14,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 8) uniform sampler2D albedoMap;
 layout(set = 0, binding = 9) uniform sampler2D reflectanceMap;
 layout(set = 0, binding = 10, rgba16f) uniform image2D gloss;
-layout(set = 0, binding = 11) uniform usamplerBuffer listed;
+layout(set = 0, binding = 11) UINT_TEXELS(listed);
 
 struct GlossyPixel {
     Receiver receiver;
@@ -50,7 +51,7 @@ void addLights(TileBlock block, inout GlossyPixel g[kPixels]) {
 }
 
 void main() {
-    uint group = texelFetch(listed, int(gl_WorkGroupID.x)).x;
+    uint group = fetchTexel(listed, int(gl_WorkGroupID.x)).x;
     TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     ivec2 size = ivec2(camera.camera.size);
     GlossyPixel g[kPixels];

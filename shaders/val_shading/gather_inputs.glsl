@@ -2,15 +2,17 @@
 #ifndef AG_GATHER_INPUTS_GLSL
 #define AG_GATHER_INPUTS_GLSL
 
+#include "common/texels.glsl"
+
 layout(constant_id = 1) const int kVisibilityTaps = 0;
 layout(constant_id = 7) const bool kDirected = false;  // also where the light comes from
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
-layout(set = 0, binding = 3) uniform samplerBuffer vals;
-layout(set = 0, binding = 4) uniform samplerBuffer shapes;
-layout(set = 0, binding = 5) uniform samplerBuffer isms;
-layout(set = 0, binding = 6) uniform usamplerBuffer lists;
+layout(set = 0, binding = 3) VEC4_TEXELS(vals);
+layout(set = 0, binding = 4) VEC4_TEXELS(shapes);
+layout(set = 0, binding = 5) VEC4_TEXELS(isms);
+layout(set = 0, binding = 6) UINT_TEXELS(lists);
 #include "val_shading/receiver.glsl"
 #include "val_shading/screen_tiles.glsl"
 

@@ -3,11 +3,12 @@
 #extension GL_EXT_scalar_block_layout : require
 // Irradiance from near lights, all of them at every pixel of their tile, on top of the far ones'.
 layout(constant_id = 0) const uint kShape = 4;
+#include "common/texels.glsl"
 #include "val_shading/gather_inputs.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 8) const bool kListed = false;  // else every workgroup
-layout(set = 0, binding = 14) uniform usamplerBuffer listed;
+layout(set = 0, binding = 14) UINT_TEXELS(listed);
 layout(set = 0, binding = 8) uniform sampler2D far;
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D irradiance;
 layout(set = 0, binding = 12) uniform sampler2D farToward;
@@ -18,7 +19,7 @@ void addLightToAll(AreaLight l, inout Receiver r[kPixels]) {
 }
 
 void main() {
-    uint group = kListed ? texelFetch(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
+    uint group = kListed ? fetchTexel(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
     TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
     ivec2 size = ivec2(camera.camera.size);
     float depth[kPixels];

@@ -9,7 +9,7 @@
     if (kLaneParallel) {                                                                                                  \
         for (uint base = 0; base < (count); base += kSubgroupSize) {                                                      \
             uint entry = (start) + min(base + gl_SubgroupInvocationID, (count) - 1), here = min(kSubgroupSize, (count) - base); \
-            AreaLight mine = loadLight(texelFetch(lists, int(entry)).x);                                                  \
+            AreaLight mine = loadLight(fetchTexel(lists, int(entry)).x);                                                  \
             [[dont_unroll]] for (uint lane = 0; lane < here; ++lane) {                                                    \
                 AreaLight l = lightOfLane(mine, lane);                                                                    \
                 meet;                                                                                                     \
@@ -17,7 +17,7 @@
         }                                                                                                                 \
     } else {                                                                                                              \
         for (uint i = 0; i < (count); ++i) {                                                                              \
-            AreaLight l = loadLight(texelFetch(lists, int((start) + i)).x);                                               \
+            AreaLight l = loadLight(fetchTexel(lists, int((start) + i)).x);                                               \
             meet;                                                                                                         \
         }                                                                                                                 \
     }

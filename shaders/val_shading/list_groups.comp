@@ -4,6 +4,7 @@
 // Lists the workgroups of a gathering whose pixels are gathered anew: those that are due, and those any of whose surfaces is
 // another than when they were gathered last. In any order. Of the groups of gather_gloss.comp only those that have a specular lobe.
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "val_shading/screen_tiles.glsl"
 
 layout(local_size_x = 64) in;  // as the gathering
@@ -13,7 +14,7 @@ layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2) uniform sampler2D albedoMap;
 layout(set = 0, binding = 3) uniform sampler2D reflectanceMap;
-layout(set = 0, binding = 4) uniform usamplerBuffer glossyGroups;
+layout(set = 0, binding = 4) UINT_TEXELS(glossyGroups);
 layout(set = 0, binding = 5, scalar) readonly buffer PreviousDigests { uvec2 items[]; } previousDigests;
 layout(set = 0, binding = 6, scalar) writeonly buffer Digests { uvec2 items[]; } digests;
 layout(set = 0, binding = 7, scalar) writeonly buffer Listed { uint items[]; } listed;
@@ -48,7 +49,7 @@ bool isDue(uint tile) {
 void main() {
     if (gl_LocalInvocationIndex == 0) digest = uvec2(0);
     barrier();
-    uint group = kGlossy ? texelFetch(glossyGroups, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
+    uint group = kGlossy ? fetchTexel(glossyGroups, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
     TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.gather.tileSize, push.p.gather.tiles, 1);
     ivec2 size = textureSize(depthMap, 0);
     for (int p = 0; p < kPixels; ++p) {

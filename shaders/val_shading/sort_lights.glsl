@@ -36,13 +36,13 @@ uvec2 sortLights(uint tile, Box box, uint firstVal, uint valCount, float nearRea
     for (uint base = firstVal; base < valCount; base += kLanes) {
         uint light = base + laneIndex();
         int at = int(min(light, valCount - 1));
-        vec3 place = texelFetch(vals, at * 3).xyz;
-        vec4 normal = texelFetch(vals, at * 3 + 1);  // and thickness
-        bool lit = texelFetch(vals, at * 3 + 2).rgb != vec3(0.0) && any && light < valCount;
+        vec3 place = fetchTexel(vals, at * 3).xyz;
+        vec4 normal = fetchTexel(vals, at * 3 + 1);  // and thickness
+        bool lit = fetchTexel(vals, at * 3 + 2).rgb != vec3(0.0) && any && light < valCount;
         vec3 d = middle - place;
         bool reaches = lit && dot(d, normal.xyz) + dot(half_, abs(normal.xyz)) > -kDeepest * normal.w;
         vec3 apart = max(abs(d) - half_, vec3(0.0));
-        vec3 halfU = texelFetch(shapes, at * int(kValShapeVec4s)).xyz;
+        vec3 halfU = fetchTexel(shapes, at * int(kValShapeVec4s)).xyz;
         float reach = nearReach * length(halfU);
         bool near = reaches && dot(apart, apart) < reach * reach;
         appendLight(listStart(tile, kNearList, valCount), near, light, count.x);

@@ -1,5 +1,6 @@
 // Shaders into a library: their bytes by the assembler's .incbin, and a table of what reflection says of
-// them, so that nothing is read or reflected at run time.
+// them, so that nothing is read or reflected at run time. What they are for devices of small texel buffers
+// goes with them where it differs.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -38,20 +39,25 @@ int main(int count, char** arguments) {
         return 2;
     }
     std::string rows, entries, externs, bytes = "    .section .rodata\n";
-    for (int i = 4; i < count; ++i) {
-        const auto module = loadShader(arguments[i]);
-        if (!module) {
-            std::cerr << module.error().message << '\n';
-            return 2;
-        }
-        const size_t index = size_t(i) - 4;
-        rows += rowsOf(*module, index);
-        entries += entryOf(*module, index);
+    size_t index = 0;
+    const auto add = [&](const ShaderModule& module) {
+        rows += rowsOf(module, index);
+        entries += entryOf(module, index);
         externs += fmt::format("extern const uint32_t afterglow_shader{}[];\n", index);
         bytes += fmt::format(
             "    .balign 16\n    .globl afterglow_shader{0}\n    .hidden afterglow_shader{0}\n"
             "afterglow_shader{0}:\n    .incbin \"{1}/{2}.spv\"\n",
-            index, arguments[3], arguments[i]);
+            index++, arguments[3], module.path);
+    };
+    for (int i = 4; i < count; ++i) {
+        const auto module = loadShader(arguments[i]),
+                   storage = loadShader(kStorageTexelShaders + arguments[i]);
+        if (!module || !storage) {
+            std::cerr << (module ? storage : module).error().message << '\n';
+            return 2;
+        }
+        add(*module);
+        if (storage->spirv != module->spirv) add(*storage);
     }
     bytes += "    .section .note.GNU-stack,\"\",%progbits\n";
     const std::string table =

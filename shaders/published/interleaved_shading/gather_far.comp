@@ -28,7 +28,7 @@ void main() {
     if (kLaneParallel) {
         for (uint base = block.part; base < count; base += kSubgroupSize * kParts) {
             uint entry = base + gl_SubgroupInvocationID * kParts;
-            AreaLight mine = loadLight(texelFetch(lists, int(start + min(entry, count - 1))).x);
+            AreaLight mine = loadLight(fetchTexel(lists, int(start + min(entry, count - 1))).x);
             if (entry >= count) mine.power = vec4(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
                 AreaLight l = lightOfLane(mine, lane);
@@ -37,7 +37,7 @@ void main() {
         }
     } else {
         for (uint entry = block.part; entry < count; entry += kParts) {
-            AreaLight l = loadLight(texelFetch(lists, int(start + entry)).x);
+            AreaLight l = loadLight(fetchTexel(lists, int(start + entry)).x);
             [[unroll]] for (int p = 0; p < kPixels; ++p) addLight(l, push.p.ismTileSize, r[p]);
         }
     }

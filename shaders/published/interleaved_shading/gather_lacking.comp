@@ -38,12 +38,12 @@ void main() {
         for (uint base = 0; base < count; base += kSubgroupSize) {
             if (kLaneParallel) {
                 uint i = min(base + gl_SubgroupInvocationID, count - 1);
-                AreaLight light = loadLight(texelFetch(lists, int(start + i)).x);
+                AreaLight light = loadLight(fetchTexel(lists, int(start + i)).x);
                 [[dont_unroll]] for (uint lane = 0; lane < min(kSubgroupSize, count - base); ++lane)
                     addIfLacking(lightOfLane(light, lane), base + lane, parts, r);
             } else {
                 for (uint i = base; i < min(base + kSubgroupSize, count); ++i)
-                    addIfLacking(loadLight(texelFetch(lists, int(start + i)).x), i, parts, r);
+                    addIfLacking(loadLight(fetchTexel(lists, int(start + i)).x), i, parts, r);
             }
         }
         if (mine < pixels) {

@@ -4,13 +4,14 @@
 // First-bounce lights: RSM texels under a Hammersley set, the same one every frame, each with its share of the
 // map's texels (SSVP section III-A).
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_fit/val_fit_io.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { uint vplCount, atlasWidth, mapCount; } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 2, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 3, scalar) writeonly buffer Vpls { Val items[]; } vpls;

@@ -5,6 +5,7 @@
 // the loads.
 #include "common/form_factors.h"
 #include "common/lane_loop.glsl"
+#include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 
 layout(local_size_x = 64) in;  // 16 x 16 pixels, a 2 x 2 block each
@@ -14,7 +15,7 @@ layout(push_constant, scalar) uniform Push { uint first, last; } push;  // texel
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
-layout(set = 0, binding = 3) uniform samplerBuffer texels;
+layout(set = 0, binding = 3) VEC4_TEXELS(texels);
 layout(set = 0, binding = 4, rgba16f) uniform image2D irradiance;
 
 const int kPixels = 4;
@@ -25,7 +26,7 @@ struct PointLight {
 
 PointLight loadLight(uint index) {
     int at = int(index) * 3;
-    return PointLight(texelFetch(texels, at).xyz, texelFetch(texels, at + 1).xyz, texelFetch(texels, at + 2).xyz);
+    return PointLight(fetchTexel(texels, at).xyz, fetchTexel(texels, at + 1).xyz, fetchTexel(texels, at + 2).xyz);
 }
 
 void accumulate(inout vec3 e[kPixels], vec3 x[kPixels], vec3 n[kPixels], PointLight l) {

@@ -4,6 +4,7 @@
 // Virtual point lights (Keller 1997; Ritschel et al. 2008): RSM texels under Halton points warped by importance,
 // each with its block's flux over the block's chance, so that the mean of the lights' total is that of the map.
 #include "common/sampling.h"
+#include "common/texels.glsl"
 #include "rsm/rsm.glsl"
 #include "val_clustering/val_clustering_io.h"
 #include "val_fit/val_fit_io.h"
@@ -15,7 +16,7 @@ layout(push_constant, scalar) uniform Push {
     uint atlasWidth, mapCount, pyramidStride;
 } push;
 
-layout(set = 0, binding = 0) uniform samplerBuffer texels;
+layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
 layout(set = 0, binding = 2, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 3, scalar) readonly buffer Pyramid { float items[]; } pyramid;
@@ -29,7 +30,7 @@ vec3 fluxOfBlock(uint face, uvec2 block) {
     vec3 sum = vec3(0.0);
     for (uint i = 0; i < side * side; ++i) {
         uvec2 coord = origin + uvec2(i % side, i / side);
-        sum += texelFetch(texels, int(rsmIndexOfCoord(coord, push.atlasWidth)) * 3 + 2).rgb;
+        sum += fetchTexel(texels, int(rsmIndexOfCoord(coord, push.atlasWidth)) * 3 + 2).rgb;
     }
     return sum;
 }
