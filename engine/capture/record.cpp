@@ -101,6 +101,7 @@ FrameRecorder::FrameRecorder(render::Renderer& renderer, uint32_t warmUp, uint32
 FrameGraphOptions FrameRecorder::options(const FrameGraphOptions& asked) const {
     FrameGraphOptions options = asked;
     options.skip = asked.skip && rendered_ >= warmUp_;
+    options.timing = TimingMode::kBracketed;
     return options;
 }
 

@@ -80,7 +80,8 @@ struct FrameSpans {
 };
 
 enum class TimingMode {
-    kTimestamps,  // barrier, timestamp, barrier round every pass
+    kTimestamps,  // of every pass; those that overlap share their time
+    kBracketed,   // with barriers round every pass, so that its time is its own and the frame takes longer
     kProcessCpu,  // executeAlone(): process CPU time around each pass, the true cost on a CPU device
     kCounts,      // no times: what the device counts in each pass (see counts())
     kOff,

@@ -177,11 +177,13 @@ void FrameGraph::Impl::finishPass(const Pass& pass) {
 
 void FrameGraph::Impl::readTimes(VkCommandBuffer commands) {
     size_t count = 0;
-    const uint64_t read = timer->beginFrame(commands, frame, [&](uint32_t tag, uint64_t begin, uint64_t end) {
-        if (count++ == 0) spans.clear();
-        stats[tag].gpuMs = timer->milliseconds(end - begin);
-        spans.push_back({stats[tag].name, begin, end});
-    });
+    const bool bracketed = options.timing == TimingMode::kBracketed;
+    const uint64_t read =
+        timer->beginFrame(commands, frame, bracketed, [&](uint32_t tag, uint64_t begin, uint64_t end) {
+            if (count++ == 0) spans.clear();
+            stats[tag].gpuMs = timer->milliseconds(end - begin);
+            spans.push_back({stats[tag].name, begin, end});
+        });
     if (read) spansFrame = read;
 }
 
@@ -231,7 +233,9 @@ void FrameGraph::execute(VkCommandBuffer commands) {
     Impl& g = *impl_;
     AG_CHECK(g.options.timing != TimingMode::kProcessCpu);
     g.plan();
-    const bool timed = g.context && g.options.timing == TimingMode::kTimestamps && commands;
+    const bool stamps =
+        g.options.timing == TimingMode::kTimestamps || g.options.timing == TimingMode::kBracketed;
+    const bool timed = g.context && stamps && commands;
     const bool counted =
         g.context && g.context->info().counts && g.options.timing == TimingMode::kCounts && commands;
     if (timed && !g.timer) g.timer = std::make_unique<FrameTimer>(*g.context);

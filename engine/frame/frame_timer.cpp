@@ -48,7 +48,8 @@ void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
     next_ = (next_ + 1) % rings_.size();
 }
 
-void FrameTimer::stamp(VkCommandBuffer commands, uint32_t query) {
+void FrameTimer::barrier(VkCommandBuffer commands) {
+    if (!bracketed_) return;
     const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
@@ -57,9 +58,13 @@ void FrameTimer::stamp(VkCommandBuffer commands, uint32_t query) {
     const VkDependencyInfo info{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
     context_.vk().CmdPipelineBarrier2(commands, &info);
+}
+
+void FrameTimer::stamp(VkCommandBuffer commands, uint32_t query) {
+    barrier(commands);
     context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, rings_[active_].pool,
                                      query);
-    context_.vk().CmdPipelineBarrier2(commands, &info);
+    barrier(commands);
 }
 
 void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {

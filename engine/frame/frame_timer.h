@@ -1,7 +1,7 @@
 // GPU time of passes by timestamps, read a few frames later without stalling. A pass begins where the one
-// before it ended, so that its own barriers count as its own. A full barrier stands on both sides of each
-// timestamp: CPU devices otherwise run a pass before the timestamp that should precede it is taken. The
-// device copies them to where the host reads them: asking it for query results waits on lavapipe for all its
+// before it ended, so that its own barriers count as its own. Bracketed, a full barrier stands on both sides
+// of each timestamp and the time is the pass's alone; else passes that overlap share it. The device copies
+// the timestamps to where the host reads them: asking it for query results waits on lavapipe for all its
 // work.
 #pragma once
 
@@ -34,7 +34,8 @@ class FrameTimer {
     // Reads the results of the frame that used this slot before: calls back with (tag, first tick, last tick)
     // for each pass, and returns that frame's number, 0 if there is none. Its work must have finished.
     template <class F>
-    uint64_t beginFrame(VkCommandBuffer commands, uint64_t frame, F&& result) {
+    uint64_t beginFrame(VkCommandBuffer commands, uint64_t frame, bool bracketed, F&& result) {
+        bracketed_ = bracketed;
         Ring& ring = rings_[next_];
         const std::span<const uint64_t> ticks = ticksOf(ring);
         const uint64_t read = ticks.empty() ? 0 : ring.frame;
@@ -59,11 +60,13 @@ class FrameTimer {
     static std::span<const uint64_t> ticksOf(const Ring& ring);
     void restart(VkCommandBuffer commands, Ring& ring);
     void stamp(VkCommandBuffer commands, uint32_t query);
+    void barrier(VkCommandBuffer commands);
 
     gpu::Context& context_;
     double periodNs_;
     std::array<Ring, kTimerFrames> rings_;
     size_t next_ = 0, active_ = 0;
+    bool bracketed_ = false;
     bool open_ = false;  // a begin() waits for its end()
 };
 

@@ -218,7 +218,7 @@ void GuestView::record(GuestScene& scene, VkCommandBuffer commands, const AgiFra
     context_.fillWhite(commands);
     surfaces_->upload(commands);
     const Images images(context_.gpu(), f);
-    graph_->beginFrame({.timing = f.timed ? TimingMode::kTimestamps : TimingMode::kOff});
+    graph_->beginFrame({.timing = f.timed ? TimingMode::kBracketed : TimingMode::kOff});
     gi::ProbeReadings before = history_.probes;
     const gi::BounceLight light = declare(*graph_, scene, f, images, history_);
     keepReadings(f, std::move(before));

@@ -121,6 +121,7 @@ void SceneBench::timeFrames(const render::RenderSettings& settings, render::Laye
     Frame frame{renderer_, options_.size, layer};
     FrameGraphOptions everything;
     everything.skip = false;
+    everything.timing = TimingMode::kBracketed;
     std::vector<double> totals, host;
     std::map<std::string, std::vector<double>> passes;
     const auto start = Clock::now();

@@ -90,9 +90,9 @@ class Walkthrough {
         const uint32_t timedFrames = kLateFrames + cpuFrames;
         const double part = 1.0 / cpuFrames;
         for (uint32_t i = 0; i < kWarmFrames; ++i)
-            frame(change, {});
+            frame(change, {.timing = TimingMode::kBracketed});
         for (uint32_t i = 0; i < timedFrames; ++i) {
-            frame(change, {.skip = change != Change::kEverything});
+            frame(change, {.skip = change != Change::kEverything, .timing = TimingMode::kBracketed});
             if (i < kLateFrames) continue;
             for (const PassReport& pass : renderer_.graph().report()) {
                 if (pass.outcome != PassOutcome::kRan) continue;
