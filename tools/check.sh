@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
 # What a change should pass before it is sent: format, warnings, every test under the address and undefined-behaviour
 # sanitizers, the job system and the game under the thread sanitizer. --tidy adds clang-tidy (slow); --all adds that, the
-# whole stress table, 100,000 ticks of the game and ten minutes of fuzzing (hours).
+# whole stress table, 100,000 ticks of the game, ten minutes of fuzzing and the long device suite (hours); --devices is
+# that suite alone (tools/devices.sh).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+if [[ ${1:-} == --devices ]]; then
+  cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release
+  cmake --build build
+  exec tools/devices.sh
+fi
 command -v clang-format >/dev/null || { echo "afterglow: clang-format is missing (Debian package clang-format)" >&2; exit 2; }
 git ls-files -co --exclude-standard | grep -E '\.(h|cpp)$' | xargs clang-format --dry-run -Werror
 
@@ -27,5 +33,6 @@ if [[ ${1:-} == --all ]]; then
   build/bin/afterglow stress --validate
   tools/soak.sh
   tools/fuzz.sh 600
+  tools/devices.sh
 fi
 echo "afterglow: all checks passed"

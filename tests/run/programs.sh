@@ -30,7 +30,7 @@ expect 2 "lacks timelineSemaphore" "$bin/afterglow" info --without timelineSemap
 for feature in multiDrawIndirect drawIndirectFirstInstance scalarBlockLayout hostQueryReset dynamicRendering synchronization2 maintenance4 "subgroup shuffle, ballot and arithmetic"; do
   expect 2 "lacks $feature" "$bin/afterglow-demo" --headless --frames 1 --without "$feature"
 done
-expect 2 "there is no feature 'rays'" "$bin/afterglow" info --without rays
+expect 2 "there is no feature or limit 'rays'" "$bin/afterglow" info --without rays
 expect 0 "timestamps         none" "$bin/afterglow" info --without timestamps
 expect 0 "frames of 32x18" "$bin/afterglow-demo" --headless --frames 3 --size 32x18 --without timestamps --validate
 expect 2 "not 'fire:1'" "$bin/afterglow-demo" --headless --frames 1 --fault fire:1

@@ -30,8 +30,14 @@ int runInfo(const std::vector<std::string>& without) {
                                                             ? fmt::format("{} ns", info.timestampPeriodNs)
                                                             : "none");
     std::cout << fmt::format(
-        "storage buffer     {} MiB at most\nimage              {} texels a side, {} layers\n",
-        limits.maxStorageBufferRange >> 20, limits.maxImageDimension2D, limits.maxImageArrayLayers);
+        "storage buffer     {} MiB at most\nimage              {} texels a side, {} layers\n"
+        "texel buffers      {}\n",
+        limits.maxStorageBufferRange >> 20, limits.maxImageDimension2D, limits.maxImageArrayLayers,
+        info.storageTexels ? "too small: storage buffers instead" : "as large as any other");
+    VkPhysicalDeviceLimits all = limits;
+    for (const gpu::DeviceLimit& limit : gpu::deviceLimits())
+        std::cout << fmt::format("limit              {:<36} {:>10} {:>10}\n", limit.name, limit.least,
+                                 limit.of(all));
     for (const std::string& name : info.enabled)
         std::cout << "on                 " << name << '\n';
     for (const std::string& name : info.missing)
@@ -44,7 +50,9 @@ int runInfo(const std::vector<std::string>& without) {
 void addInfoCommand(CLI::App& program, int& exitCode) {
     CLI::App* command = program.add_subcommand("info", "device, driver, features and limits");
     const auto without = std::make_shared<std::vector<std::string>>();
-    command->add_option("--without", *without, "as if the device lacked this feature")
+    command
+        ->add_option("--without", *without,
+                     "as if the device lacked this feature, or had no more of a limit: LIMIT=N")
         ->allow_extra_args(false);
     command->callback([without, &exitCode] { exitCode = runInfo(*without); });
 }

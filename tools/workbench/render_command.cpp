@@ -321,7 +321,9 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->add_option("--walk", options->walk,
                         "with --times: DX,DY,DZ, m the camera moves in each frame measured");
     command->add_flag("--times", options->times, "print each pass's process CPU time and the memory used");
-    command->add_option("--without", options->without, "run as if the device lacked this feature")
+    command
+        ->add_option("--without", options->without,
+                     "run as if the device lacked this feature, or had no more of a limit: LIMIT=N")
         ->allow_extra_args(false);
     command
         ->add_option("--shared-lanes", options->sharedLanes,
