@@ -32,8 +32,8 @@ const std::map<std::string, Layout>& layouts() {
 
 // What shaders read by the word, from texel buffers: the loader beside the struct knows where its members
 // lie.
-const std::set<std::string> kLoadedByWord = {"Instance", "Lamp",          "LampCluster",
-                                             "Material", "SkinnedSample", "SurfaceSample"};
+const std::set<std::string> kLoadedByWord = {"Instance",      "LightClusterRow", "Material",
+                                             "PunctualLight", "SkinnedSample",   "SurfaceSample"};
 
 TEST(IoLayout, CompiledShadersAgreeWithTheHeaders) {
     std::map<std::string, int> seen;
