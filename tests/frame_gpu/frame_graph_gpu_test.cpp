@@ -93,7 +93,11 @@ TEST(DeviceGraph, PassesHaveTheirPlaceOnTheHostsClock) {
     DeviceGraph g;
     g.options = {.skip = false};
     const auto before = g.device.readClocks();
-    ASSERT_TRUE(before) << "lavapipe has calibrated timestamps";
+    if (!before) {
+        ASSERT_EQ(g.device.info().name.find("llvmpipe"), std::string::npos)
+            << "lavapipe has calibrated timestamps";
+        GTEST_SKIP() << g.device.info().name << " has none";
+    }
     const auto draw = [&](uint32_t repeats) {
         g.options.repeatPass = "draw.first";
         g.options.repeats = repeats;
