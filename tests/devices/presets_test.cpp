@@ -1,6 +1,6 @@
 // Every preset draws on this device what it draws on the default one, as near as the default device comes to
-// itself with other clusters. With AFTERGLOW_DEVICES_DRAW this is the default device: its pictures are kept
-// in AFTERGLOW_DEVICES_FOLDER.
+// itself with other lights. With AFTERGLOW_DEVICES_DRAW this is the default device: its
+// pictures are kept in AFTERGLOW_DEVICES_FOLDER.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,13 +26,20 @@ constexpr uint32_t kFrames = 3;
 // rasteriser (a hundred pixels of the corridor's are all that differs by more than 0.2 %).
 constexpr double kEdges = 0.02;
 constexpr double kLeastSpread = 0.02;  // where little is clustered: what a few random samples differ by
+constexpr double kMeanSpread = 0.03;  // of so few clusters and points: 0.009 over seeds, 0.026 in one of five
 
 // All passes of the preset, with less of each: a device without a cache of shaders has a minute.
-render::RenderSettings settingsOf(std::string_view preset, uint32_t moreClusters = 0) {
+struct Lights {
+    uint32_t count = 48, seed = 0;
+};
+constexpr Lights kOthers[] = {{48, 1}, {48, 2}, {44, 0}, {64, 0}};  // counts, for what has no seed
+
+render::RenderSettings settingsOf(std::string_view preset, Lights lights = {}) {
     render::RenderSettings s;
     EXPECT_TRUE(render::applyPreset(preset, s));
     s.bounce.rsm.resolution = 128;
-    s.bounce.valClustering.count = 48 + moreClusters;
+    s.bounce.valClustering.count = lights.count;
+    s.bounce.valClustering.seed = lights.seed;
     s.bounce.ismAtlas.pointsPerMap = std::min(s.bounce.ismAtlas.pointsPerMap, 512u);
     s.bounce.ismAtlas.tileSize = std::min(s.bounce.ismAtlas.tileSize, 32u);
     return s;
@@ -101,8 +108,10 @@ void drawAll() {
         for (const std::string& preset : presets()) {
             const Image image = stage.draw(scene, settingsOf(preset));
             ASSERT_TRUE(saveImage(image, pictureOf(scene, preset)));
-            const Image other = stage.draw(scene, settingsOf(preset, 4));
-            const double spread = std::max(kLeastSpread, differ(image, other).relativeRmse);
+            double spread = kLeastSpread;
+            for (const Lights& other : kOthers)
+                spread = std::max(spread,
+                                  differ(image, stage.draw(scene, settingsOf(preset, other))).relativeRmse);
             spreads << scene << ' ' << preset << ' ' << spread << '\n';
         }
     ASSERT_TRUE(spreads.good());
@@ -119,10 +128,10 @@ void compareAll() {
         const auto truth = loadImage(pictureOf(scene, preset));
         ASSERT_TRUE(truth) << truth.error().message;
         const Difference d = differ(*truth, stage.draw(scene, settingsOf(preset)));
-        std::printf("%-9s %-18s mean %.4f, relative RMSE %.4f, of other clusters %.4f\n", scene.c_str(),
+        std::printf("%-9s %-18s mean %.4f, relative RMSE %.4f, of other lights %.4f\n", scene.c_str(),
                     preset.c_str(), d.meanRatio, d.relativeRmse, spread);
         EXPECT_LE(d.relativeRmse, spread) << scene << ' ' << preset;
-        EXPECT_NEAR(d.meanRatio, 1, 0.01) << scene << ' ' << preset;
+        EXPECT_NEAR(d.meanRatio, 1, kMeanSpread) << scene << ' ' << preset;
     }
     EXPECT_EQ(compared, std::size(kScenes) * presets().size());
 }
