@@ -153,8 +153,8 @@ AGI_API AgiResult agiUpdateMaterials(AgiScene scene, uint32_t firstId, uint32_t 
                                      const AgiMaterial* materials);
 
 /* Triangles. The buffers are yours (VERTEX_BUFFER and INDEX_BUFFER usage) and are read when reflective shadow
- * maps are drawn; null if you draw those (AgiFrame::drawRsmFace). What lies in host memory is the same data, copied during the call, for points on the
- * surfaces. */
+ * maps are drawn; null if you draw those (AgiFrame::drawRsmFace). What lies in host memory is the same data,
+ * copied during the call, for points on the surfaces. */
 typedef struct AgiMesh {
     size_t structSize;
     const void* next;
