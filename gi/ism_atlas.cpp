@@ -153,10 +153,10 @@ struct MovableLayer {
 MovableLayer addMovableLayer(const Splat& s, BufferHandle staticKeys, BufferHandle finishes,
                              const WorkList& restored, const io::IsmSplatPush& push) {
     const BufferHandle states =
-        s.scope.buffer("ism_atlas.moving_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
+        s.scope.buffer("ism_atlas.movable_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
     const BufferHandle keys = s.scope.buffer("ism_atlas.all_keys", s.scope.info(staticKeys));
     const BufferHandle chosen =
-        s.scope.buffer("ism_atlas.moving_chosen",
+        s.scope.buffer("ism_atlas.movable_chosen",
                        {.sizeBytes = s.atlas.mapCount * push.entryCount * 4ull, .texelFormat = kUint});
     s.scope.compute("ism_atlas.choose_movable", "ism_atlas/choose_movable.comp")
         .read("segments", s.points.segments)

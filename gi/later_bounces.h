@@ -57,11 +57,12 @@ LaterLight addLaterLight(GraphScope scope, const Occluders& occluders, const Ver
 void addLaterIrradiance(GraphScope scope, const LaterLight& light, const ShadowedVals& lights,
                         uint32_t firstLater, const LaterBouncesSettings& settings);
 
+struct LaterShading {
+    uint32_t firstLater = 0;  // of the area lights, the first that stands for later bounces
+    uint32_t spacing = 1;     // pixels from one that is gathered to the next
+};
 // `bounce1`, of the pixels of `gbuffer`, and what the lights from `firstLater` on add to it. That is
 // smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
-struct LaterShading {
-    uint32_t firstLater = 0, spacing = 1;
-};
 Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
                            const ShadowedVals& lights, const LaterShading& later,
                            const ValShadingSettings& shading);

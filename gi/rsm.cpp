@@ -58,6 +58,7 @@ RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings
     rsm.lightFaceCount = layout.faceCount - (later.side > 0);
     rsm.mapInfo = layout.maps;
     rsm.faceInfo = layout.faces;
+    rsm.lightIds = layout.lightIds;
     rsm.largestFace = layout.largestFace;
     rsm.tileCount = (layout.atlasSize.x / io::kRsmTileSize) * (layout.atlasSize.y / io::kRsmTileSize);
     const std::span faces(rsm.faceInfo.data(), layout.faceCount);

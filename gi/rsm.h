@@ -42,7 +42,8 @@ struct RsmSet {
     uint64_t inputsVersion = 0;  // changes when the texels do
     std::array<io::RsmMap, io::kMaxRsmMaps> mapInfo{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faceInfo{};
-    uint32_t lightRsmCount = 0, lightFaceCount = 0;  // the first ones; one of surfaces may follow
+    std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights
+    uint32_t lightRsmCount = 0, lightFaceCount = 0;    // the first ones; one of surfaces may follow
     // Of the clusters, the first that is of surfaces.
     uint32_t firstLater() const {
         return lightRsmCount < atlas.mapCount ? mapInfo[lightRsmCount].firstCluster : ~0u;
@@ -52,7 +53,7 @@ struct RsmSet {
 
 // Lives on the CPU from frame to frame: the flux by which each light has its share of the clusters. It
 // follows the light's own only when that has left it far behind, and a light that goes out keeps its share
-// for a while: so a punctual light that flickers takes no clusters from the others.
+// for a while: so a light that flickers takes no clusters from the others.
 struct ClusterShares {
     struct Light {
         uint64_t id = 0;

@@ -220,7 +220,9 @@ RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t cl
         if (dark && steady.flux == 0) continue;
         sharers[shares.count] = {steady.flux, dark ? kNoMap : layout.mapCount};
         shares.lights[shares.count++] = steady;
-        if (!dark) addLightRsm(layout, light, world.bounds, settings, halvings);
+        if (dark) continue;
+        layout.lightIds[layout.mapCount] = light.id;
+        addLightRsm(layout, light, world.bounds, settings, halvings);
     }
     if (layout.mapCount == 0) return layout;
     uint32_t sharing = shares.count;

@@ -8,6 +8,7 @@ namespace ag::gi {
 struct RsmLayout {
     std::array<io::RsmMap, io::kMaxRsmMaps> maps{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faces{};
+    std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights
     uint32_t mapCount = 0, faceCount = 0;
     glm::uvec2 atlasSize{0};
     uint32_t largestFace = 0;

@@ -36,8 +36,7 @@ struct ValTiles {
 ValTiles addValTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights, float nearReach,
                      uint32_t tileSize, const ValTileNames& names);
 
-// A pass that reads the tiles and their lights: constants 0 (shape), 1 (taps of soft shadows) and 3 (mapping
-// of the shadow maps).
+// A pass that reads the tiles and their lights; sets kShape, kVisibilityTaps and kParaboloid.
 PassBuilder gatherPass(const ValTiles& tiles, std::string_view name, std::string_view shader, ValShape shape,
                        uint32_t taps);
 

@@ -44,9 +44,15 @@ for scene in "${scenes[@]}"; do
     row="| $scene | $preset |"
     default=
     for device in "${present[@]}"; do
+      rm -f "$work/a.pfm"
       "$on" "$device" "$bin" "$bin/afterglow" render "$scene" -o "$work/a.pfm" --layer "$layer" --preset "$preset" --size 160x90 \
         --frames "${FRAMES:-32}" --validate >/dev/null 2>"$work/err" || fail "$device, $scene, $preset: $(tail -c 400 "$work/err")"
-      error=$("$bin/afterglow" compare "$work/$scene.$layer.exr" "$work/a.pfm" | sed -n 's/.*"rel_rmse": \([^,]*\).*/\1/p')
+      error=$("$bin/afterglow" compare "$work/$scene.$layer.exr" "$work/a.pfm" 2>/dev/null | sed -n 's/.*"rel_rmse": \([^,]*\).*/\1/p')
+      if [[ -z $error ]]; then
+        row+=" – |"
+        fail "$device, $scene, $preset: no picture that can be compared"
+        continue
+      fi
       row+=" $(printf %.4f "$error") |"
       default=${default:-$error}
       awk "BEGIN {exit !($error > 1.1 * $default)}" && fail "$device, $scene, $preset: error $error, the default device's is $default"

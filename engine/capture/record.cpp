@@ -136,7 +136,8 @@ void FrameRecorder::takeReadBack(GraphScope scope, const render::RenderFrame& de
     frame->counters.push_back({"shadow map tiles splatted", splatted});
 }
 
-// Ticks for now: they go to the host's clock when both ends are known.
+// Spans stay in ticks of the device until the recording ends: only then are its clock and the host's read at
+// both ends.
 void FrameRecorder::takeSpans() {
     const FrameSpans spans = renderer_.graph().spans();
     const auto frame = std::ranges::find(frames_, spans.frame, &Frame::number);

@@ -125,20 +125,24 @@ Image meanOf(TwoEstimates picture) {
     return mean;
 }
 
+std::span<const DifferenceField> differenceFields() {
+    static constexpr DifferenceField kFields[] = {{"mean_ratio", &ImageDifference::meanRatio},
+                                                  {"rmse", &ImageDifference::rmse},
+                                                  {"rel_rmse", &ImageDifference::relativeRmse},
+                                                  {"rel_mse", &ImageDifference::relMse},
+                                                  {"p99", &ImageDifference::p99},
+                                                  {"tone_rmse", &ImageDifference::toneRmse},
+                                                  {"rel_rmse_trimmed", &ImageDifference::trimmedRelativeRmse},
+                                                  {"median_rel", &ImageDifference::medianRelative},
+                                                  {"leak_pixels", &ImageDifference::leakPixels}};
+    return kFields;
+}
+
 ImageDifference meanOf(std::span<const ImageDifference> items) {
-    constexpr double ImageDifference::*kFields[] = {&ImageDifference::meanRatio,
-                                                    &ImageDifference::rmse,
-                                                    &ImageDifference::relativeRmse,
-                                                    &ImageDifference::relMse,
-                                                    &ImageDifference::p99,
-                                                    &ImageDifference::toneRmse,
-                                                    &ImageDifference::trimmedRelativeRmse,
-                                                    &ImageDifference::medianRelative,
-                                                    &ImageDifference::leakPixels};
     ImageDifference mean;
-    for (double ImageDifference::*field : kFields)
+    for (const DifferenceField& field : differenceFields())
         for (const ImageDifference& item : items)
-            mean.*field += item.*field / double(items.size());
+            mean.*field.member += item.*field.member / double(items.size());
     return mean;
 }
 

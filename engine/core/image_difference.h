@@ -21,6 +21,13 @@ struct ImageDifference {
     double leakPixels = 0;           // brighter than 5 m where the truth is below 2 m, means over channels
 };
 
+// All of them with the names that files and the command line give them.
+struct DifferenceField {
+    const char* name;
+    double ImageDifference::*member;
+};
+std::span<const DifferenceField> differenceFields();
+
 // A picture by two estimates whose noise is independent; the same one twice where there are no others.
 struct TwoEstimates {
     const Image& a;
@@ -33,14 +40,12 @@ struct TwoEstimates {
 // without the noise of a and b: their noise is independent of each other and of x. If x has noise of its own,
 // two estimates of it cancel that, too. With one estimate each, all numbers are of the pixels as they are,
 // noise and all.
-//   Unbiased: rmse² and relativeRmse² (the roots are of what is left, 0 where noise alone would make it
-// negative), both means of meanRatio.
-//   Nearly: toneRmse², but for the curvature of x / (x + m) over the noise; relMse, whose denominators hold
-// the estimates' mean.
-//   By half: medianRelative, whose square is that of the median over the estimates' means less that over
-// their half differences, which are as noisy; up to a third too low where noise outweighs the error.
-//   Not: trimmedRelativeRmse, as noise has a part in which pixels go; p99 and leakPixels, which take the
-// estimates' mean for the truth.
+//   Unbiased: both means in meanRatio; rmse² and relativeRmse² (a negative rest counts as 0).
+//   Nearly: toneRmse² (x / (x + m) is curved over the noise); relMse (its denominators hold the estimates'
+// mean).
+//   Partly: medianRelative² is the median² of the means' differences less that of the half differences; up to
+// a third too low where noise outweighs the error.
+//   Not: trimmedRelativeRmse, p99, leakPixels.
 // Fails when sizes differ or a value is not finite.
 Result<ImageDifference> compareImages(TwoEstimates truth, TwoEstimates test);
 

@@ -50,7 +50,7 @@ enum class PassReason : uint8_t {
     kLost,        // ran: what it had made is needed and no longer in memory
     kAll,         // ran: nothing is skipped
     kUnchanged,   // skipped: what it would make is there, or only skipped passes would read it
-    kHeld,        // skipped: what it made is to stay (see FrameGraph::hold)
+    kHeld,        // skipped: what it made is to stay (see GraphScope::held)
     kUnread,      // dropped: nothing that was asked for needs what it writes
 };
 

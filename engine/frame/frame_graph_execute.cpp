@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/frame/frame_graph_impl.h"
+#include "engine/gpu/barrier.h"
 
 namespace ag {
 namespace {
@@ -189,15 +190,8 @@ void FrameGraph::Impl::readTimes(VkCommandBuffer commands) {
 
 // For passes whose results do not depend on what they wrote before.
 void FrameGraph::Impl::repeatPass(VkCommandBuffer commands, const Pass& pass) {
-    const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                               .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                               .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                               .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-    const VkDependencyInfo info{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
     for (uint32_t i = 1; i < options.repeats; ++i) {
-        context->vk().CmdPipelineBarrier2(commands, &info);
+        gpu::fullBarrier(context->vk(), commands);
         recordPass(commands, pass);
     }
 }

@@ -45,6 +45,11 @@ void FrameGraph::Impl::recordCompute(VkCommandBuffer commands, const Pass& pass)
     }
     const glm::uvec3 size = pass.threads ? pipeline.workgroupSize : glm::uvec3(1);
     const glm::uvec3 groups = (pass.dispatch + size - 1u) / size;
+    const uint32_t* most = context->info().limits.maxComputeWorkGroupCount;
+    for (int axis = 0; axis < 3; ++axis)
+        if (groups[axis] > most[axis])
+            gpu::failBeyondLimit("the pass " + std::string(pass.name), "maxComputeWorkGroupCount",
+                                 groups[axis], most[axis]);
     if (groups.x > 0 && groups.y > 0 && groups.z > 0)
         context->vk().CmdDispatch(commands, groups.x, groups.y, groups.z);
 }

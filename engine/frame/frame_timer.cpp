@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/gpu/barrier.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/resources.h"
 
@@ -48,23 +49,11 @@ void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
     next_ = (next_ + 1) % rings_.size();
 }
 
-void FrameTimer::barrier(VkCommandBuffer commands) {
-    if (!bracketed_) return;
-    const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                               .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                               .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                               .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-    const VkDependencyInfo info{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
-    context_.vk().CmdPipelineBarrier2(commands, &info);
-}
-
 void FrameTimer::stamp(VkCommandBuffer commands, uint32_t query) {
-    barrier(commands);
+    if (bracketed_) gpu::fullBarrier(context_.vk(), commands);
     context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, rings_[active_].pool,
                                      query);
-    barrier(commands);
+    if (bracketed_) gpu::fullBarrier(context_.vk(), commands);
 }
 
 void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {

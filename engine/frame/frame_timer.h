@@ -60,7 +60,6 @@ class FrameTimer {
     static std::span<const uint64_t> ticksOf(const Ring& ring);
     void restart(VkCommandBuffer commands, Ring& ring);
     void stamp(VkCommandBuffer commands, uint32_t query);
-    void barrier(VkCommandBuffer commands);
 
     gpu::Context& context_;
     double periodNs_;

@@ -96,7 +96,7 @@ class PassBuilder {
     PassBuilder& pushBytes(std::span<const std::byte> bytes);
     PassBuilder& constant(const gpu::SpecConstant& value);
     template <class T>
-    PassBuilder& constant(std::string_view name, T value) {
+    PassBuilder& constant(gpu::ConstantName name, T value) {
         return constant(gpu::specConstant(name, value));
     }
     // For passes with history: a number that advances while the pass is to go on stepping with equal inputs.

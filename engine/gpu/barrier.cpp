@@ -22,4 +22,15 @@ void transitionImage(const Functions& vk, VkCommandBuffer commands, VkImage imag
     vk.CmdPipelineBarrier2(commands, &info);
 }
 
+void fullBarrier(const Functions& vk, VkCommandBuffer commands) {
+    const VkMemoryBarrier2 all{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                               .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                               .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                               .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &all};
+    vk.CmdPipelineBarrier2(commands, &info);
+}
+
 }  // namespace ag::gpu

@@ -5,7 +5,9 @@
 
 namespace ag::gpu {
 
-// Everything before is done and visible to everything after; the subresources change layout.
+// Everything before is done and visible to everything after.
+void fullBarrier(const Functions& vk, VkCommandBuffer commands);
+// The same, and the subresources change layout.
 void transitionImage(const Functions& vk, VkCommandBuffer commands, VkImage image,
                      const VkImageSubresourceRange& range, VkImageLayout from, VkImageLayout to);
 

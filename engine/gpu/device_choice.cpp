@@ -116,7 +116,7 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
         const auto family = findQueueFamily(vk, physical, surface);
         if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");
         if (!choice.info.missing.empty()) {
-            lacks += " " + choice.info.name + " lacks " + choice.info.missing.front() + ";";
+            lacks += " " + whatIsMissing(choice.info) + ";";
             continue;
         }
         choice.queueFamily = *family;

@@ -26,7 +26,7 @@ struct DeviceInfo {
     VkPhysicalDeviceLimits limits{};
     bool storageTexels = false;        // shaders read storage buffers where they would texel buffers
     std::vector<std::string> enabled;  // feature and extension names switched on
-    std::vector<std::string> missing;  // "name: what is done without it"
+    std::vector<std::string> missing;  // required and not there, as whatIsMissing says it
 };
 
 // Vulkan's feature structs, chained. Kept together so that asking and enabling use one list.

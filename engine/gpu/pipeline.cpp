@@ -1,8 +1,6 @@
 #include "engine/gpu/pipeline.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
 #include <map>
 #include <unordered_map>
 
@@ -12,10 +10,6 @@
 #include "engine/gpu/raster_pipeline.h"
 
 namespace ag::gpu {
-
-uint64_t SpecConstant::hash(uint64_t seed) const {
-    return combineHash(hashText(name, seed), value);
-}
 
 namespace {
 
@@ -100,7 +94,7 @@ bool PipelineLibrary::Impl::open(const std::string& path, Shader& shader, std::s
 PipelineLibrary::Impl::Shader& PipelineLibrary::Impl::shader(std::string_view path) {
     const auto found = shaders.find(path);
     if (found != shaders.end() && found->second.handle) return found->second;
-    // Its row is there before the module is: no module is lost where a row cannot be had.
+    // The row first: if that throws, no module leaks.
     Shader& made = found != shaders.end() ? found->second : shaders[std::string(path)];
     std::string error;
     if (!open(std::string(path), made, &error)) fail(FailureKind::kMistake, error);
@@ -177,7 +171,7 @@ bool isInteger(ScalarKind kind) {
 }
 
 bool fits(const SpecConstant& given, const SpecConstantInfo& declared) {
-    return given.name == declared.name &&
+    return given.name.text == declared.name &&
            (given.kind == declared.kind || (isInteger(given.kind) && isInteger(declared.kind)));
 }
 
@@ -198,8 +192,8 @@ void checkConstants(const PipelineRequest& request, std::initializer_list<const 
                                        [&](const auto& declared) { return fits(given, declared); });
         });
         if (!known)
-            fail(FailureKind::kMistake,
-                 (*stages.begin())->path + " has no constant " + std::string(given.name) + " of that type");
+            fail(FailureKind::kMistake, (*stages.begin())->path + " has no constant " +
+                                            std::string(given.name.text) + " of that type");
     }
 }
 
@@ -303,7 +297,7 @@ PipelineLibrary::~PipelineLibrary() {
 
 const Pipeline& PipelineLibrary::get(const PipelineRequest& request) {
     const uint64_t hash = requestHash(request);
-    // Its row is there before the pipeline is, as in shader().
+    // The row first, as in shader().
     std::unique_ptr<Pipeline>& row = impl_->pipelines[hash];
     if (row && row->handle) return *row;
     row = std::make_unique<Pipeline>();

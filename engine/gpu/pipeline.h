@@ -12,29 +12,41 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/gpu/shader.h"
 
 namespace ag::gpu {
 
 class Context;
 
-// A specialization constant by its name in the shader. The name is a literal.
+// A constant's name in the shader: a literal, hashed when it is compiled.
+struct ConstantName {
+    std::string_view text;
+    uint64_t hash = 0;
+
+    ConstantName() = default;
+    consteval ConstantName(const char* literal) : text(literal) {
+        for (const char c : text)
+            hash = combineHash(hash, uint8_t(c));
+    }
+};
+
+// A specialization constant of a pipeline.
 struct SpecConstant {
-    std::string_view name;
+    ConstantName name;
     ScalarKind kind = ScalarKind::kUint;
     uint32_t value = 0;  // bit pattern
 
-    uint64_t hash(uint64_t seed) const;
+    uint64_t hash(uint64_t seed) const { return combineHash(combineHash(seed, name.hash), value); }
 };
-inline SpecConstant specConstant(std::string_view name, bool value) {
+inline SpecConstant specConstant(ConstantName name, bool value) {
     return {name, ScalarKind::kBool, value};
 }
-inline SpecConstant specConstant(std::string_view name, float value) {
+inline SpecConstant specConstant(ConstantName name, float value) {
     return {name, ScalarKind::kFloat, std::bit_cast<uint32_t>(value)};
 }
 template <class T>
-requires std::is_integral_v<T> || std::is_enum_v<T> SpecConstant specConstant(std::string_view name,
-                                                                              T value) {
+requires std::is_integral_v<T> || std::is_enum_v<T> SpecConstant specConstant(ConstantName name, T value) {
     return {name, ScalarKind::kUint, uint32_t(value)};
 }
 
@@ -44,8 +56,9 @@ constexpr size_t kMaxColorTargets = 4;
 // Ids every shader may declare; filled in from the context.
 constexpr uint32_t kSpecSubgroupSize = 100;  // uint: lanes of a subgroup
 constexpr uint32_t kSpecLaneParallel = 101;  // bool: load one light a lane and shuffle (CPU devices)
-constexpr uint32_t kSpecLanes = 102;         // uint: of a workgroup that is one subgroup, or shares memory
-constexpr uint32_t kSpecSharedLanes = 103;   // bool: the latter
+// Of workgroups whose lanes exchange values (shaders/common/lanes.glsl):
+constexpr uint32_t kSpecLanes = 102;        // uint: invocations
+constexpr uint32_t kSpecSharedLanes = 103;  // bool: they do so through shared memory, not as one subgroup
 
 enum class CullMode : uint32_t { kNone, kBack };
 enum class BlendMode : uint32_t { kNone, kAlpha };

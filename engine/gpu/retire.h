@@ -8,7 +8,7 @@
 
 namespace ag::gpu {
 
-// Where there is no memory even to note it, the object stays for ever instead of going while it is in use.
+// If even the note cannot be allocated, the object leaks: better than to destroy it in use.
 template <class T>
 void retireOwned(Context& context, std::unique_ptr<T> object) noexcept {
     T* raw = object.release();

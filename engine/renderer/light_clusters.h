@@ -12,14 +12,14 @@
 namespace ag::render {
 
 constexpr uint32_t kMostLightClusters = 256;
-constexpr uint32_t kMostPunctualLights =
-    16384;  // in view; of more the brightest as seen from the camera are taken
+// In view; of more the brightest as seen from the camera are taken.
+constexpr uint32_t kMostPunctualLights = 16384;
 
 struct LightClusterSettings {
     float growth = 0.02f;  // m between centres for each m to the camera: the error seen stays the same
     uint32_t most = 32;    // clusters; the distances are stretched until so many do
-    bool strongFirst =
-        true;  // lights that matter keep a map of their own longer; off: as published, in order
+    // Lights that matter keep a map of their own longer; off: as published, in order.
+    bool strongFirst = true;
     float hysteresis = 0.75f;  // a centre of the frame before needs this part of the distance; 1: none
 
     // Farther from the nearest centre than this part of its range a light goes without shadow: the centre's

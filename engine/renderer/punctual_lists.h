@@ -10,8 +10,8 @@
 namespace ag::render {
 
 struct PunctualLists {
-    BufferHandle
-        lights;  // io::PunctualLight, sorted by cluster; also a texel buffer of vec4. Invalid: none in view
+    // io::PunctualLight, sorted by cluster; also a texel buffer of vec4. Invalid: none in view.
+    BufferHandle lights;
     BufferHandle lists, counts;  // of indices into them, kMaxPunctualLightsPerTile places a tile
     uint32_t lightCount = 0;
     glm::uvec2 tiles{0};

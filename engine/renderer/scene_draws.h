@@ -20,8 +20,8 @@ struct DrawOptions {
     DrawLayer layer = DrawLayer::kAll;
 };
 
-// One RasterDraw per non-empty bucket: the variant's constants (ids 0 texture class, 1 alpha mask, 2 normal
-// map), the view's matrix as push constant.
+// One RasterDraw per non-empty bucket: the variant's constants (kTextureClass, kAlphaMask, kNormalMaps), the
+// view's matrix as push constant.
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
               const glm::mat4& clipFromWorld, const DrawOptions& options);
 // The same with other push constants, for views that are no matrix.

@@ -27,7 +27,7 @@ inline constexpr bool kTrackRows<WorldTransform> = true;
 
 struct MeshInstance {
     uint32_t firstPrimitive = 0, primitiveCount = 0;
-    uint32_t movable = 0;  // 1: its transform changes while the level runs; then what stands still is kept
+    uint32_t movable = 0;  // 1: its transform changes while the level runs; what is static is kept then
 };
 
 // A mesh bent by joints, beside a MeshInstance that is movable and an AnimationPlayer.

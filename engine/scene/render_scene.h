@@ -91,7 +91,7 @@ constexpr uint32_t kNoSkinnedMesh = ~0u;
 struct RenderInstance {
     glm::mat4x3 worldFromLocal{1};  // relative to the origin
     uint32_t primitive = 0;
-    bool movable = false;  // others may move too, but then what was kept of all that stands still is lost
+    bool movable = false;  // others may move too, but then what was made of static things is lost
     uint32_t skinnedMesh =
         kNoSkinnedMesh;  // of RenderScene::skinnedMeshes: its vertices are that one's own; then movable
 };

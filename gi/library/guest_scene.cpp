@@ -37,18 +37,18 @@ void GuestScene::updateMaterials(uint32_t first, std::vector<GuestMaterial> mate
 
 uint32_t GuestScene::addMeshes(std::vector<GuestMesh> meshes) {
     const auto first = uint32_t(meshes_.size());
-    meshes_.reserve(meshes_.size() + meshes.size());
-    std::ranges::move(meshes, std::back_inserter(meshes_));
+    meshes_.insert(meshes_.end(), std::make_move_iterator(meshes.begin()),
+                   std::make_move_iterator(meshes.end()));
+    for (size_t i = first; i < meshes_.size(); ++i)
+        withoutBuffers_ += !meshes_[i].given.vertexBuffer;
     return first;
 }
 
-bool GuestScene::allHaveBuffers() const {
-    return std::ranges::all_of(meshes_, [](const GuestMesh& m) { return !m.there || m.given.vertexBuffer; });
-}
-
 void GuestScene::removeMeshes(uint32_t first, uint32_t count) {
-    for (uint32_t i = first; i < first + count; ++i)
+    for (uint32_t i = first; i < first + count; ++i) {
+        withoutBuffers_ -= meshes_[i].there && !meshes_[i].given.vertexBuffer;
         meshes_[i] = {.there = false};
+    }
 }
 
 void GuestScene::setInstance(const GuestInstance& given) {

@@ -85,7 +85,7 @@ class GuestScene {
     const std::vector<GuestInstance>& instances() const { return instances_; }
     const std::vector<GuestLight>& lights() const { return lights_; }
     const std::vector<GuestProbe>& probes() const { return probes_; }
-    bool allHaveBuffers() const;  // the meshes, so that the library can draw them
+    bool allHaveBuffers() const { return withoutBuffers_ == 0; }  // meshes, so that the library can draw them
     bool has(uint64_t instance) const { return rowOf_.contains(instance); }
 
     GuestContext& context() const { return context_; }
@@ -112,6 +112,7 @@ class GuestScene {
     uint64_t id_;
     std::vector<GuestMaterial> materials_;
     std::vector<GuestMesh> meshes_;
+    size_t withoutBuffers_ = 0;  // of the meshes
     std::vector<GuestInstance> instances_;
     std::unordered_map<uint64_t, size_t> rowOf_;
     std::vector<GuestLight> lights_;

@@ -9,13 +9,8 @@
 namespace ag::guest {
 namespace {
 
-uint64_t idOf(std::span<const gi::RsmLight> lights, const io::RsmMap& map) {
-    return std::ranges::find(lights, map.lightIdLow, [](const gi::RsmLight& l) { return uint32_t(l.id); })
-        ->id;
-}
-
 AgiRsmFace faceFor(const SceneOnDevice& device, const gi::RsmSet& rsm, const io::RsmFace& face) {
-    AgiRsmFace out{.light = idOf(device.world().lights, rsm.mapInfo[face.map]),
+    AgiRsmFace out{.light = rsm.lightIds[face.map],
                    .area = {{int32_t(face.origin.x), int32_t(face.origin.y)}, {face.size, face.size}}};
     const glm::dvec3 origin = device.origin();
     const glm::mat4 clip = glm::scale(face.clipFromWorld, glm::vec3(1 / device.units().length));

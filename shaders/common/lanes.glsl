@@ -35,23 +35,17 @@ void shareLane(uvec4 value) {
     barrier();
 }
 
-#define AG_LANE_FOLD(Name, Native, T, Pack, Unpack, Op)                           \
+// Over the first `Count` lanes.
+#define AG_LANE_REDUCE(Name, Native, Count, T, Pack, Unpack, Op)                  \
     T Name(T value) {                                                             \
         if (!kSharedLanes) return Native(value);                                  \
         shareLane(Pack(value));                                                   \
         T all = Unpack(laneValues[0]);                                            \
-        for (uint i = 1; i < kLanes; ++i) all = Op(all, Unpack(laneValues[i]));   \
+        for (uint i = 1; i < (Count); ++i) all = Op(all, Unpack(laneValues[i]));  \
         return all;                                                               \
     }
-
-#define AG_LANE_SCAN(Name, Native, T, Pack, Unpack, Op)                           \
-    T Name(T value) {                                                             \
-        if (!kSharedLanes) return Native(value);                                  \
-        shareLane(Pack(value));                                                   \
-        T all = Unpack(laneValues[0]);                                            \
-        for (uint i = 1; i <= laneIndex(); ++i) all = Op(all, Unpack(laneValues[i])); \
-        return all;                                                               \
-    }
+#define AG_LANE_FOLD(Name, Native, T, Pack, Unpack, Op) AG_LANE_REDUCE(Name, Native, kLanes, T, Pack, Unpack, Op)
+#define AG_LANE_SCAN(Name, Native, T, Pack, Unpack, Op) AG_LANE_REDUCE(Name, Native, laneIndex() + 1, T, Pack, Unpack, Op)
 
 #define AG_LANE_SHUFFLE(T, Pack, Unpack)                                          \
     T laneShuffle(T value, uint lane) {                                           \

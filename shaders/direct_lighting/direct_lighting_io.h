@@ -25,9 +25,10 @@ struct PunctualLight {    // 4 vec4; sorted by cluster
     float inverseRange2;  // 1/m², 0: no limit
     vec3 intensity;       // W/sr
     uint cluster;         // kNoLightCluster: casts no shadow
-    vec3 axis;  // of a spot, against the way the light travels, over the span of cosines it fades in
-    float
-        coneOffset;  // the share of the axial intensity is (dot(axis, to the light) + this)², within 0 and 1
+    // Of a spot, against the way the light travels, over the span of cosines it fades in. The share of the
+    // axial intensity is (dot(axis, to the light) + coneOffset)², within 0 and 1.
+    vec3 axis;
+    float coneOffset;
     float clusterDistance;  // m from its cluster's centre
     uvec2 id;               // of the light, low and high word
     uint unused;

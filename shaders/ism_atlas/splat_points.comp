@@ -96,7 +96,8 @@ void splatAlone(Splat s, uint map) {
 
 void splatTogether(Splat s, uint map) {
     ivec2 extent = s.high - s.low + 1;
-    for (int i = int(gl_SubgroupInvocationID); i < extent.x * extent.y; i += int(gl_SubgroupSize))
+    const int lanes = int(min(gl_SubgroupSize, gl_WorkGroupSize.x));  // of large subgroups not all are there
+    for (int i = int(gl_SubgroupInvocationID); i < extent.x * extent.y; i += lanes)
         touch(s, map, s.low + ivec2(i % extent.x, i / extent.x));
 }
 

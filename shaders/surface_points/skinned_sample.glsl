@@ -1,4 +1,4 @@
-// What a SkinnedSample stands for now, from buffers of the skinned meshes' deformed vertices.
+// A SkinnedSample in the current pose, from the skinned meshes' deformed vertices.
 #ifndef AG_SKINNED_SAMPLE_GLSL
 #define AG_SKINNED_SAMPLE_GLSL
 

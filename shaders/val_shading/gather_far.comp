@@ -14,7 +14,7 @@ layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D farToward;
 
 void main() {
     uint group = kListed ? fetchTexel(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
-    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles);
     uvec2 size = camera.camera.size;
     Receiver r[kPixels];
     float distance_[kPixels];  // m along the camera's axis; 0: sky

@@ -52,7 +52,7 @@ void addLights(TileBlock block, inout GlossyPixel g[kPixels]) {
 
 void main() {
     uint group = fetchTexel(listed, int(gl_WorkGroupID.x)).x;
-    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles);
     ivec2 size = ivec2(camera.camera.size);
     GlossyPixel g[kPixels];
     [[unroll]] for (int p = 0; p < kPixels; ++p) g[p] = glossyPixelAt(min(pixelOf(block, p), size - 1));

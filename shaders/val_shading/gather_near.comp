@@ -20,7 +20,7 @@ void addLightToAll(AreaLight l, inout Receiver r[kPixels]) {
 
 void main() {
     uint group = kListed ? fetchTexel(listed, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
-    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.tileSize, push.p.tiles);
     ivec2 size = ivec2(camera.camera.size);
     float depth[kPixels];
     Receiver r[kPixels];

@@ -16,7 +16,7 @@ shared uint anyGlossy;
 void main() {
     if (gl_LocalInvocationIndex == 0) anyGlossy = 0;
     barrier();
-    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles);
     ivec2 size = textureSize(reflectanceMap, 0);
     bool glossy = false;
     for (int p = 0; p < kPixels; ++p) {

@@ -50,7 +50,7 @@ void main() {
     if (gl_LocalInvocationIndex == 0) digest = uvec2(0);
     barrier();
     uint group = kGlossy ? fetchTexel(glossyGroups, int(gl_WorkGroupID.x)).x : gl_WorkGroupID.x;
-    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.gather.tileSize, push.p.gather.tiles, 1);
+    TileBlock block = tileBlock(group * gl_WorkGroupSize.x + gl_LocalInvocationID.x, push.p.gather.tileSize, push.p.gather.tiles);
     ivec2 size = textureSize(depthMap, 0);
     for (int p = 0; p < kPixels; ++p) {
         ivec2 pixel = pixelOf(block, p);

@@ -14,7 +14,7 @@ const uint kNearList = 0, kFarList = 1, kLightLists = 2;
 struct ValShadingPush {
     uint valCount;  // and so the most entries of a list
     uint firstVal;  // those before it are left alone
-    uint tileSize;  // pixels, a multiple of the interleaving
+    uint tileSize;  // pixels, even
     uvec2 tiles;
     float nearReach;  // lights nearer than this many of their half lengths are near
     uint ismTileSize;

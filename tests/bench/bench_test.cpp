@@ -81,6 +81,13 @@ TEST(Bench, FilesHoldEveryRow) {
     EXPECT_NE(toMarkdown(report).find("| b ★ |"), std::string::npos);
 }
 
+// An error that was all noise is 0, which a logarithmic axis cannot show.
+TEST(Bench, ChartLeavesOutErrorsOfZero) {
+    const std::string svg = toSvg({.rows = {row("a", 10, 0), row("a", 20, 0.2), row("path-tracing", 10, 0)}});
+    EXPECT_EQ(svg.find("inf"), std::string::npos);
+    EXPECT_LT(svg.size(), 20'000u);
+}
+
 TEST(Bench, EveryTechniqueIsAPresetWithValidSettings) {
     for (const Technique& technique : techniques()) {
         ASSERT_FALSE(technique.variants.empty());

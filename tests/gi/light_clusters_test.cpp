@@ -65,7 +65,7 @@ TEST(LightClusters, BothPassesAreWhatTheirDefinitionsSay) {
     EXPECT_EQ(lights, c.lights.size());
 }
 
-TEST(LightClusters, PunctualThatCannotReachTheViewAreLeftOut) {
+TEST(LightClusters, LightsThatCannotReachTheViewAreLeftOut) {
     RenderScene scene = sceneWithLights(300);
     LightClusterHistory history;
     const LightClusters& c = clusterLights(scene, {}, published(), history);
@@ -99,7 +99,7 @@ TEST(LightClusters, TheBudgetIsKeptByStretchingDistances) {
     }
 }
 
-TEST(LightClusters, WithoutADistanceEachPunctualStandsForItself) {
+TEST(LightClusters, WithoutADistanceEachLightStandsForItself) {
     const RenderScene scene = sceneWithLights(100);
     LightClusterHistory history;
     const LightClusters& c = clusterLights(scene, {}, {.growth = 0, .most = 256, .hysteresis = 1}, history);
@@ -156,7 +156,7 @@ TEST(LightClusters, NothingMovesNothingChanges) {
     }
 }
 
-TEST(LightClusters, PunctualWithoutShadowHaveNoCluster) {
+TEST(LightClusters, LightsWithoutShadowHaveNoCluster) {
     RenderScene scene = sceneWithLights(50);
     for (RenderLight& light : scene.lights)
         light.castsShadow = light.id % 2 == 0;
@@ -176,7 +176,7 @@ TEST(LightClusters, PunctualWithoutShadowHaveNoCluster) {
 }
 
 // Lights that light nothing seen get no map, however strong they are.
-TEST(LightClusters, PunctualThatMatterBecomeCentres) {
+TEST(LightClusters, LightsThatMatterBecomeCentres) {
     RenderScene scene = sceneWithLights(60);
     std::vector<io::PunctualRelevance> rows;
     std::set<uint32_t> matter;

@@ -762,7 +762,7 @@ TEST(Frame, LightsThatGoOutStopAllThatIsAboutThem) {
             EXPECT_FALSE(pass.name.starts_with(step)) << pass.name << " is not even declared";
 }
 
-TEST(Frame, AFlickeringPunctualLeavesTheOthersClustersAlone) {
+TEST(Frame, AFlickeringLightLeavesTheOthersClustersAlone) {
     const auto oldClusters = [](bool flickers) {  // of the other light, after two dozen frames
         Bench b(*scenegen::buildScene("hall", 0), {64, 40});
         b.settings.bounce.valClustering.adaptive = false;

@@ -17,6 +17,8 @@ TEST(InterleavedShading, NotesEachPixelThatLacksLightOnce) {
     for (const glm::uvec2 size : {glm::uvec2(65, 17), glm::uvec2(1, 1), glm::uvec2(72, 48)}) {
         Bench b(*scenegen::buildScene("cornell", 0), size);
         ASSERT_TRUE(applyPreset("acrsm", b.settings));
+        b.settings.bounce.valClustering.count = 64;
+        b.settings.bounce.ismAtlas.tileSize = 32;
         for (int i = 0; i < 3; ++i)
             b.frame();
         const FrameGraph& graph = b.renderer.graph();

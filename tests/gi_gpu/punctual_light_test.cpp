@@ -291,7 +291,7 @@ TEST(PunctualLighting, WithoutLightsNoPassRuns) {
 }
 
 // Lights come, go, move, flicker and blink for many frames, validation watching.
-TEST(PunctualLighting, PunctualMayChangeEveryFrame) {
+TEST(PunctualLighting, LightsMayChangeEveryFrame) {
     const auto b = directBench(*scenegen::buildScene("lamps", 80), {64, 40});
     const std::vector<RenderLight> all = b->scene.lights;
     for (uint32_t step = 0; step < 1000; ++step) {

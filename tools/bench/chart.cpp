@@ -46,8 +46,7 @@ std::vector<Series> seriesOf(const Report& report, const std::string& scene) {
             if (row.isPathTracing() || row.scene != scene || row.technique != technique ||
                 row.gpuMsMedian <= 0)
                 continue;
-            if (row.error.relativeRmse > 0 && row.indirectMs() > 0)
-                series.points.push_back({row.indirectMs(), row.error.relativeRmse, row.variant, row.pareto});
+            series.points.push_back({row.indirectMs(), row.error.relativeRmse, row.variant, row.pareto});
         }
         all.push_back(series);
     }
@@ -55,8 +54,11 @@ std::vector<Series> seriesOf(const Report& report, const std::string& scene) {
         if (row.isPathTracing() && row.scene == scene)
             paths.points.push_back({row.gpuMsMedian, row.error.relativeRmse, "", false});
     all.push_back(paths);
-    for (Series& series : all)
+    for (Series& series : all) {
+        // Axes are logarithmic. An error of which noise was all is 0.
+        std::erase_if(series.points, [](const Point& p) { return p.ms <= 0 || p.error <= 0; });
         std::ranges::sort(series.points, {}, &Point::ms);
+    }
     return all;
 }
 

@@ -38,6 +38,11 @@ struct NearCount {
     }
 };
 
+struct PixelOfLadder {
+    size_t index;
+    Receiver at;
+};
+
 // One clustering's lights, met by every pixel.
 class LadderPass {
   public:
@@ -65,8 +70,9 @@ class LadderPass {
         if (at.distance <= 0) return;
         StageSums sums{};
         TexelRays rays(scene_, set_, at);
+        const PixelOfLadder pixel{index, receiverAt(at, hits_.directions[index])};
         for (size_t l = 0; l < set_.lights.size(); ++l)
-            if (set_.lights[l].texelCount > 0) light(index, l, nearTile[l], rays, sums);
+            if (set_.lights[l].texelCount > 0) light(pixel, l, nearTile[l], rays, sums);
         for (size_t stage = 1; stage < kStages; ++stage)
             for (size_t draw = 0; draw < 2; ++draw)
                 out.images[stage][draw].pixels[index] = sums[stage][draw];
@@ -79,9 +85,9 @@ class LadderPass {
         return {at.position, at.normal, depth * pixel * float(settings_.spacing)};
     }
 
-    void light(size_t index, size_t l, bool nearTile, TexelRays& rays, StageSums& sums) {
+    void light(const PixelOfLadder& pixel, size_t l, bool nearTile, TexelRays& rays, StageSums& sums) {
         const AreaLightRead& light = set_.lights[l];
-        const Receiver at = receiverAt(hits_.surfaces[index], hits_.directions[index]);
+        const Receiver& at = pixel.at;
         const glm::vec3 whole = nearTile ? polygonIrradiance(light, at) : diskIrradiance(light, at);
         const bool arrives = whole != glm::vec3(0);
         const uint32_t taps = settings_.valShading.taps;
@@ -97,7 +103,8 @@ class LadderPass {
             near_ += {light.texelCount, rays.rays() - before};
         } else {
             for (uint32_t draw = 0; draw < 2; ++draw)
-                texels[draw] = rays.some(light, kDraws, io::hashUint(uint32_t(index) * 1024 + l) + draw);
+                texels[draw] =
+                    rays.some(light, kDraws, io::hashUint(uint32_t(pixel.index) * 1024 + l) + draw);
         }
         for (size_t draw = 0; draw < 2; ++draw) {
             const auto add = [&](Stage stage, glm::vec3 irradiance) {

@@ -27,19 +27,15 @@ std::string laddersToJson(const std::vector<Ladder>& ladders, std::string_view d
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const Ladder& ladder : ladders)
         for (size_t s = 0; s < kStages; ++s) {
-            const ImageDifference& e = ladder.errors[s];
-            rows.push_back({{"scene", ladder.scene},
-                            {"stage", kStageNames[s]},
-                            {"size", {ladder.size.x, ladder.size.y}},
-                            {"mean_ratio", e.meanRatio},
-                            {"rel_rmse", e.relativeRmse},
-                            {"tone_rmse", e.toneRmse},
-                            {"rel_rmse_trimmed", e.trimmedRelativeRmse},
-                            {"median_rel", e.medianRelative},
-                            {"leak_pixels", e.leakPixels},
-                            {"noise_floor", ladder.noise},
-                            {"near_texels", ladder.nearTexels},
-                            {"near_rays", ladder.nearRays}});
+            nlohmann::ordered_json row = {{"scene", ladder.scene},
+                                          {"stage", kStageNames[s]},
+                                          {"size", {ladder.size.x, ladder.size.y}},
+                                          {"noise_floor", ladder.noise},
+                                          {"near_texels", ladder.nearTexels},
+                                          {"near_rays", ladder.nearRays}};
+            for (const DifferenceField& field : differenceFields())
+                row[field.name] = ladder.errors[s].*field.member;
+            rows.push_back(std::move(row));
         }
     return nlohmann::ordered_json{{"device", device}, {"rows", rows}}.dump(1) + "\n";
 }

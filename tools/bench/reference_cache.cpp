@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "engine/core/driver_cache.h"
 #include "engine/core/hash.h"
 #include "engine/core/log.h"
 #include "engine/core/number.h"
@@ -114,12 +115,8 @@ Result<TwoReferences> ReferenceCache::getTwo(const RenderScene& scene, glm::uvec
 }
 
 std::string defaultCacheFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    const fs::path base = cache && *cache ? fs::path(cache)
-                          : home          ? fs::path(home) / ".cache"
-                                          : fs::temp_directory_path();
-    return (base / "afterglow" / "references").string();
+    const fs::path own = cacheFolder();
+    return ((own.empty() ? fs::temp_directory_path() / "afterglow" : own) / "references").string();
 }
 
 }  // namespace ag::bench

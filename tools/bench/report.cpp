@@ -48,41 +48,35 @@ void markPareto(Report& report) {
 }
 
 nlohmann::ordered_json rowToJson(const Row& r) {
-    return {{"scene", r.scene},
-            {"technique", r.technique},
-            {"variant", r.variant},
-            {"settings", r.settings},
-            {"size", {r.size.x, r.size.y}},
-            {"vals", r.vals},
-            {"frames", r.frames},
-            {"gpu_ms_median", r.gpuMsMedian},
-            {"gpu_ms_p99", r.gpuMsP99},
-            {"gbuffer_ms_median", r.gbufferMs},
-            {"indirect_ms_median", r.indirectMs()},
-            {"cpu_ms_median", r.cpuMsMedian},
-            {"passes", r.passes},
-            {"skipped", r.skipped},
-            {"gpu_bytes", r.gpuBytes},
-            {"term", r.term},
-            {"mean_ratio", r.error.meanRatio},
-            {"rmse", r.error.rmse},
-            {"rel_rmse", r.error.relativeRmse},
-            {"rel_mse", r.error.relMse},
-            {"p99", r.error.p99},
-            {"flip", r.flip},
-            {"noise_floor", r.noiseFloor},
-            {"flicker_still", orNull(r.flickerStill)},
-            {"flicker_moving", orNull(r.flickerMoving)},
-            {"flicker_walking", orNull(r.flickerWalking)},
-            {"ghosting", orNull(r.ghosting)},
-            {"equal_time_path_tracing_rel_rmse", r.pathTracingRelRmse},
-            {"pareto", r.pareto},
-            {"tone_rmse", r.error.toneRmse},
-            {"rel_rmse_trimmed", r.error.trimmedRelativeRmse},
-            {"median_rel", r.error.medianRelative},
-            {"leak_pixels", r.error.leakPixels},
-            {"clusterings", r.clusterings},
-            {"rel_rmse_spread", r.relRmseSpread}};
+    nlohmann::ordered_json out = {{"scene", r.scene},
+                                  {"technique", r.technique},
+                                  {"variant", r.variant},
+                                  {"settings", r.settings},
+                                  {"size", {r.size.x, r.size.y}},
+                                  {"vals", r.vals},
+                                  {"frames", r.frames},
+                                  {"gpu_ms_median", r.gpuMsMedian},
+                                  {"gpu_ms_p99", r.gpuMsP99},
+                                  {"gbuffer_ms_median", r.gbufferMs},
+                                  {"indirect_ms_median", r.indirectMs()},
+                                  {"cpu_ms_median", r.cpuMsMedian},
+                                  {"passes", r.passes},
+                                  {"skipped", r.skipped},
+                                  {"gpu_bytes", r.gpuBytes},
+                                  {"term", r.term},
+                                  {"flip", r.flip},
+                                  {"noise_floor", r.noiseFloor},
+                                  {"flicker_still", orNull(r.flickerStill)},
+                                  {"flicker_moving", orNull(r.flickerMoving)},
+                                  {"flicker_walking", orNull(r.flickerWalking)},
+                                  {"ghosting", orNull(r.ghosting)},
+                                  {"equal_time_path_tracing_rel_rmse", r.pathTracingRelRmse},
+                                  {"pareto", r.pareto},
+                                  {"clusterings", r.clusterings},
+                                  {"rel_rmse_spread", r.relRmseSpread}};
+    for (const DifferenceField& field : differenceFields())
+        out[field.name] = r.error.*field.member;
+    return out;
 }
 
 namespace {
@@ -113,17 +107,13 @@ Result<Row> rowFromJson(const nlohmann::json& j) {
         j.at("passes").get_to(r.passes), j.at("skipped").get_to(r.skipped);
         readCount(j.at("gpu_bytes"), r.gpuBytes);
         j.at("term").get_to(r.term);
-        j.at("mean_ratio").get_to(r.error.meanRatio), j.at("rmse").get_to(r.error.rmse);
-        j.at("rel_rmse").get_to(r.error.relativeRmse), j.at("rel_mse").get_to(r.error.relMse);
-        j.at("p99").get_to(r.error.p99), j.at("flip").get_to(r.flip),
-            j.at("noise_floor").get_to(r.noiseFloor);
+        for (const DifferenceField& field : differenceFields())
+            j.at(field.name).get_to(r.error.*field.member);
+        j.at("flip").get_to(r.flip), j.at("noise_floor").get_to(r.noiseFloor);
         r.flickerStill = optional("flicker_still"), r.flickerMoving = optional("flicker_moving");
         r.flickerWalking = optional("flicker_walking"), r.ghosting = optional("ghosting");
         j.at("equal_time_path_tracing_rel_rmse").get_to(r.pathTracingRelRmse);
         j.at("pareto").get_to(r.pareto);
-        j.at("tone_rmse").get_to(r.error.toneRmse), j.at("median_rel").get_to(r.error.medianRelative);
-        j.at("rel_rmse_trimmed").get_to(r.error.trimmedRelativeRmse);
-        j.at("leak_pixels").get_to(r.error.leakPixels);
         readCount(j.at("clusterings"), r.clusterings), j.at("rel_rmse_spread").get_to(r.relRmseSpread);
         return r;
     } catch (const nlohmann::json::exception& e) {

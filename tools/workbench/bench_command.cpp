@@ -92,7 +92,7 @@ std::optional<uint32_t> takeNumber(std::string& name, char mark) {
 // "lamps:80" is lamps with 80 for its number, "sponza+80" is sponza with 80 lamps hung in it.
 SceneOptions sceneArguments(const BenchOptions& o, std::string name) {
     SceneOptions arguments{.param = o.param, .size = o.size};
-    arguments.lights = takeNumber(name, '+').value_or(0);
+    arguments.hungLamps = takeNumber(name, '+').value_or(0);
     const std::string whole = name;
     const std::optional<uint32_t> number = takeNumber(name, ':');
     const bool takesIt = number && scenegen::isBuiltIn(name);  // else it is a view of the scene library's
@@ -256,7 +256,8 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
         ->add_option("--ladder", o->ladders,
                      "comma-separated scenes: instead, what the first bounce's error is made of, with lights "
                      "and maps replaced by traced rays one after another")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->excludes("--scenes", "--techniques", "--budget-ms");
     command
         ->add_option("--clusterings", o->measure.clusterings,
                      "errors are means over so many, of what has clusters")

@@ -145,7 +145,7 @@ Status checkOptions(const CaptureOptions& o) {
     if (s.scene.empty()) return Error{"capture needs a SCENE"};
     if (o.output.empty()) return Error{"capture needs -o DIR"};
     if (o.schedule &&
-        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.lights || s.noSceneLights))
+        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.hungLamps || s.noSceneLights))
         return Error{"--schedule takes the lights of the scene's file: leave the light options out"};
     return Ok{};
 }

@@ -47,11 +47,10 @@ Result<std::vector<Image>> loadAll(const std::vector<std::string>& paths) {
 }
 
 nlohmann::ordered_json numbersOf(const ImageDifference& d) {
-    return {{"mean_ratio", d.meanRatio},
-            {"rmse", d.rmse},
-            {"rel_rmse", d.relativeRmse},
-            {"rel_mse", d.relMse},
-            {"p99", d.p99}};
+    nlohmann::ordered_json out;
+    for (const DifferenceField& field : differenceFields())
+        out[field.name] = d.*field.member;
+    return out;
 }
 
 int runCompare(const CompareOptions& o) {
@@ -77,10 +76,6 @@ int runCompare(const CompareOptions& o) {
     for (const auto& [name, image] : {std::pair("filter_a", &first), {"filter_b", &test}})
         if (const auto filter = image->attributes.find("filter"); filter != image->attributes.end())
             out[name] = filter->second;
-    out["tone_rmse"] = difference->toneRmse;
-    out["rel_rmse_trimmed"] = difference->trimmedRelativeRmse;
-    out["median_rel"] = difference->medianRelative;
-    out["leak_pixels"] = difference->leakPixels;
     std::cout << out.dump(2) << '\n';
     if (!o.heatmap.empty())
         if (const Status saved = saveImage(heatmapOf(truth, test), o.heatmap); !saved)

@@ -134,7 +134,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
         ->allow_extra_args(false);
     command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")
         ->allow_extra_args(false);
-    command.add_option("--lamps", o.lights, "hang so many points of light in the scene's free space")
+    command.add_option("--lamps", o.hungLamps, "hang so many points of light in the scene's free space")
         ->check(numberFrom(0, kMostHungLamps));
     command.add_flag("--no-scene-lights", o.noSceneLights, "drop the file's own lights");
 }
@@ -157,7 +157,7 @@ Result<SceneOptions> withLibraryScene(SceneOptions options) {
     options.scene = scene.file;
     if (options.view.empty() && options.camera.empty()) options.view = scene.view;
     const bool lit =
-        !options.suns.empty() || !options.points.empty() || !options.spots.empty() || options.lights > 0;
+        !options.suns.empty() || !options.points.empty() || !options.spots.empty() || options.hungLamps > 0;
     if (!lit && !scene.sun.empty()) options.suns = {scene.sun};
     return options;
 }
@@ -184,8 +184,9 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     for (RenderLight& light : loaded.scene.lights)
         if (const char* wrong = mendLight(light))
             return Error{fmt::format("a light of {} {}", options.scene, wrong)};
-    if (const uint32_t hung = hangLamps(loaded.scene, options.lights); hung < options.lights)
-        spdlog::warn("{} has free space for {} of {} punctual lights", options.scene, hung, options.lights);
+    if (const uint32_t hung = hangLamps(loaded.scene, options.hungLamps); hung < options.hungLamps)
+        spdlog::warn("{} has free space for {} of {} punctual lights", options.scene, hung,
+                     options.hungLamps);
     if (loaded.scene.lights.empty() && !options.noSceneLights) {
         spdlog::warn("{} has no light: a sun is added", options.scene);
         loaded.scene.lights.push_back({.kind = LightKind::kDirectional,

@@ -38,7 +38,7 @@
 #include <vulkan/vulkan_core.h>
 
 #define AGI_VERSION_MAJOR 1 /* the soname: another one where something is removed or means another thing */
-#define AGI_VERSION_MINOR 0
+#define AGI_VERSION_MINOR 1
 #define AGI_VERSION ((AGI_VERSION_MAJOR << 16) | AGI_VERSION_MINOR)
 
 #if defined(__GNUC__)
@@ -325,8 +325,8 @@ typedef struct AgiFrame {
      * test GREATER. It leaves rendering as it was. Null: the library draws. */
     void (*drawRsmFace)(void* user, VkCommandBuffer commands, const AgiRsmFace* face);
     void* drawRsmUser;
-    uint64_t drawRsmVersion; /* another one when other things would be drawn: else faces that look as they
-                                did are kept, and nothing is called */
+    uint64_t drawRsmVersion; /* change it when what you would draw changes. While it and all faces are as they
+                                were, nothing is called; else every face is. */
 } AgiFrame;
 
 /* Records the frame's indirect light into `commands`, which is in the recording state. After an error the

@@ -11,8 +11,31 @@ layout(constant_id = 2) const uint kSide = 1;
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D parts;
 
+// Four pixels of a part of a tile. A part is every kSide-th pixel of each row and column; a tile's invocations go part
+// after part.
+struct PartBlock {
+    uint tile, part;
+    uvec2 origin;  // of the tile
+    uvec2 inPart;  // of the first pixel among its part's
+};
+
+PartBlock partBlock(uint invocation, uint tileSize, uvec2 tiles) {
+    uint perTile = blocksOfTile(tileSize), side = tileSize / kSide / 2, perPart = side * side, block = invocation % perPart;
+    PartBlock b;
+    b.tile = min(invocation / perTile, tiles.x * tiles.y - 1);
+    b.part = invocation % perTile / perPart;
+    b.origin = uvec2(b.tile % tiles.x, b.tile / tiles.x) * tileSize;
+    b.inPart = uvec2(block % side, block / side) * 2;
+    return b;
+}
+
+ivec2 pixelOf(PartBlock b, int p) {
+    uvec2 inPart = b.inPart + uvec2(p & 1, p >> 1);
+    return ivec2(b.origin + inPart * kSide + uvec2(b.part % kSide, b.part / kSide));
+}
+
 void main() {
-    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, kSide);
+    PartBlock block = partBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles);
     uvec2 size = camera.camera.size;
     Receiver r[kPixels];
     float distance_[kPixels];  // m along the camera's axis; 0: sky

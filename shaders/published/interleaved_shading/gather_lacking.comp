@@ -8,7 +8,7 @@ layout(constant_id = 2) const uint kSide = 1;
 #include "published/interleaved_shading/lacking.h"
 #include "val_shading/gather_inputs.glsl"
 
-layout(local_size_x_id = 100) in;  // one subgroup a tile
+layout(local_size_x_id = 100) in;  // one workgroup a tile, on CPU devices one subgroup
 layout(set = 0, binding = 8, scalar) readonly buffer LackingCounts { uint items[]; } lackingCounts;
 layout(set = 0, binding = 9, scalar) readonly buffer Lacking { uint items[]; } lacking;
 layout(set = 0, binding = 10, rgba16f) uniform image2D irradiance;
@@ -29,8 +29,8 @@ void main() {
     uint tile = gl_WorkGroupID.x, pixels = lackingCounts.items[tile], count = counts.items[tile].y;
     uint start = listStart(tile, kFarList, push.p.valCount), side = push.p.tileSize;
     uvec2 origin = uvec2(tile % push.p.tiles.x, tile / push.p.tiles.x) * side;
-    for (uint first = 0; first < pixels; first += kSubgroupSize) {
-        uint mine = first + gl_SubgroupInvocationID;
+    for (uint first = 0; first < pixels; first += gl_WorkGroupSize.x) {
+        uint mine = first + gl_LocalInvocationID.x;
         uint packed = lacking.items[tile * side * side + min(mine, pixels - 1)];
         uint inTile = packed & ((1u << kLackingPixelBits) - 1u), parts = packed >> kLackingPixelBits;
         ivec2 pixel = ivec2(origin + uvec2(inTile % side, inTile / side));

@@ -19,7 +19,7 @@ layout(set = 0, binding = 11, scalar) writeonly buffer Lacking { uint items[]; }
 void noteLacking(TileBlock block, int p, uint parts) {
     bool onScreen = all(lessThan(pixelOf(block, p), ivec2(camera.camera.size)));
     if (parts == 0u || block.spare || !onScreen) return;
-    uvec2 inTile = block.inPart + uvec2(p & 1, p >> 1);
+    uvec2 inTile = block.inTile + uvec2(p & 1, p >> 1);
     uint first = block.tile * push.p.tileSize * push.p.tileSize;
     lacking.items[first + atomicAdd(lackingCounts.items[block.tile], 1u)] =
         packLacking(inTile.y * push.p.tileSize + inTile.x, parts);
@@ -106,7 +106,7 @@ void addLightToAll(AreaLight l, inout Receiver r[kPixels]) {
 }
 
 void main() {
-    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles, 1);
+    TileBlock block = tileBlock(gl_GlobalInvocationID.x, push.p.tileSize, push.p.tiles);
     ivec2 size = ivec2(camera.camera.size);
     TileBounds bounds = TileBounds(ivec2(block.origin), min(ivec2(block.origin + push.p.tileSize), size));
     Surface s[kPixels];
