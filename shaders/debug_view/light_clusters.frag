@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Punctual lights in the colours of the clusters whose shadow map they share: surfaces by the one they have most light of, and the
-// lights themselves as dots, each cluster's centre as a large one.
+// Punctual lights in the colours of the clusters whose shadow map they share: surfaces by the one they have most light
+// of, and the lights themselves as dots, each cluster's centre as a large one.
 #include "common/false_color.h"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"

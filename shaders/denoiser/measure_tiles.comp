@@ -7,7 +7,6 @@
 #include "common/lanes.glsl"
 #include "denoiser/surface.glsl"
 
-
 layout(set = 0, binding = 0) uniform sampler2D samples;
 layout(set = 0, binding = 1) uniform sampler2D history;
 layout(set = 0, binding = 2, rgba16f) uniform writeonly image2D tiles;   // noise, change, lasting difference, 0

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// How much each punctual light matters to what is seen: its light at points of the view, without shadows. One group of lanes a light.
+// How much each punctual light matters to what is seen: its light at points of the view, without shadows. One group of
+// lanes a light.
 #include "common/lanes.glsl"
 #include "common/texels.glsl"
 #include "direct_lighting/direct_lighting_io.h"

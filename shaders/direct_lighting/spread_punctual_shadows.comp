@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Irradiance straight from a tile's punctual lights at every pixel: what arrives without shadows, worked out here, times the share
-// that does arrive about here, from the up to four neighbours for which shadows were found. Four pixels an invocation
-// share the loads.
+// Irradiance straight from a tile's punctual lights at every pixel: what arrives without shadows, worked out here,
+// times the share that does arrive about here, from the up to four neighbours for which shadows were found. Four pixels
+// an invocation share the loads.
 #include "common/lane_loop.glsl"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"

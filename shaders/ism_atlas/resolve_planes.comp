@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Of listed regions the nearest points' planes and distances, for the lookup. Where the surface is curved, the plane is moved behind it, so
-// that a fold does not shadow itself.
+// Of listed regions the nearest points' planes and distances, for the lookup. Where the surface is curved, the plane is
+// moved behind it, so that a fold does not shadow itself.
 #include "common/texels.glsl"
 #include "ism_atlas/ism_atlas_io.h"
 #include "ism_atlas/ism_light.glsl"

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "common/texels.glsl"
 // Irradiance at the points from the area lights of one of their run's lists, through the shadow maps the screen is lit
 // through.
+#include "common/texels.glsl"
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 1) const int kVisibilityTaps = 0;
 layout(constant_id = 2) const uint kList = 0;

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "common/texels.glsl"
 // The light at a probe: bounced, from the area lights the screen is lit by, through their shadow maps; and direct, from
 // the lights that have RSMs, by these maps' depth. One group of lanes a probe; its lanes share out the lights.
+#include "common/texels.glsl"
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 1) const int kVisibilityTaps = 0;
 

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// For each tile, in ascending order, the clusters whose seeds lie within its map's candidate radius (RSMC's r = 2
-// cells of a sqrt(k) x sqrt(k) grid, rounded to tiles), and wherever they lie those nearest by the metric to texels here and
-// there in the tile: where clusters are few, that of a texel's own surface may be far off while another surface's is near.
-// Where no seed is near, the nearest ones: every lit texel finds a cluster. One group of lanes a tile, so that the order is fixed.
+// For each tile, in ascending order, the clusters whose seeds lie within its map's candidate radius (RSMC's r = 2 cells
+// of a sqrt(k) x sqrt(k) grid, rounded to tiles), and wherever they lie those nearest by the metric to texels here and
+// there in the tile: where clusters are few, that of a texel's own surface may be far off while another surface's is
+// near. Where no seed is near, the nearest ones: every lit texel finds a cluster. One group of lanes a tile, so that
+// the order is fixed.
 #include "common/clustering_metric.h"
 #include "common/lanes.glsl"
 #include "common/texels.glsl"

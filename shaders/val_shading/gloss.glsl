@@ -1,7 +1,8 @@
-// What the specular lobe of a material adds to the Lambert part where area lights shine on it: a light is a bell about its centre's
-// direction, as wide as its rectangle is seen in the plane of incidence and across it. The bell widens the lobe of half
-// vectors, so that no light makes a spike and lights side by side make one surface (after virtual spherical Gaussian
-// lights, Tokuyoshi 2015). Half vectors turn by half as much as directions, and across the plane by 1 / v·h times that.
+// What the specular lobe of a material adds to the Lambert part where area lights shine on it: a light is a bell about
+// its centre's direction, as wide as its rectangle is seen in the plane of incidence and across it. The bell widens the
+// lobe of half vectors, so that no light makes a spike and lights side by side make one surface (after virtual
+// spherical Gaussian lights, Tokuyoshi 2015). Half vectors turn by half as much as directions, and across the plane by
+// 1 / v·h times that.
 #ifndef AG_GLOSS_GLSL
 #define AG_GLOSS_GLSL
 

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Lists the workgroups of a gathering whose pixels are gathered anew: those that are due, and those any of whose surfaces is
-// another than when they were gathered last. In any order. Of the groups of gather_gloss.comp only those that have a specular lobe.
+// Lists the workgroups of a gathering whose pixels are gathered anew: those that are due, and those any of whose
+// surfaces is another than when they were gathered last. In any order. Of the groups of gather_gloss.comp only those
+// that have a specular lobe.
 #include "common/sampling.h"
 #include "common/texels.glsl"
 #include "val_shading/screen_tiles.glsl"

@@ -91,7 +91,7 @@ TEST(DeviceGraph, WhatIsReadBackIsOfTwoFramesBefore) {
 
 TEST(DeviceGraph, PassesHaveTheirPlaceOnTheHostsClock) {
     DeviceGraph g;
-    g.options = {.skip = false};
+    g.options = {.skip = false, .timing = TimingMode::kBracketed};
     const auto before = g.device.readClocks();
     if (!before) {
         ASSERT_EQ(g.device.info().name.find("llvmpipe"), std::string::npos)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/failure.h"
+#include "engine/frame/frame_graph.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/shader_files.h"
 #include "tests/support/device_environment.h"
@@ -30,6 +31,33 @@ TEST(Pipeline, ConstantsHaveTheShadersNamesAndTypes) {
     EXPECT_NE(madeWith(gpu::specConstant("kRound", true)).find("has no constant kRound"), std::string::npos);
     EXPECT_NE(madeWith(gpu::specConstant("kSquare", 1.0f)).find("of that type"), std::string::npos);
     EXPECT_NE(madeWith(gpu::specConstant("kSquare", 1u)).find("of that type"), std::string::npos);
+}
+
+// A dispatch that the device cannot take would be dropped without a word.
+TEST(Pipeline, DispatchesBeyondTheDevicesLimitAreSaid) {
+    const uint32_t most = test::device().info().limits.maxComputeWorkGroupCount[1];
+    if (most == UINT32_MAX) GTEST_SKIP() << "the device takes any";
+    gpu::PipelineLibrary pipelines(test::device(), gpu::loadShader);
+    FrameGraph graph(&test::device().context(), &pipelines);
+    graph.beginFrame({.timing = TimingMode::kOff});
+    const BufferHandle from = graph.buffer("from", {.sizeBytes = 256}),
+                       to = graph.buffer("to", {.sizeBytes = 256});
+    graph.fill("count.zero", from, 0);
+    graph.compute("count.step", "test/add_step.comp")
+        .read("previous", from)
+        .write("current", to)
+        .dispatchGroups(1, most + 1);
+    graph.output(to);
+    onFailure([](FailureKind kind, const std::string& sentence) { throw Failure(kind, sentence); });
+    std::string why;
+    try {
+        test::device().runOnce([&](VkCommandBuffer commands) { graph.execute(commands); });
+    } catch (const Failure& failure) {
+        why = failure.what();
+    }
+    onFailure(nullptr);
+    EXPECT_NE(why.find("count.step"), std::string::npos) << why;
+    EXPECT_NE(why.find("maxComputeWorkGroupCount"), std::string::npos) << why;
 }
 
 }  // namespace
