@@ -127,7 +127,7 @@ TEST(Parity, SecondBounce) {
         settings.bounce.laterBounces.enabled = true;
         settings.bounce.laterBounces.feedback = false;
         settings.bounce.valClustering.count = 256;  // corridor's folds: 1.05 to 1.08 with 128
-        const ImageDifference d = differ(truth, p.render(Layer::kBounce2, settings, 80));
+        const ImageDifference d = differ(truth, p.render(Layer::kBounce2, settings, 40));
         std::printf("%s, second bounce: mean ratio %.4f, relative RMSE %.3f\n", name, d.meanRatio,
                     d.relativeRmse);
         EXPECT_NEAR(d.meanRatio, 1, 0.05) << name;
@@ -206,7 +206,7 @@ TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
         ASSERT_TRUE(applyPreset("acrsm", *s));
     alone.interleavedShading.side = 1;
     const ImageDifference d =
-        differ(p.render(Layer::kBounce1, alone, 34), q.render(Layer::kBounce1, shared, 34));
+        differ(p.render(Layer::kBounce1, alone, 17), q.render(Layer::kBounce1, shared, 17));
     std::printf("slats: mean ratio %.4f, relative RMSE %.3f\n", d.meanRatio, d.relativeRmse);
     EXPECT_NEAR(d.meanRatio, 1, 0.01);
     EXPECT_LT(d.relativeRmse, 0.1);
