@@ -203,6 +203,8 @@ class FrameGraph : public GraphScope {
     void removeScope(const GraphScope& scope);
 
     // --- Running it ---
+    // Another object behind an import, before execute(): for what was made when all passes were declared.
+    void rebind(BufferHandle import, const gpu::Buffer& buffer);
     // Decides what runs and records it. `commands` null: decide only (null recorder).
     void execute(VkCommandBuffer commands);
     // The same with each pass submitted and waited for by itself, as TimingMode::kProcessCpu asks for:

@@ -50,6 +50,13 @@ const gpu::Image& FrameGraph::physical(ImageHandle image) const {
     return impl_->imageOf(impl_->resources[image.index]);
 }
 
+void FrameGraph::rebind(BufferHandle import, const gpu::Buffer& buffer) {
+    Resource& r = impl_->resources[import.index];
+    AG_CHECK(r.kind == ResourceKind::kImport && !r.isImage);
+    r.importedBuffer = &buffer;
+    r.buffer.sizeBytes = buffer.sizeBytes();
+}
+
 const gpu::Buffer& FrameGraph::physical(BufferHandle buffer) const {
     return impl_->bufferOf(impl_->resources[buffer.index]);
 }

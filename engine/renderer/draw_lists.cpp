@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/hash.h"
@@ -43,52 +45,81 @@ bool beyondFar(const Bounds& b, const glm::mat4& m) {
 
 }  // namespace
 
+void ViewDraws::add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t row, bool movable) {
+    BucketRange& range = buckets[bucket];
+    if (range.commandCount == 0) range.firstCommand = uint32_t(commands.size());
+    const bool layerBegins = movable && range.commandCount == range.staticCount;
+    const bool same =
+        range.commandCount > 0 && !layerBegins && commands.back().firstIndex == shape.firstIndex &&
+        commands.back().indexCount == shape.indexCount && commands.back().vertexOffset == shape.vertexOffset;
+    if (same) {
+        ++commands.back().instanceCount;
+    } else {
+        commands.push_back(
+            {shape.indexCount, 1, shape.firstIndex, shape.vertexOffset, uint32_t(rows.size())});
+        ++range.commandCount;
+        range.staticCount += !movable;
+    }
+    rows.push_back(row);
+}
+
+// Blended materials have no bucket.
 void DrawLists::rebuildBuckets(const RenderScene& scene) {
     const GeometryArrays& geometry = *scene.geometry;
+    const size_t count = scene.instances.size();
     buckets_.clear();
-    bucketCapacity_.clear();
-    instanceBucket_.assign(scene.instances.size(), kNoBucket);
-    instancePrimitive_.resize(scene.instances.size());
-    instanceSkinnedMesh_.resize(scene.instances.size());
-    for (size_t i = 0; i < scene.instances.size(); ++i) {
-        instancePrimitive_[i] = scene.instances[i].primitive;
-        instanceSkinnedMesh_[i] = scene.instances[i].skinnedMesh;
-        const Material& material =
-            geometry.materials[geometry.primitives[scene.instances[i].primitive].material];
+    instanceBucket_.assign(count, kNoBucket);
+    instancePrimitive_.resize(count);
+    instanceSkinnedMesh_.resize(count);
+    instanceMovable_.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+        const RenderInstance& instance = scene.instances[i];
+        instancePrimitive_[i] = instance.primitive;
+        instanceSkinnedMesh_[i] = instance.skinnedMesh;
+        instanceMovable_[i] = instance.movable;
+        const Material& material = geometry.materials[geometry.primitives[instance.primitive].material];
         if (material.alphaMode == AlphaMode::kBlend) continue;
-        const DrawBucket bucket = bucketOf(material, scene.instances[i]);
+        const DrawBucket bucket = bucketOf(material, instance);
         const auto found = std::find(buckets_.begin(), buckets_.end(), bucket);
         instanceBucket_[i] = uint32_t(found - buckets_.begin());
-        if (found == buckets_.end()) {
-            buckets_.push_back(bucket);
-            bucketCapacity_.push_back(0);
-        }
-        ++bucketCapacity_[instanceBucket_[i]];
+        if (found == buckets_.end()) buckets_.push_back(bucket);
     }
-    bucketFirst_.assign(buckets_.size(), 0);
-    for (size_t b = 1; b < buckets_.size(); ++b)
-        bucketFirst_[b] = bucketFirst_[b - 1] + bucketCapacity_[b - 1];
-    bounds_.resize(scene.instances.size());
-    transformHash_.resize(scene.instances.size());
-    movable_.assign((scene.instances.size() + 63) / 64, 0);
+    rankInstances(scene);
+    bounds_.resize(count);
+    transformHash_.resize(count);
     views_.clear();
-    commands_.clear();
+    commandPool_.clear();
+    rowPool_.clear();
     ++generation_;
 }
 
-// False if an instance was turned over and belongs to another bucket now.
+void DrawLists::rankInstances(const RenderScene& scene) {
+    const uint32_t count = uint32_t(scene.instances.size());
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0u);
+    const auto key = [&](uint32_t i) {
+        return std::tuple(instanceBucket_[i], instanceMovable_[i], instancePrimitive_[i], i);
+    };
+    std::ranges::sort(order_, {}, key);
+    rankOf_.resize(count);
+    for (uint32_t rank = 0; rank < count; ++rank)
+        rankOf_[order_[rank]] = rank;
+    drawnRanks_ = uint32_t(std::ranges::count_if(instanceBucket_, [](uint32_t b) { return b != kNoBucket; }));
+}
+
+// False if an instance was turned over or changed its layer: its rank is another one now.
 bool DrawLists::refreshBounds(const RenderScene& scene, bool all) {
     bool inPlace = true;
     changed_.assign((scene.instances.size() + 63) / 64, 0);
     const auto refresh = [&](uint32_t begin, uint32_t end) {
         for (uint32_t i = begin; i < end; ++i) {
             const RenderInstance& instance = scene.instances[i];
-            bounds_.set(i, instance, boundsLocal(scene, instance));
-            transformHash_[i] = shapeHash(scene, instance);
-            const uint64_t bit = uint64_t(1) << (i % 64);
-            changed_[i / 64] |= bit;
-            movable_[i / 64] = instance.movable ? movable_[i / 64] | bit : movable_[i / 64] & ~bit;
+            const uint32_t rank = rankOf_[i];
+            bounds_.set(rank, instance, boundsLocal(scene, instance));
+            transformHash_[rank] = shapeHash(scene, instance);
+            changed_[rank / 64] |= uint64_t(1) << (rank % 64);
             const uint32_t bucket = instanceBucket_[i];
+            inPlace &= bool(instanceMovable_[i]) == instance.movable;
             inPlace &= bucket == kNoBucket || buckets_[bucket].mirrored == isMirrored(instance);
         }
     };
@@ -119,12 +150,9 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
     instancesVersion_ = scene.instancesVersion;
 }
 
-void DrawLists::ensureView(uint32_t view) {
-    if (view < views_.size()) return;
-    views_.resize(view + 1);
-    commands_.resize(views_.size() * commandsPerView());
-    for (View& v : views_)
-        v.draws.buckets.resize(buckets_.size());
+void DrawLists::ensureView(uint32_t slot) {
+    while (views_.size() <= slot)
+        views_.emplace_back().draws.buckets.resize(buckets_.size());
 }
 
 void DrawLists::cullAll(const RenderScene& scene, std::span<const ViewRequest> views) {
@@ -140,28 +168,26 @@ void DrawLists::cullAll(const RenderScene& scene, std::span<const ViewRequest> v
 const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld) {
     ensureView(slot);
     cullView(scene, {slot, clipFromWorld});
+    place(views_[slot]);
     return views_[slot].draws;
 }
 
-// What the view sees of a layer, after what is there; returns its version.
-uint64_t DrawLists::addCommands(const RenderScene& scene, const ViewRequest& request, bool movable,
-                                View& view) {
-    uint64_t version = combineHash(geometryVersion_, generation_);
+void DrawLists::addInSight(const RenderScene& scene, const glm::mat4& clipFromWorld, View& view) const {
+    ViewDraws& draws = view.draws;
+    draws.staticVersion = draws.movableVersion = combineHash(geometryVersion_, generation_);
     for (uint32_t word = 0; word < view.inSight.size(); ++word)
-        for (uint64_t bits = view.inSight[word] & (movable ? movable_[word] : ~movable_[word]); bits;
-             bits &= bits - 1) {
-            const uint32_t i = word * 64 + uint32_t(std::countr_zero(bits));
-            if (instanceBucket_[i] == kNoBucket || beyondFar(bounds_.of(i), request.clipFromWorld)) continue;
+        for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
+            const uint32_t rank = word * 64 + uint32_t(std::countr_zero(bits));
+            if (rank >= drawnRanks_) return;
+            if (beyondFar(bounds_.of(rank), clipFromWorld)) continue;
+            const uint32_t i = order_[rank];
             const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
-            BucketRange& range = view.draws.buckets[instanceBucket_[i]];
-            commands_[range.firstCommand + range.commandCount++] = {
-                p.indexCount, 1, p.firstIndex, firstVertexOf(scene, scene.instances[i]), i};
-            range.staticCount += !movable;
-            view.draws.movableCount += movable;
-            version = combineHash(combineHash(version, i), transformHash_[i]);
-            ++view.draws.instanceCount;
+            const int32_t firstVertex = firstVertexOf(scene, scene.instances[i]);
+            draws.add(instanceBucket_[i], {p.indexCount, 1, p.firstIndex, firstVertex, 0}, i,
+                      instanceMovable_[i]);
+            uint64_t& version = instanceMovable_[i] ? draws.movableVersion : draws.staticVersion;
+            version = combineHash(combineHash(version, i), transformHash_[rank]);
         }
-    return version;
 }
 
 // Writes only what is the view's own: several may run at once.
@@ -170,46 +196,56 @@ void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
     if (view.generation == generation_ && view.instancesVersion == instancesVersion_ &&
         view.clipFromWorld == request.clipFromWorld)
         return;
-
-    const uint32_t first = request.slot * commandsPerView();
-    for (size_t b = 0; b < buckets_.size(); ++b)
-        view.draws.buckets[b] = {.firstCommand = first + bucketFirst_[b]};
-    view.draws.instanceCount = view.draws.movableCount = 0;
+    ViewDraws& draws = view.draws;
+    draws.commands.clear();
+    draws.rows.clear();
+    std::ranges::fill(draws.buckets, BucketRange{});
     bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
-    view.draws.staticVersion = addCommands(scene, request, false, view);
-    view.draws.movableVersion = addCommands(scene, request, true, view);
-    const uint64_t version = combineHash(view.draws.staticVersion, view.draws.movableVersion);
-    view.dirty = view.dirty || version != view.draws.version;
-    view.draws.version = version;
+    addInSight(scene, request.clipFromWorld, view);
+    const uint64_t version = combineHash(draws.staticVersion, draws.movableVersion);
+    view.dirty = view.dirty || version != draws.version;
+    draws.version = version;
     view.clipFromWorld = request.clipFromWorld;
     view.instancesVersion = instancesVersion_;
     view.generation = generation_;
+}
+
+void DrawLists::place(View& view) {
+    ViewDraws& d = view.draws;
+    const auto fit = [&](RangePool& pool, RangePool::Range& range, size_t count) {
+        const RangePool::Range before = range;
+        pool.fit(range, uint32_t(count));
+        view.dirty = view.dirty || range != before;
+    };
+    fit(commandPool_, d.commandRange, d.commands.size());
+    fit(rowPool_, d.rowRange, d.rows.size());
 }
 
 const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
                                  std::span<const RenderScene::Range> rows) {
     ensureView(slot);
     View& view = views_[slot];
-    view.draws.version = combineHash(from.version, instancesVersion_);
-    view.draws.instanceCount = 0;
-    for (size_t b = 0; b < buckets_.size(); ++b) {
-        BucketRange& range = view.draws.buckets[b];
-        range = {.firstCommand = slot * commandsPerView() + bucketFirst_[b]};
-        auto row = rows.begin();  // commands of a bucket ascend too, those of each layer
+    ViewDraws& draws = view.draws;
+    draws.version = combineHash(from.version, instancesVersion_);
+    draws.commands.clear();
+    draws.rows.clear();
+    std::ranges::fill(draws.buckets, BucketRange{});
+    const auto isPicked = [&](uint32_t row) {
+        const auto range = std::ranges::upper_bound(rows, row, {}, &RenderScene::Range::end);
+        return range != rows.end() && range->begin <= row;
+    };
+    for (uint32_t b = 0; b < buckets_.size(); ++b)
         for (uint32_t c = 0; c < from.buckets[b].commandCount; ++c) {
-            if (c == from.buckets[b].staticCount) row = rows.begin();
-            const VkDrawIndexedIndirectCommand& command = commands_[from.buckets[b].firstCommand + c];
-            while (row != rows.end() && row->end <= command.firstInstance)
-                ++row;
-            if (row == rows.end()) continue;
-            if (command.firstInstance >= row->begin)
-                commands_[range.firstCommand + range.commandCount++] = command;
+            const VkDrawIndexedIndirectCommand& command = from.commands[from.buckets[b].firstCommand + c];
+            for (uint32_t k = 0; k < command.instanceCount; ++k) {
+                const uint32_t row = from.rows[command.firstInstance + k];
+                if (isPicked(row)) draws.add(b, command, row, c >= from.buckets[b].staticCount);
+            }
         }
-        view.draws.instanceCount += range.commandCount;
-    }
     view.generation = 0;  // not a frustum's: culled anew if the slot becomes one
     view.dirty = true;
-    return view.draws;
+    place(view);
+    return draws;
 }
 
 void DrawLists::markAllDirty() {
@@ -217,8 +253,8 @@ void DrawLists::markAllDirty() {
         view.dirty = true;
 }
 
-bool DrawLists::takeDirty(uint32_t view) {
-    return std::exchange(views_[view].dirty, false);
+bool DrawLists::takeDirty(uint32_t slot) {
+    return std::exchange(views_[slot].dirty, false);
 }
 
 }  // namespace ag::render

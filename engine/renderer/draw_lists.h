@@ -1,9 +1,9 @@
-// What each view draws: instances culled against its frustum, as indirect commands grouped into buckets of
-// one pipeline variant each. A view's version is a hash of what it draws and where that stands, so that
-// moving something the view does not see changes nothing for it.
+// What each view draws: instances culled against its frustum, as instanced indirect draws grouped into
+// buckets of one pipeline variant each. A view's version is a hash of what it draws and where that stands, so
+// that moving something the view does not see changes nothing for it. Culling is the host's because it needs
+// that version before the frame is planned.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 #include "engine/gpu/functions.h"
 
+#include "engine/renderer/range_pool.h"
 #include "engine/scene/instance_bounds.h"
 
 namespace ag::render {
@@ -32,25 +33,31 @@ struct DrawBucket {
 enum class DrawLayer { kAll, kStatic, kMovable };
 
 struct BucketRange {
-    uint32_t firstCommand = 0;  // within the whole command array
+    uint32_t firstCommand = 0;  // within the view's commands
     uint32_t commandCount = 0;
     uint32_t staticCount = 0;  // the first ones are of what is static
 };
 
 struct ViewDraws {
     std::vector<BucketRange> buckets;  // parallel to DrawLists::buckets()
+    // Instances of one primitive are one command; firstInstance counts from the view's first row.
+    std::vector<VkDrawIndexedIndirectCommand> commands;
+    std::vector<uint32_t> rows;  // the instances, in the commands' order
+    // Where both are among those of all views on the device.
+    RangePool::Range commandRange, rowRange;
     // Of the commands, the transforms and the geometry behind them.
     uint64_t version = 0, staticVersion = 0, movableVersion = 0;
-    uint32_t instanceCount = 0, movableCount = 0;
 
     uint64_t versionOf(DrawLayer layer) const {
         return layer == DrawLayer::kAll      ? version
                : layer == DrawLayer::kStatic ? staticVersion
                                              : movableVersion;
     }
+    // One instance more, in the order of buckets and layers.
+    void add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t row, bool movable);
 };
 
-// Slots keep their place in the command array; ViewSlots says whose they are.
+// Slots keep their lists from frame to frame; ViewSlots says whose they are.
 struct ViewRequest {
     uint32_t slot = 0;
     glm::mat4 clipFromWorld{1};
@@ -65,7 +72,7 @@ class DrawLists {
     // Several views at once, a job each where that is worth it; cull() then finds them done.
     void cullAll(const RenderScene& scene, std::span<const ViewRequest> views);
 
-    Bounds boundsOf(uint32_t instance) const { return bounds_.of(instance); }  // world
+    Bounds boundsOf(uint32_t instance) const { return bounds_.of(rankOf_[instance]); }  // world
 
     // The result stays in place and is valid until the next cull of that slot.
     const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
@@ -74,11 +81,12 @@ class DrawLists {
     const ViewDraws& pick(uint32_t slot, const ViewDraws& from, std::span<const RenderScene::Range> rows);
 
     std::span<const DrawBucket> buckets() const { return buckets_; }
-    // All commands, a fixed region a view; changes are marked per view for the upload.
-    std::span<const VkDrawIndexedIndirectCommand> commands() const { return commands_; }
-    uint32_t commandsPerView() const { return uint32_t(instanceBucket_.size()); }
+    const ViewDraws& draws(uint32_t slot) const { return views_[slot].draws; }
     uint32_t viewCount() const { return uint32_t(views_.size()); }
-    bool takeDirty(uint32_t view);  // true once after the view's commands changed
+    // Elements of all views' ranges.
+    uint32_t commandCapacity() const { return commandPool_.size(); }
+    uint32_t rowCapacity() const { return rowPool_.size(); }
+    bool takeDirty(uint32_t slot);  // true once after the view's commands changed
     void markAllDirty();            // what was uploaded is gone
 
   private:
@@ -88,25 +96,30 @@ class DrawLists {
         uint64_t instancesVersion = 0;
         uint64_t generation = 0;
         bool dirty = true;
-        std::vector<uint64_t> inSight;  // a bit an instance
+        std::vector<uint64_t> inSight;  // a bit a rank
     };
     void rebuildBuckets(const RenderScene& scene);
+    void rankInstances(const RenderScene& scene);
     bool refreshBounds(const RenderScene& scene, bool all);
-    void ensureView(uint32_t view);
+    void ensureView(uint32_t slot);
     void cullView(const RenderScene& scene, const ViewRequest& request);
-    uint64_t addCommands(const RenderScene& scene, const ViewRequest& request, bool movable, View& view);
+    void addInSight(const RenderScene& scene, const glm::mat4& clipFromWorld, View& view) const;
+    void place(View& view);
 
     std::vector<DrawBucket> buckets_;
-    std::vector<uint32_t> bucketCapacity_;  // instances in each bucket
-    std::vector<uint32_t> bucketFirst_;     // first command of each bucket within a view's region
-    std::vector<uint32_t> instanceBucket_;  // ~0: drawn by no opaque bucket (blended)
+    // By instance.
+    std::vector<uint32_t> instanceBucket_;  // kNoBucket: drawn by no opaque bucket (blended)
     std::vector<uint32_t> instancePrimitive_, instanceSkinnedMesh_;
+    std::vector<uint8_t> instanceMovable_;
+    std::vector<uint32_t> rankOf_;
+    // By rank: instances in the order of buckets, layers and primitives. Blended ones come last.
+    std::vector<uint32_t> order_;
+    uint32_t drawnRanks_ = 0;
     InstanceBounds bounds_;
-    std::vector<uint64_t> changed_;  // a bit an instance whose bounds were set anew
+    std::vector<uint64_t> changed_;  // a bit a rank whose bounds were set anew
     std::vector<uint64_t> transformHash_;
-    std::vector<uint64_t> movable_;  // a bit an instance
-    std::vector<VkDrawIndexedIndirectCommand> commands_;
     std::deque<View> views_;  // references from cull() stay valid
+    RangePool commandPool_, rowPool_;
     JobRunner* jobs_ = nullptr;
     uint64_t geometryVersion_ = 0;
     uint64_t instancesVersion_ = 0;

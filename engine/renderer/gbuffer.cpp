@@ -36,7 +36,10 @@ GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
     pass.colorClear(g.normal, glm::vec4(0)).colorClear(g.albedo, glm::vec4(0));
     if (scene.hasEmissive) pass.colorClear(emissive, glm::vec4(0));
     if (scene.hasGlossy) pass.colorClear(g.reflectance, glm::vec4(0));
-    pass.depthClear(g.depth).geometry(scene.geometry).read("instances", scene.instances);
+    pass.depthClear(g.depth)
+        .geometry(scene.geometry)
+        .read("instances", scene.instances)
+        .read("drawnRows", scene.drawnRows);
     bindMaterials(pass, scene);
     drawView(pass, scene, draws, clipFromWorld, {.viewer = Viewer::kCamera});
     return {g, emissive};
@@ -47,13 +50,15 @@ ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfac
     const glm::mat4& clipFromWorld = scene.scene->camera.clipFromWorld;
     const ViewDraws& all = scene.draws->cull(*scene.scene, scene.slots.camera, clipFromWorld);
     const ViewDraws& moved = scene.draws->pick(scene.slots.moved, all, scene.moved);
-    if (moved.instanceCount == 0) return {};
+    if (moved.rows.empty()) return {};
     const ImageHandle motion = scope.image("gbuffer.motion", scope.info(surfaces.normal));
     const char* const vertexShader = scene.skin ? "gbuffer/motion_skinned.vert" : "gbuffer/motion.vert";
     PassBuilder pass =
         scope.raster("gbuffer.motion", vertexShader, "gbuffer/motion.frag", gpu::VertexLayout::kPositions);
     pass.colorClear(motion, glm::vec4(0)).depthEqual(surfaces.depth).geometry(scene.geometry);
-    pass.read("instances", scene.instances).read("previousInstances", scene.previousInstances);
+    pass.read("instances", scene.instances)
+        .read("drawnRows", scene.drawnRows)
+        .read("previousInstances", scene.previousInstances);
     if (scene.skin)
         pass.read("previousJoints", scene.skin.previousJoints)
             .read("skinnedMeshes", scene.skin.skinnedMeshes)

@@ -85,7 +85,10 @@ PassBuilder beginFaces(GraphScope scope, const SceneView& scene, ImageHandle atl
                                              "shadow_maps/masked.frag", gpu::VertexLayout::kPositionsAndUvs)
                               : scope.raster("punctual_shadows.faces", "shadow_maps/depth.vert", "",
                                              gpu::VertexLayout::kPositions);
-    pass.depthPatches(atlas).geometry(scene.geometry).read("instances", scene.instances);
+    pass.depthPatches(atlas)
+        .geometry(scene.geometry)
+        .read("instances", scene.instances)
+        .read("drawnRows", scene.drawnRows);
     if (masked) bindMaterials(pass, scene);
     return pass;
 }

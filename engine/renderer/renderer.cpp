@@ -104,7 +104,7 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     AG_VK(device_.vk().BeginCommandBuffer(slot.commands, &begin));
     using Previous = SceneGpu::Previous;
     const Previous previous = graph_.isRead(view.previousInstances) ? Previous::kKept : Previous::kUnread;
-    scene_.upload(slot.commands, view, previous, index);
+    scene_.upload(slot.commands, graph_, view, previous, index);
     if (options.timing == TimingMode::kProcessCpu) {
         // The graph submits by itself, so the uploads must be on their way before it.
         AG_VK(device_.vk().EndCommandBuffer(slot.commands));

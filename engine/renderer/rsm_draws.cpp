@@ -10,7 +10,7 @@ void drawRsm(GraphScope scope, const SceneView& scene, gi::RsmSet& rsm) {
     PassBuilder pass = scope.raster("rsm.render", "gbuffer/fill.vert", "rsm/render.frag",
                                     gpu::VertexLayout::kPositionsAndAttributes);
     pass.colorClear(rsm.normal, glm::vec4(0)).colorClear(rsm.albedo, glm::vec4(0)).depthClear(rsm.depth);
-    pass.geometry(scene.geometry).read("instances", scene.instances);
+    pass.geometry(scene.geometry).read("instances", scene.instances).read("drawnRows", scene.drawnRows);
     bindMaterials(pass, scene);
     const uint32_t slot = scene.slots.firstRsm;
     std::array<ViewRequest, io::kMaxRsmFaces> views;

@@ -50,7 +50,8 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
         std::ranges::copy(push, draw.push.begin());
         draw.pushSizeBytes = uint32_t(push.size());
         draw.commands = scene.commands;
-        draw.commandsOffsetBytes = range.firstCommand * sizeof(VkDrawIndexedIndirectCommand);
+        draw.commandsOffsetBytes =
+            (view.commandRange.first + range.firstCommand) * sizeof(VkDrawIndexedIndirectCommand);
         draw.commandCount = range.commandCount;
         draw.commandsVersion = view.versionOf(options.layer);
         pass.draw(draw);

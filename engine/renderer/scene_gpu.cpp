@@ -153,13 +153,18 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
     if (instances_.get() != before) instancesVersion_ = 0;
     previousInstances_ =
         grown(std::move(previousInstances_), "scene.previous_instances", rowBytes, kVec4Texels, false);
+    reserveDraws();
+}
+
+// Room for what all views draw.
+void SceneGpu::reserveDraws() {
     const uint64_t commandBytes =
-        std::max<uint64_t>(uint64_t(viewSlots(scene).count) * std::max<uint64_t>(scene.instances.size(), 1) *
-                               sizeof(VkDrawIndexedIndirectCommand),
-                           64);
-    const gpu::Buffer* commandsBefore = commands_.get();
+        std::max(draws_.commandCapacity(), 64u) * sizeof(VkDrawIndexedIndirectCommand);
+    const uint64_t rowBytes = std::max(draws_.rowCapacity(), 64u) * sizeof(uint32_t);
+    const gpu::Buffer *commandsBefore = commands_.get(), *rowsBefore = drawnRows_.get();
     commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
-    if (commands_.get() != commandsBefore) draws_.markAllDirty();
+    drawnRows_ = grown(std::move(drawnRows_), "scene.drawn_rows", rowBytes, VK_FORMAT_R32_UINT, false);
+    if (commands_.get() != commandsBefore || drawnRows_.get() != rowsBefore) draws_.markAllDirty();
 }
 
 // Points stay on their instances while these move; they are chosen anew when instances come or go.
@@ -233,6 +238,7 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
                          instancesVersion_ + 1 == scene.instancesVersion;
     if (follows) view.moved = scene.changedInstances;
     view.commands = scope.importBuffer("scene.commands", *commands_, 1);
+    view.drawnRows = scope.importBuffer("scene.drawn_rows", *drawnRows_, 1);
     view.materials = scope.importBuffer("scene.materials", *materials_, materialsVersion_);
     static constexpr std::array kSrgbNames = {"scene.srgb256", "scene.srgb512", "scene.srgb1024",
                                               "scene.srgb2048"};
@@ -313,7 +319,17 @@ void SceneGpu::uploadInstances(VkCommandBuffer commands, const RenderScene& scen
     instancesVersion_ = scene.instancesVersion;
 }
 
-void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, Previous previous,
+void SceneGpu::uploadDraws(VkCommandBuffer commands, const ViewDraws& draws, uint32_t frameSlot) {
+    viewCommands_.assign(draws.commands.begin(), draws.commands.end());
+    for (VkDrawIndexedIndirectCommand& command : viewCommands_)
+        command.firstInstance += draws.rowRange.first;
+    stage(commands, frameSlot, std::as_bytes(std::span(viewCommands_)), *commands_,
+          draws.commandRange.first * sizeof(VkDrawIndexedIndirectCommand));
+    stage(commands, frameSlot, std::as_bytes(std::span(draws.rows)), *drawnRows_,
+          draws.rowRange.first * sizeof(uint32_t));
+}
+
+void SceneGpu::upload(VkCommandBuffer commands, FrameGraph& graph, const SceneView& view, Previous previous,
                       uint32_t frameSlot) {
     const RenderScene& scene = *view.scene;
     uploadedBytes_ = 0;
@@ -324,22 +340,19 @@ void SceneGpu::upload(VkCommandBuffer commands, const SceneView& view, Previous 
         skin_.upload(scene, [&](std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {
             stage(commands, frameSlot, bytes, to, offset);
         });
-    const uint64_t stride = draws_.commandsPerView() * sizeof(VkDrawIndexedIndirectCommand);
-    AG_CHECK_MSG(draws_.viewCount() * stride <= commands_->sizeBytes(), "a view was added after import()");
+    reserveDraws();
+    graph.rebind(view.commands, *commands_);
+    graph.rebind(view.drawnRows, *drawnRows_);
     for (uint32_t slot = 0; slot < draws_.viewCount(); ++slot)
-        if (draws_.takeDirty(slot))
-            stage(commands, frameSlot,
-                  std::as_bytes(
-                      draws_.commands().subspan(slot * draws_.commandsPerView(), draws_.commandsPerView())),
-                  *commands_, slot * stride);
+        if (draws_.takeDirty(slot)) uploadDraws(commands, draws_.draws(slot), frameSlot);
     if (uploadedBytes_ > 0) transferBarrier(device_.vk(), commands, Transfer::kAfter);
 }
 
 uint64_t SceneGpu::deviceBytes() const {
     uint64_t bytes = 0;
-    for (const auto* buffer :
-         {positions_.get(), attributes_.get(), indices_.get(), materials_.get(), instances_.get(),
-          previousInstances_.get(), commands_.get(), samples_.get(), pointAreas_.get(), bouncePoints_.get()})
+    for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(),
+                               instances_.get(), previousInstances_.get(), commands_.get(), drawnRows_.get(),
+                               samples_.get(), pointAreas_.get(), bouncePoints_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes + skin_.deviceBytes();
 }

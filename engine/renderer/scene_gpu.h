@@ -41,8 +41,9 @@ struct SceneView {
     std::span<const RenderScene::Range>
         moved;  // rows that stood elsewhere then; others are new or did not move
     BufferHandle materials;
-    BufferHandle camera;                                      // io::CameraConstants
-    BufferHandle commands;                                    // indirect draws of all views
+    BufferHandle camera;     // io::CameraConstants
+    BufferHandle commands;   // indirect draws of all views
+    BufferHandle drawnRows;  // the instances that they draw: a texel buffer of uint
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
     glm::uvec2 size{0};                                       // pixels of the camera's image
     RenderUnits units;                                        // of everything above
@@ -78,7 +79,8 @@ class SceneGpu {
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     // `previous`: whether a pass reads where things were in the frame before.
     enum class Previous : uint8_t { kUnread, kKept };
-    void upload(VkCommandBuffer commands, const SceneView& view, Previous previous, uint32_t frameSlot);
+    void upload(VkCommandBuffer commands, FrameGraph& graph, const SceneView& view, Previous previous,
+                uint32_t frameSlot);
 
     DrawLists& draws() { return draws_; }
     uint64_t uploadedBytes() const { return uploadedBytes_; }  // in the last frame
@@ -95,7 +97,9 @@ class SceneGpu {
                const gpu::Buffer& to, uint64_t offset);
     void keepPrevious(VkCommandBuffer commands, const SceneView& view);
     void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
+    void uploadDraws(VkCommandBuffer commands, const ViewDraws& draws, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
+    void reserveDraws();
     void sampleSurfacesAnew(const RenderScene& scene);
     void noteMovements(const RenderScene& scene);
     std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
@@ -109,16 +113,17 @@ class SceneGpu {
     uint64_t materialsVersion_ = 0;
     bool hasGlossy_ = false, hasNormalMaps_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
-        previousInstances_, commands_;
+        previousInstances_, commands_, drawnRows_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
     std::unique_ptr<gpu::Buffer> samples_, pointAreas_, bouncePoints_;
     uint32_t bouncePointCount_ = 0;
     uint32_t sampleCount_ = 0;
     uint32_t staticSampleCount_ = 0;
-    uint64_t staticVersion_ = 0, notedVersion_ = 0;  // notedVersion_: of the instances it is about
-    uint64_t sampledVersion_ = 0, sampledSet_ = 0;   // of the instances the samples are on
-    std::vector<io::Instance> rows_;                 // scratch for the conversion
-    uint64_t instancesVersion_ = 0;                  // last uploaded
+    uint64_t staticVersion_ = 0, notedVersion_ = 0;           // notedVersion_: of the instances it is about
+    uint64_t sampledVersion_ = 0, sampledSet_ = 0;            // of the instances the samples are on
+    std::vector<io::Instance> rows_;                          // scratch for the conversion
+    std::vector<VkDrawIndexedIndirectCommand> viewCommands_;  // scratch
+    uint64_t instancesVersion_ = 0;                           // last uploaded
     std::array<Staging, kFramesInFlight> staging_;
     uint64_t uploadedBytes_ = 0;
 };

@@ -108,12 +108,15 @@ void addLayer(GraphScope scope, const SceneView& scene, const Cascades& c, DrawL
         opaque.depth(image);  // over what is static
     else
         opaque.depthClear(image);
-    opaque.geometry(scene.geometry).read("instances", scene.instances);
+    opaque.geometry(scene.geometry).read("instances", scene.instances).read("drawnRows", scene.drawnRows);
     drawCascades(opaque, scene, c, DrawFilter::kOpaqueOnly, layer);
     if (!hasMasked(scene)) return;
     PassBuilder masked = scope.raster(names.masked, "shadow_maps/masked.vert", "shadow_maps/masked.frag",
                                       gpu::VertexLayout::kPositionsAndUvs);
-    masked.depth(image).geometry(scene.geometry).read("instances", scene.instances);
+    masked.depth(image)
+        .geometry(scene.geometry)
+        .read("instances", scene.instances)
+        .read("drawnRows", scene.drawnRows);
     bindMaterials(masked, scene);
     drawCascades(masked, scene, c, DrawFilter::kMaskedOnly, layer);
 }

@@ -16,6 +16,7 @@ void drawParaboloids(GraphScope scope, const SceneView& scene, const gi::Parabol
         .depthClear(maps.depth)
         .geometry(scene.geometry)
         .read("instances", scene.instances)
+        .read("drawnRows", scene.drawnRows)
         .read("clusters", maps.clusters);
     bindMaterials(pass, scene);
     const Bounds& bounds = scene.scene->bounds;

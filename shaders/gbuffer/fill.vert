@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // One instance's triangles to clip space; the camera, a shadow view or an RSM face by push constant.
 #define AG_SCENE_INSTANCES
+#define AG_SCENE_DRAWS
 #include "scene/scene.glsl"
 
 layout(push_constant, scalar) uniform Push { mat4 clipFromWorld; } push;
@@ -20,7 +21,7 @@ layout(location = 3) out vec2 outUv;
 layout(location = 4) flat out uint outMaterial;
 
 void main() {
-    InstanceTransform t = fetchInstance(gl_InstanceIndex);
+    InstanceTransform t = fetchInstance(drawnInstance());
     outPosition = transformPoint(t, position);
     outNormal = transformNormal(t, normal);
     outTangent = vec4(transformDirection(t, tangent.xyz), tangent.w);

@@ -1,5 +1,6 @@
 // What moved, where gbuffer/fill.vert put it, and the way back to where it was a frame ago.
 #define AG_SCENE_INSTANCES
+#define AG_SCENE_DRAWS
 #include "common/texels.glsl"
 #include "scene/scene.glsl"
 #ifdef AG_SKINNED
@@ -27,15 +28,16 @@ invariant gl_Position;
 layout(location = 0) out vec3 outMotion;  // m
 
 void main() {
-    InstanceTransform t = fetchInstance(gl_InstanceIndex);
+    int instance = drawnInstance();
+    InstanceTransform t = fetchInstance(instance);
     vec3 now = transformPoint(t, position);
     vec4 p = vec4(position, 1.0);
 #ifdef AG_SKINNED
     if (t.skinnedMesh != kNoSkinnedMesh) p.xyz = bentBefore(t.skinnedMesh);
 #endif
-    vec3 before = vec3(dot(fetchTexel(previousInstances, gl_InstanceIndex * 4 + 0), p),
-                       dot(fetchTexel(previousInstances, gl_InstanceIndex * 4 + 1), p),
-                       dot(fetchTexel(previousInstances, gl_InstanceIndex * 4 + 2), p));
+    vec3 before = vec3(dot(fetchTexel(previousInstances, instance * 4 + 0), p),
+                       dot(fetchTexel(previousInstances, instance * 4 + 1), p),
+                       dot(fetchTexel(previousInstances, instance * 4 + 2), p));
     outMotion = before - now;
     gl_Position = push.clipFromWorld * vec4(now, 1.0);
 }

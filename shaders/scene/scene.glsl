@@ -47,6 +47,13 @@ vec3 transformNormal(InstanceTransform t, vec3 n) {
 }
 #endif
 
+#ifdef AG_SCENE_DRAWS
+// The instances that each draw takes, from its firstInstance on.
+layout(set = 0, binding = 11) UINT_TEXELS(drawnRows);
+
+int drawnInstance() { return int(fetchTexel(drawnRows, gl_InstanceIndex).x); }
+#endif
+
 #ifdef AG_SCENE_MATERIALS
 // The variant of a draw: material features are compiled in or out.
 layout(constant_id = 0) const uint kTextureClass = 0;  // TextureClass: 0 means no texture at all

@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // Depth of alpha-masked surfaces: needs their texture coordinates.
 #define AG_SCENE_INSTANCES
+#define AG_SCENE_DRAWS
 #include "scene/scene.glsl"
 
 layout(push_constant, scalar) uniform Push { mat4 clipFromWorld; } push;
@@ -13,7 +14,7 @@ layout(location = 0) out vec2 outUv;
 layout(location = 1) flat out uint outMaterial;
 
 void main() {
-    InstanceTransform t = fetchInstance(gl_InstanceIndex);
+    InstanceTransform t = fetchInstance(drawnInstance());
     outUv = uv;
     outMaterial = t.material;
     gl_Position = push.clipFromWorld * vec4(transformPoint(t, position), 1.0);

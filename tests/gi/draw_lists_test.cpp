@@ -1,6 +1,8 @@
 // What views draw: culled one by one or all at once as jobs, it is what a plain test of every box says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <random>
 
@@ -33,6 +35,16 @@ bool inSight(const RenderScene& scene, const RenderInstance& instance, const glm
     return true;
 }
 
+std::vector<uint32_t> rowsOf(const ViewDraws& draws, const BucketRange& range) {
+    std::vector<uint32_t> rows;
+    for (uint32_t c = 0; c < range.commandCount; ++c) {
+        const VkDrawIndexedIndirectCommand& command = draws.commands[range.firstCommand + c];
+        for (uint32_t k = 0; k < command.instanceCount; ++k)
+            rows.push_back(draws.rows[command.firstInstance + k]);
+    }
+    return rows;
+}
+
 TEST(DrawLists, JobsCullWhatTheCallerCulls) {
     const SceneAsset asset = *scenegen::buildScene("crowd", 6000);
     RenderScene scene = staticScene(asset);
@@ -52,16 +64,17 @@ TEST(DrawLists, JobsCullWhatTheCallerCulls) {
             const ViewDraws& a = serial.cull(scene, view.slot, view.clipFromWorld);
             const ViewDraws& b = jobs.cull(scene, view.slot, view.clipFromWorld);
             EXPECT_EQ(a.version, b.version);
-            ASSERT_EQ(a.instanceCount, b.instanceCount);
+            EXPECT_EQ(a.rows, b.rows);
+            ASSERT_EQ(a.commands.size(), b.commands.size());
+            EXPECT_EQ(
+                std::memcmp(a.commands.data(), b.commands.data(), sizeof a.commands[0] * a.commands.size()),
+                0);
             uint32_t expected = 0;
             for (const RenderInstance& instance : scene.instances)
                 expected += inSight(scene, instance, view.clipFromWorld);
-            EXPECT_NEAR(a.instanceCount, expected, 2) << "boxes that only touch";
-            drawn += a.instanceCount;
+            EXPECT_NEAR(a.rows.size(), expected, 2) << "boxes that only touch";
+            drawn += a.rows.size();
         }
-        ASSERT_EQ(serial.commands().size(), jobs.commands().size());
-        EXPECT_EQ(
-            std::memcmp(serial.commands().data(), jobs.commands().data(), serial.commands().size_bytes()), 0);
         EXPECT_GT(drawn, 1000u);
         const uint32_t row = random() % uint32_t(scene.instances.size());
         scene.instances[row].worldFromLocal[3].y += 0.5f;
@@ -80,17 +93,116 @@ TEST(DrawLists, WhatIsTurnedOverIsDrawnFromABucketOfItsOwn) {
     for (int turn = 0; turn < 4; ++turn) {
         lists.beginFrame(scene, one);
         const ViewDraws& draws = lists.cull(scene, 0, scene.camera.clipFromWorld);
-        EXPECT_EQ(draws.instanceCount, scene.instances.size());
+        EXPECT_EQ(draws.rows.size(), scene.instances.size());
         for (size_t b = 0; b < draws.buckets.size(); ++b)
-            for (uint32_t c = 0; c < draws.buckets[b].commandCount; ++c) {
-                const uint32_t row = lists.commands()[draws.buckets[b].firstCommand + c].firstInstance;
+            for (const uint32_t row : rowsOf(draws, draws.buckets[b]))
                 EXPECT_EQ(lists.buckets()[b].mirrored, row == 1 && turn % 2 == 1);
-            }
         scene.instances[1].worldFromLocal[0] *= -1.0f;
         scene.changedInstances = {{1, 2}};
         scene.allInstancesChanged = false;
         ++scene.instancesVersion;
     }
+}
+
+// Every instance is drawn once, of its own primitive, what is static first; instances of a primitive are one
+// draw.
+TEST(DrawLists, InstancesOfAPrimitiveAreOneDraw) {
+    const SceneAsset asset = *scenegen::buildScene("crowd", 6000);
+    RenderScene scene = staticScene(asset);
+    for (size_t i = 0; i < scene.instances.size(); i += 3)
+        scene.instances[i].movable = true;
+    JobRunner one(1);
+    DrawLists lists;
+    lists.beginFrame(scene, one);
+    const ViewDraws& draws = lists.cull(scene, 0, sunView({0, -1, 0}, scene.bounds, 0.1f).clipFromWorld);
+    std::vector<uint32_t> all;
+    for (const BucketRange& range : draws.buckets)
+        for (uint32_t c = 0; c < range.commandCount; ++c) {
+            const VkDrawIndexedIndirectCommand& command = draws.commands[range.firstCommand + c];
+            for (uint32_t k = 0; k < command.instanceCount; ++k) {
+                const uint32_t row = all.emplace_back(draws.rows[command.firstInstance + k]);
+                const Primitive& p = scene.geometry->primitives[scene.instances[row].primitive];
+                ASSERT_EQ(command.firstIndex, p.firstIndex);
+                ASSERT_EQ(command.vertexOffset, firstVertexOf(scene, scene.instances[row]));
+                ASSERT_EQ(scene.instances[row].movable, c >= range.staticCount);
+            }
+        }
+    std::ranges::sort(all);
+    ASSERT_EQ(all.size(), scene.instances.size());
+    for (uint32_t i = 0; i < all.size(); ++i)
+        ASSERT_EQ(all[i], i);
+    EXPECT_LT(draws.commands.size(), 200u);
+}
+
+TEST(DrawLists, WhatIsPickedIsWhatTheViewDrawsOfTheRows) {
+    const SceneAsset asset = *scenegen::buildScene("crowd", 500);
+    RenderScene scene = staticScene(asset);
+    setCamera(scene, cameraOf(asset, 0), {160, 90});
+    JobRunner one(1);
+    DrawLists lists;
+    lists.beginFrame(scene, one);
+    const ViewDraws& all = lists.cull(scene, 0, scene.camera.clipFromWorld);
+    const std::vector<RenderScene::Range> rows = {{3, 4}, {10, 200}, {300, 420}};
+    const ViewDraws& some = lists.pick(1, all, rows);
+    std::vector<uint32_t> expected, picked = some.rows;
+    for (const uint32_t row : all.rows)
+        if (row == 3 || (row >= 10 && row < 200) || (row >= 300 && row < 420)) expected.push_back(row);
+    EXPECT_GT(expected.size(), 20u);
+    EXPECT_EQ(picked, expected);
+}
+
+// 200 punctual lights among 10,000 boxes: each light draws all that it sees into six faces.
+TEST(DrawLists, ManyViewsOfManyInstancesStaySmall) {
+    const SceneAsset asset = *scenegen::buildScene("crowd", 10000);
+    RenderScene scene = staticScene(asset);
+    JobRunner jobs(2);
+    DrawLists lists;
+    lists.beginFrame(scene, jobs);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit;
+    std::vector<ViewRequest> views;
+    for (uint32_t light = 0; light < 200; ++light) {
+        const glm::vec3 at = scene.bounds.min + glm::vec3(unit(random), unit(random), unit(random)) *
+                                                    (scene.bounds.max - scene.bounds.min);
+        for (uint32_t face = 0; face < 6; ++face)
+            views.push_back({light * 6 + face, cubeFaceView(at, face, 1000).clipFromWorld});
+    }
+    lists.cullAll(scene, views);
+    size_t drawn = 0;
+    for (const ViewRequest& view : views)
+        drawn += lists.cull(scene, view.slot, view.clipFromWorld).rows.size();
+    const size_t bytes = lists.commandCapacity() * sizeof(VkDrawIndexedIndirectCommand) +
+                         lists.rowCapacity() * sizeof(uint32_t);
+    std::printf("%zu instances drawn, %.1f MB of commands and rows\n", drawn, double(bytes) / 1e6);
+    EXPECT_GT(drawn, 200u * 10000u) << "all are seen";
+    EXPECT_LT(bytes, 40e6);
+}
+
+// A list's range is its own, and what is given back is used again.
+TEST(RangePool, RangesNeverMeetAndAreUsedAgain) {
+    RangePool pool;
+    std::vector<RangePool::Range> ranges(64);
+    std::mt19937 random(7);
+    for (int turn = 0; turn < 400; ++turn) {
+        RangePool::Range& range = ranges[random() % ranges.size()];
+        const uint32_t count = random() % 3 == 0 ? 0 : random() % 3000;
+        pool.fit(range, count);
+        EXPECT_GE(range.capacity, count);
+        for (const RangePool::Range& other : ranges) {
+            if (&other == &range || other.capacity == 0 || range.capacity == 0) continue;
+            ASSERT_TRUE(other.first + other.capacity <= range.first ||
+                        range.first + range.capacity <= other.first);
+        }
+    }
+    const uint32_t size = pool.size();
+    std::vector<uint32_t> capacities;
+    for (RangePool::Range& range : ranges) {
+        capacities.push_back(range.capacity);
+        pool.fit(range, 0);
+    }
+    for (size_t i = 0; i < ranges.size(); ++i)
+        pool.fit(ranges[i], capacities[i]);
+    EXPECT_EQ(pool.size(), size);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // Triangles on a cluster's paraboloid (Heidrich & Seidel 1998): bent at their corners, straight between, as in SSVP.
 #define AG_SCENE_INSTANCES
+#define AG_SCENE_DRAWS
 #include "scene/scene.glsl"
 #include "common/sampling.h"
 #include "published/ssvp/ssvp_io.h"
@@ -24,7 +25,7 @@ layout(location = 4) out vec3 outFromCluster;  // m, in its frame
 const float kLeastDenominator = 0.1;  // behind the cluster, far outside the disk
 
 void main() {
-    InstanceTransform t = fetchInstance(gl_InstanceIndex);
+    InstanceTransform t = fetchInstance(drawnInstance());
     SsvpCluster cluster = clusters.items[push.cluster];
     outPosition = transformPoint(t, position);
     outNormal = transformNormal(t, normal);
