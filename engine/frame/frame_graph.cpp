@@ -109,6 +109,12 @@ GraphScope GraphScope::held(bool on) const {
     return scope;
 }
 
+GraphScope GraphScope::async() const {
+    GraphScope scope = *this;
+    scope.async_ = true;
+    return scope;
+}
+
 uint32_t FrameGraph::Impl::declare(Resource resource, bool history) {
     const uint64_t hash = hashName(resource.scope, resource.name);
     const auto [entry, added] = slotOfName.try_emplace(hash, uint32_t(slots.size()));
@@ -200,10 +206,10 @@ Memory& FrameGraph::Impl::borrow(uint32_t resource, const Borrowed& how) {
     Memory& memory = slot.halves[0];
     memory.borrowedImage = nullptr;
     memory.borrowedBuffer = nullptr;
-    memory.sync = {.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                   .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                   .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                   .layout = r.isImage ? how.before : VK_IMAGE_LAYOUT_UNDEFINED};
+    memory.sync.fill({.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                      .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                      .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                      .layout = r.isImage ? how.before : VK_IMAGE_LAYOUT_UNDEFINED});
     return memory;
 }
 
@@ -273,14 +279,17 @@ uint32_t FrameGraph::Impl::statsFor(uint32_t scope, std::string_view name) {
     return entry->second;
 }
 
-uint32_t FrameGraph::Impl::addPass(uint32_t scope, bool held, std::string_view name, PassKind kind) {
+uint32_t FrameGraph::Impl::addPass(const GraphScope& scope, std::string_view name, PassKind kind) {
     Pass pass;
     pass.name = name;
     pass.kind = kind;
     pass.firstUse = uint32_t(uses.size());
     pass.firstDraw = uint32_t(draws.size());
-    pass.stats = statsFor(scope, name);
-    pass.held = held;
+    pass.stats = statsFor(scope.id_, name);
+    pass.held = scope.held_;
+    const bool compute = kind == PassKind::kCompute || kind == PassKind::kFill || kind == PassKind::kUpload ||
+                         kind == PassKind::kCopyBuffer;
+    pass.async = scope.async_ && compute;
     for (const Pass& other : passes)
         AG_CHECK_MSG(other.stats != pass.stats, "pass added twice: " + std::string(name));
     passes.push_back(pass);
@@ -306,14 +315,14 @@ void FrameGraph::Impl::addUse(uint32_t pass, const Use& use) {
 
 PassBuilder GraphScope::compute(std::string_view name, std::string_view shader) const {
     FrameGraph::Impl& g = *graph_->impl_;
-    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kCompute);
+    const uint32_t pass = g.addPass(*this, name, PassKind::kCompute);
     g.passes[pass].shader = shader;
     return {*graph_, pass};
 }
 
 PassBuilder GraphScope::fullscreen(std::string_view name, std::string_view fragmentShader) const {
     FrameGraph::Impl& g = *graph_->impl_;
-    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kFullscreen);
+    const uint32_t pass = g.addPass(*this, name, PassKind::kFullscreen);
     g.passes[pass].vertexShader = "common/fullscreen.vert";
     g.passes[pass].shader = fragmentShader;
     return {*graph_, pass};
@@ -322,7 +331,7 @@ PassBuilder GraphScope::fullscreen(std::string_view name, std::string_view fragm
 PassBuilder GraphScope::raster(std::string_view name, std::string_view vertexShader,
                                std::string_view fragmentShader, gpu::VertexLayout layout) const {
     FrameGraph::Impl& g = *graph_->impl_;
-    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kRaster);
+    const uint32_t pass = g.addPass(*this, name, PassKind::kRaster);
     g.passes[pass].vertexShader = vertexShader;
     g.passes[pass].shader = fragmentShader;
     g.passes[pass].raster.vertexLayout = layout;
@@ -330,12 +339,12 @@ PassBuilder GraphScope::raster(std::string_view name, std::string_view vertexSha
 }
 
 PassBuilder GraphScope::callback(std::string_view name) const {
-    return {*graph_, graph_->impl_->addPass(id_, held_, name, PassKind::kCallback)};
+    return {*graph_, graph_->impl_->addPass(*this, name, PassKind::kCallback)};
 }
 
 void GraphScope::fill(std::string_view name, BufferHandle buffer, uint32_t word) const {
     FrameGraph::Impl& g = *graph_->impl_;
-    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kFill);
+    const uint32_t pass = g.addPass(*this, name, PassKind::kFill);
     g.passes[pass].fillWord = word;
     g.addUse(pass, {.resource = buffer.index, .kind = UseKind::kTransferWrite});
 }
@@ -343,7 +352,7 @@ void GraphScope::fill(std::string_view name, BufferHandle buffer, uint32_t word)
 void GraphScope::upload(std::string_view name, BufferHandle buffer, std::span<const std::byte> bytes) const {
     AG_CHECK_EQ(bytes.size() % 4, size_t(0));
     FrameGraph::Impl& g = *graph_->impl_;
-    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kUpload);
+    const uint32_t pass = g.addPass(*this, name, PassKind::kUpload);
     g.passes[pass].dataOffset = uint32_t(g.data.size());
     g.passes[pass].dataSize = uint32_t(bytes.size());
     g.data.insert(g.data.end(), bytes.begin(), bytes.end());
@@ -352,7 +361,7 @@ void GraphScope::upload(std::string_view name, BufferHandle buffer, std::span<co
 
 void GraphScope::copyImage(std::string_view name, ImageHandle from, ImageHandle to) const {
     FrameGraph::Impl& g = *graph_->impl_;
-    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kCopyImage);
+    const uint32_t pass = g.addPass(*this, name, PassKind::kCopyImage);
     g.addUse(pass, {.resource = from.index, .kind = UseKind::kTransferRead});
     g.addUse(pass, {.resource = to.index, .kind = UseKind::kTransferWrite});
 }
@@ -362,7 +371,7 @@ std::span<const std::byte> GraphScope::readBack(const std::array<std::string_vie
     FrameGraph::Impl& g = *graph_->impl_;
     const std::string_view name = names[g.frame % kFramesInFlight];
     const BufferHandle copy = buffer(name, {.sizeBytes = info(from).sizeBytes, .hostVisible = true});
-    const uint32_t pass = g.addPass(id_, held_, name, PassKind::kCopyBuffer);
+    const uint32_t pass = g.addPass(*this, name, PassKind::kCopyBuffer);
     g.addUse(pass, {.resource = from.index, .kind = UseKind::kTransferRead});
     g.addUse(pass, {.resource = copy.index, .kind = UseKind::kTransferWrite});
     output(copy);

@@ -12,7 +12,10 @@
 //    `previous`; it steps only when the rest of its key changed (or its .step() did). Then the halves swap
 //    and the output's version is hash(key, version of previous).
 //
-// Nothing reorders. One queue. A steady frame allocates nothing on the heap: names must be string literals or
+//  - Passes of a scope that is async() go to a second queue where there is one. What waits for what between
+//    queues follows from what passes read and write, as barriers do.
+//
+// Nothing reorders. A steady frame allocates nothing on the heap: names must be string literals or
 // outlive the graph, and lists keep their capacity from frame to frame.
 #pragma once
 
@@ -27,6 +30,7 @@
 #include "engine/core/function_ref.h"
 #include "engine/frame/pass_builder.h"
 #include "engine/frame/pass_counter.h"
+#include "engine/gpu/queue.h"
 
 namespace ag {
 
@@ -72,7 +76,7 @@ struct PassSpan {
     std::string_view name;
     uint64_t beginTicks = 0, endTicks = 0;
 };
-// The passes that ran in one frame, in order; they never overlap.
+// The passes that ran in one frame, in order; those of one queue never overlap.
 struct FrameSpans {
     uint64_t frame = 0;  // 0: none yet
     std::span<const PassSpan> passes;
@@ -94,9 +98,22 @@ struct BarrierRecord {
     VkAccessFlags2 srcAccess, dstAccess;
     VkImageLayout oldLayout, newLayout;  // UNDEFINED twice for buffers
 };
+// Work that is submitted at once. Batches of a queue are submitted in order.
+struct QueueBatch {
+    gpu::Queue queue = gpu::Queue::kMain;
+    VkCommandBuffer commands = VK_NULL_HANDLE;  // begun
+    int32_t after = -1;                         // an earlier one, of the other queue, that it waits for
+};
+// An image becomes the other queue family's: released at the end of one batch, acquired in another.
+struct OwnerChange {
+    std::string_view resource;
+    int32_t from = 0, to = 0;
+    bool operator==(const OwnerChange&) const = default;
+};
 struct PassRecord {
     std::string_view name;
     std::vector<BarrierRecord> barriers;  // before the pass
+    int32_t batch = 0;
 };
 
 struct FrameGraphOptions {
@@ -105,6 +122,7 @@ struct FrameGraphOptions {
     std::string_view repeatPass;  // its work is done `repeats` times over: what an optimisation must find
     uint32_t repeats = 1;
     TimingMode timing = TimingMode::kTimestamps;
+    bool async = true;  // a second queue is used where there is one; the bits are the same
 };
 
 // Where passes and resources are declared: names and all that lasts from frame to frame belong to a scope.
@@ -120,6 +138,10 @@ class GraphScope {
     // skipping or without: for what may be late on purpose. They run only where there is nothing yet.
     GraphScope held(bool on) const;
     bool isHeld() const { return held_; }
+
+    // The same scope for compute passes, fills, uploads and copies of buffers that may run beside the passes
+    // of others.
+    GraphScope async() const;
 
     // --- Resources. Names are unique within the scope and a frame, and identify the resource from frame to
     // frame; a changed info makes it anew. ---
@@ -183,6 +205,7 @@ class GraphScope {
     FrameGraph* graph_;
     uint32_t id_;
     bool held_ = false;
+    bool async_ = false;
 };
 
 // Is its own outermost scope.
@@ -207,6 +230,12 @@ class FrameGraph : public GraphScope {
     void rebind(BufferHandle import, const gpu::Buffer& buffer);
     // Decides what runs and records it. `commands` null: decide only (null recorder).
     void execute(VkCommandBuffer commands);
+    // The same on two queues, in timing modes in which passes may overlap: `begin` gives more command
+    // buffers, begun. Returns what to submit, in this order; the first batch is of the main queue and begins
+    // with what `commands` holds already, the last is of the main queue and waits for all others. Valid until
+    // the next beginFrame().
+    using BeginBatch = FunctionRef<VkCommandBuffer(gpu::Queue)>;
+    std::span<const QueueBatch> execute(VkCommandBuffer commands, BeginBatch begin);
     // The same with each pass submitted and waited for by itself, as TimingMode::kProcessCpu asks for:
     // `submit` returns what that took, ms.
     using Submit = FunctionRef<double(const std::function<void(VkCommandBuffer)>& record)>;
@@ -220,11 +249,12 @@ class FrameGraph : public GraphScope {
     std::vector<std::string_view> resourceNames() const;
 
     // --- What happened ---
-    std::span<const PassReport> report() const;       // in order, of the frame last executed
-    std::span<const PassRecord> nullRecords() const;  // null device only
-    uint64_t frame() const;                           // number of the frame last begun, from 1
-    FrameSpans spans() const;                         // of the last frame whose timestamps arrived
-    FrameDescription describe() const;                // of the frame last executed
+    std::span<const PassReport> report() const;         // in order, of the frame last executed
+    std::span<const PassRecord> nullRecords() const;    // null device only
+    std::span<const OwnerChange> ownerChanges() const;  // of the last execute() on two queues
+    uint64_t frame() const;                             // number of the frame last begun, from 1
+    FrameSpans spans() const;                           // of the last frame whose timestamps arrived
+    FrameDescription describe() const;                  // of the frame last executed
     // Of the frame last executed with TimingMode::kCounts: waits for its work. Empty where the device counts
     // nothing (DeviceInfo::counts).
     std::vector<PassCount> counts() const;

@@ -25,6 +25,15 @@ bool misses(const SyncState& s, const Access& access) {
     return s.writeStages != 0 && !seen;
 }
 
+// Of memory that the other queue changed: what uses it has waited for a semaphore, at all stages. The
+// accesses are named although the semaphore covers them, because validation does not follow timelines.
+SyncState stateForOther(VkImageLayout layout) {
+    return {.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
+            .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            .layout = layout};
+}
+
 // What the access waits for; none: it may begin at once.
 std::optional<BarrierRecord> barrierBefore(const Resource& r, const SyncState& s, const Access& access,
                                            bool discard) {
@@ -96,9 +105,15 @@ void FrameGraph::Impl::addBarrier(Resource& r, const Access& access, bool discar
         return;  // read-only, in its layout: made visible by whoever wrote it
     Memory& memory = slots[r.slot].halves[r.half];
     AliasBucket* bucket = slots[r.slot].bucket == ~0u ? nullptr : &buckets[slots[r.slot].bucket];
-    if (bucket && std::exchange(bucket->lastUser, r.slot) != r.slot) memory.sync = kTakenOver;
-    const std::optional<BarrierRecord> barrier = barrierBefore(r, memory.sync, access, discard);
-    memory.sync = stateAfter(r, memory.sync, access);
+    if (bucket && std::exchange(bucket->lastUser, r.slot) != r.slot) memory.sync.fill(kTakenOver);
+    takeOwner(r, memory, access, discard);
+    const gpu::Queue queue = batches.queue;
+    SyncState& sync = memory.sync[size_t(queue)];
+    const std::optional<BarrierRecord> barrier = barrierBefore(r, sync, access, discard);
+    const bool change = changes(r, sync, access);
+    sync = stateAfter(r, sync, access);
+    if (change) memory.sync[size_t(otherQueue(queue))] = stateForOther(sync.layout);
+    noteUse(memory, change);
     if (!barrier) return;
     if (record) record->barriers.push_back(*barrier);
     if (const gpu::Image* image = imageIn(memory)) imageBarriers.push_back(imageBarrier(*barrier, *image));
@@ -223,36 +238,55 @@ void FrameGraph::Impl::runPasses(Run&& run) {
     commitHistories();
 }
 
+void FrameGraph::Impl::run(VkCommandBuffer commands) {
+    const bool stamps = options.timing == TimingMode::kTimestamps || options.timing == TimingMode::kBracketed;
+    const bool timed = context && stamps && commands;
+    const bool counted =
+        context && context->info().counts && options.timing == TimingMode::kCounts && commands;
+    if (timed && !timer) timer = std::make_unique<FrameTimer>(*context);
+    if (counted && !counter) counter = std::make_unique<PassCounter>(*context);
+    if (context) {
+        createResources();
+        zeroNewHistories(commands);
+    }
+    if (timed) readTimes(commands);
+    if (counted) counter->beginFrame(commands);
+    runPasses([&](const Pass& pass) {
+        const VkCommandBuffer to = commandsFor(pass);
+        PassRecord* record =
+            context ? nullptr
+                    : &records.emplace_back(PassRecord{pass.name, {}, batches.open[size_t(batches.queue)]});
+        synchronize(to, pass, record);
+        if (timed) timer->begin(to, pass.stats);
+        if (counted) counter->begin(to, pass.name);
+        if (context) recordPass(to, pass);
+        if (context && pass.name == options.repeatPass) repeatPass(to, pass);
+        if (counted) counter->end(to);
+        if (timed) timer->end(to);
+    });
+    const VkCommandBuffer last = joinQueues();
+    if (timed) timer->endFrame(last);
+    synchronizeOutputs(last);
+    retireUnused();
+}
+
 void FrameGraph::execute(VkCommandBuffer commands) {
     Impl& g = *impl_;
     AG_CHECK(g.options.timing != TimingMode::kProcessCpu);
+    g.beginBatches(commands, nullptr);
     g.plan();
-    const bool stamps =
-        g.options.timing == TimingMode::kTimestamps || g.options.timing == TimingMode::kBracketed;
-    const bool timed = g.context && stamps && commands;
-    const bool counted =
-        g.context && g.context->info().counts && g.options.timing == TimingMode::kCounts && commands;
-    if (timed && !g.timer) g.timer = std::make_unique<FrameTimer>(*g.context);
-    if (counted && !g.counter) g.counter = std::make_unique<PassCounter>(*g.context);
-    if (g.context) {
-        g.createResources();
-        g.zeroNewHistories(commands);
-    }
-    if (timed) g.readTimes(commands);
-    if (counted) g.counter->beginFrame(commands);
-    g.runPasses([&](const Pass& pass) {
-        PassRecord* record = g.context ? nullptr : &g.records.emplace_back(PassRecord{pass.name, {}});
-        g.synchronize(commands, pass, record);
-        if (timed) g.timer->begin(commands, pass.stats);
-        if (counted) g.counter->begin(commands, pass.name);
-        if (g.context) g.recordPass(commands, pass);
-        if (g.context && pass.name == g.options.repeatPass) g.repeatPass(commands, pass);
-        if (counted) g.counter->end(commands);
-        if (timed) g.timer->end(commands);
-    });
-    if (timed) g.timer->endFrame(commands);
-    g.synchronizeOutputs(commands);
-    g.retireUnused();
+    g.run(commands);
+}
+
+std::span<const QueueBatch> FrameGraph::execute(VkCommandBuffer commands, BeginBatch begin) {
+    Impl& g = *impl_;
+    const bool mayOverlap =
+        g.options.timing == TimingMode::kTimestamps || g.options.timing == TimingMode::kOff;
+    const bool second = !g.context || g.context->asyncFamily();
+    g.beginBatches(commands, g.options.async && mayOverlap && second ? &begin : nullptr);
+    g.plan();
+    g.run(commands);
+    return g.batches.all;
 }
 
 void FrameGraph::preparePipelines() {
@@ -261,6 +295,7 @@ void FrameGraph::preparePipelines() {
 
 void FrameGraph::executeAlone(Submit submit) {
     Impl& g = *impl_;
+    g.beginBatches(VK_NULL_HANDLE, nullptr);
     g.plan();
     g.createResources();
     submit([&](VkCommandBuffer own) { g.zeroNewHistories(own); });

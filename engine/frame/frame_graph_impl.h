@@ -45,7 +45,11 @@ struct Memory {
     std::unique_ptr<gpu::Buffer> buffer;
     const gpu::Image* borrowedImage = nullptr;  // instead: a host's, of this frame
     const gpu::Buffer* borrowedBuffer = nullptr;
-    SyncState sync;
+    std::array<SyncState, gpu::kQueues> sync;  // of each queue's accesses
+    gpu::Queue owner = gpu::Queue::kMain;      // of an image, where queues are of two families
+    // Batches of each queue that used and changed it last, in frame `usedFrame`.
+    uint64_t usedFrame = 0;
+    std::array<int32_t, gpu::kQueues> lastUse{-1, -1}, lastChange{-1, -1};
     uint64_t version = 0;      // of the contents; 0: nothing
     uint64_t stepVersion = 0;  // the same without what histories were before
     bool needsZero = false;    // histories start as zeroes
@@ -82,6 +86,7 @@ struct Slot {
     uint64_t lastFrame = 0;  // declared last in
     uint32_t bucket = ~0u;   // of a scratch image
     bool fresh = true;       // has no device objects for its info yet
+    bool async = false;      // shares no memory: used on the second queue
 };
 
 enum class ResourceKind : uint8_t { kOwned, kHistoryPrevious, kImport };
@@ -107,6 +112,7 @@ struct Resource {
     bool wanted = false;     // or is by something reachable from the outputs
     bool clobbered = false;  // a running pass writes it
     uint32_t firstPass = ~0u, lastPass = 0;
+    bool async = false;  // used on the second queue
 };
 
 struct Use {
@@ -158,7 +164,8 @@ struct Pass {
     const gpu::Pipeline* pipeline = nullptr;
     uint64_t pipelineKey = 0;
     bool runs = false, wanted = false;
-    bool held = false;  // what it writes stays as it is
+    bool held = false;   // what it writes stays as it is
+    bool async = false;  // may run on the second queue
     uint32_t stats = 0;
 };
 
@@ -178,6 +185,17 @@ struct PassStats {
 struct Scope {
     std::string_view name;  // of the outermost: empty
     bool used = true;
+};
+
+// How a frame is being split between queues (frame_graph_queues.cpp).
+struct Batches {
+    static constexpr int32_t kNone = -1;
+    const FrameGraph::BeginBatch* begin = nullptr;  // none: all goes to one command buffer
+    std::vector<QueueBatch> all;
+    // By queue: the batch that its passes go to now, and the last of the other queue that it waited for.
+    std::array<int32_t, gpu::kQueues> open{kNone, kNone}, waited{kNone, kNone};
+    gpu::Queue queue = gpu::Queue::kMain;  // of the pass being recorded
+    std::vector<OwnerChange> ownerChanges;
 };
 
 struct FrameGraph::Impl {
@@ -214,8 +232,9 @@ struct FrameGraph::Impl {
     std::array<VkSampler, 4> samplers{};
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
-    std::unique_ptr<FrameTimer> timer;                   // made when passes are timed first
-    std::unique_ptr<PassCounter> counter;                // made when they are counted first
+    std::unique_ptr<FrameTimer> timer;     // made when passes are timed first
+    std::unique_ptr<PassCounter> counter;  // made when they are counted first
+    Batches batches;
     std::vector<VkImageMemoryBarrier2> imageBarriers;    // scratch
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;  // scratch
 
@@ -225,7 +244,7 @@ struct FrameGraph::Impl {
     uint32_t import(Resource resource);
     Memory& borrow(uint32_t resource, const Borrowed& how);
     uint32_t find(uint32_t scope, bool isImage, std::string_view name) const;
-    uint32_t addPass(uint32_t scope, bool held, std::string_view name, PassKind kind);
+    uint32_t addPass(const GraphScope& scope, std::string_view name, PassKind kind);
     Pass& declaring(uint32_t pass);
     void addUse(uint32_t pass, const Use& use);
     uint32_t statsFor(uint32_t scope, std::string_view name);
@@ -264,6 +283,18 @@ struct FrameGraph::Impl {
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
     void writeSet(VkDescriptorSet set, std::span<const gpu::ShaderBinding> bindings,
                   std::span<const Use* const> bound) const;
+
+    // Two queues (frame_graph_queues.cpp)
+    void markAsync();
+    void beginBatches(VkCommandBuffer commands, const BeginBatch* begin);
+    VkCommandBuffer beginBatch(gpu::Queue queue, int32_t after);
+    VkCommandBuffer commandsFor(const Pass& pass);
+    int32_t neededBatch(const Pass& pass, gpu::Queue queue);
+    bool twoFamilies() const;
+    void noteUse(Memory& memory, bool changes);
+    void takeOwner(const Resource& resource, Memory& memory, const Access& access, bool discard);
+    VkCommandBuffer joinQueues();
+    void run(VkCommandBuffer commands);
 
     // Running and recording (frame_graph_execute.cpp, frame_graph_record.cpp)
     void synchronize(VkCommandBuffer commands, const Pass& pass, PassRecord* record);

@@ -255,6 +255,7 @@ void FrameGraph::Impl::plan() {
     }
     for (Resource& r : resources)
         if (r.isOutput) r.lastPass = uint32_t(passes.size());
+    markAsync();
     placeScratch();
     markWanted();
     while (markRunning()) {

@@ -63,7 +63,8 @@ const gpu::Buffer& FrameGraph::physical(BufferHandle buffer) const {
 
 VkImageLayout FrameGraph::layoutAfterFrame(ImageHandle image) const {
     const Resource& r = impl_->resources[image.index];
-    return r.kind == ResourceKind::kImport ? r.outputLayout : impl_->slots[r.slot].halves[r.half].sync.layout;
+    return r.kind == ResourceKind::kImport ? r.outputLayout
+                                           : impl_->slots[r.slot].halves[r.half].sync[0].layout;
 }
 
 std::vector<std::string_view> FrameGraph::resourceNames() const {
@@ -78,6 +79,10 @@ std::span<const PassReport> FrameGraph::report() const {
 }
 std::span<const PassRecord> FrameGraph::nullRecords() const {
     return impl_->records;
+}
+
+std::span<const OwnerChange> FrameGraph::ownerChanges() const {
+    return impl_->batches.ownerChanges;
 }
 
 uint64_t FrameGraph::frame() const {

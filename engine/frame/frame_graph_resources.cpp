@@ -11,7 +11,11 @@ namespace {
 constexpr uint64_t kFramesKept = 16;  // a resource not declared for so long is given back
 
 gpu::ImageDesc descOf(const Slot& slot) {
-    return {.name = slot.name, .format = slot.image.format, .size = slot.image.size, .mips = slot.image.mips};
+    return {.name = slot.name,
+            .format = slot.image.format,
+            .size = slot.image.size,
+            .mips = slot.image.mips,
+            .owned = true};
 }
 
 gpu::BufferDesc descOf(const Slot& slot, const BufferInfo& info) {
@@ -82,12 +86,12 @@ void FrameGraph::Impl::placeScratch() {
     for (Resource& r : resources) {
         if (!scratch(r)) continue;
         const uint32_t b = slots[r.slot].bucket;
-        if (b == ~0u) {
+        if (b == ~0u || slots[r.slot].async != r.async) {
             bucketsStale = true;
             continue;
         }
         overlap = overlap || r.firstPass + 1 <= buckets[b].busyUntil;
-        buckets[b].busyUntil = std::max(buckets[b].busyUntil, r.lastPass + 1);
+        buckets[b].busyUntil = std::max(buckets[b].busyUntil, r.async ? ~0u : r.lastPass + 1);
     }
     if (!bucketsStale && !overlap && placedAliased == options.alias) return;
     bucketsStale = false;
@@ -105,12 +109,14 @@ void FrameGraph::Impl::placeScratch() {
         if (!scratch(r)) continue;
         Slot& slot = slots[r.slot];
         retireMemory(slot);
+        slot.async = r.async;
+        const bool alone = !options.alias || r.async;
         uint32_t found = 0;
-        while (found < buckets.size() && (!options.alias || r.firstPass + 1 <= buckets[found].busyUntil))
+        while (found < buckets.size() && (alone || r.firstPass + 1 <= buckets[found].busyUntil))
             ++found;
         if (found == buckets.size()) buckets.emplace_back();
         AliasBucket& bucket = buckets[found];
-        bucket.busyUntil = r.lastPass + 1;
+        bucket.busyUntil = r.async ? ~0u : r.lastPass + 1;
         bucket.slots.push_back(r.slot);
         slot.bucket = found;
         if (!context) continue;

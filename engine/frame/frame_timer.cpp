@@ -9,7 +9,7 @@
 namespace ag {
 namespace {
 
-constexpr uint32_t kTimestamps = FrameTimer::kMaxPasses + 1;
+constexpr uint32_t kTimestamps = 2 * FrameTimer::kMaxPasses;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ FrameTimer::FrameTimer(gpu::Context& context)
             context, gpu::BufferDesc{.name = "frame_timer.ticks",
                                      .sizeBytes = kTimestamps * sizeof(uint64_t),
                                      .hostVisible = true});
-        ring.tags.reserve(kMaxPasses);
+        ring.passes.reserve(kMaxPasses);
     }
     for (Ring& ring : rings_) {
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
@@ -39,41 +39,46 @@ FrameTimer::~FrameTimer() {
 
 std::span<const uint64_t> FrameTimer::ticksOf(const Ring& ring) {
     const auto* ticks = reinterpret_cast<const uint64_t*>(ring.ticks->mapped());
-    return {ticks, ring.tags.empty() ? 0 : ring.tags.size() + 1};
+    return {ticks, ring.ticksUsed};
 }
 
 void FrameTimer::restart(VkCommandBuffer commands, Ring& ring) {
     context_.vk().CmdResetQueryPool(commands, ring.pool, 0, kTimestamps);
-    ring.tags.clear();
+    ring.passes.clear();
+    ring.ticksUsed = 0;
+    last_ = VK_NULL_HANDLE;
     active_ = next_;
     next_ = (next_ + 1) % rings_.size();
 }
 
-void FrameTimer::stamp(VkCommandBuffer commands, uint32_t query) {
+uint32_t FrameTimer::stamp(VkCommandBuffer commands) {
+    Ring& ring = rings_[active_];
     if (bracketed_) gpu::fullBarrier(context_.vk(), commands);
-    context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, rings_[active_].pool,
-                                     query);
+    context_.vk().CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, ring.pool,
+                                     ring.ticksUsed);
     if (bracketed_) gpu::fullBarrier(context_.vk(), commands);
+    return ring.ticksUsed++;
 }
 
 void FrameTimer::begin(VkCommandBuffer commands, uint32_t tag) {
     Ring& ring = rings_[active_];
-    open_ = periodNs_ != 0 && ring.tags.size() < kMaxPasses;
+    open_ = periodNs_ != 0 && ring.passes.size() < kMaxPasses;
     if (!open_) return;
-    if (ring.tags.empty()) stamp(commands, 0);
-    ring.tags.push_back(tag);
+    const uint32_t first =
+        std::exchange(last_, commands) == commands ? ring.passes.back().end : stamp(commands);
+    ring.passes.push_back({.tag = tag, .begin = first});
 }
 
 void FrameTimer::end(VkCommandBuffer commands) {
     if (!std::exchange(open_, false)) return;
-    stamp(commands, uint32_t(rings_[active_].tags.size()));
+    rings_[active_].passes.back().end = stamp(commands);
 }
 
 void FrameTimer::endFrame(VkCommandBuffer commands) {
     const Ring& ring = rings_[active_];
-    if (ring.tags.empty()) return;
-    context_.vk().CmdCopyQueryPoolResults(commands, ring.pool, 0, uint32_t(ring.tags.size()) + 1,
-                                          ring.ticks->handle(), 0, sizeof(uint64_t),
+    if (ring.passes.empty()) return;
+    context_.vk().CmdCopyQueryPoolResults(commands, ring.pool, 0, ring.ticksUsed, ring.ticks->handle(), 0,
+                                          sizeof(uint64_t),
                                           VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     const VkMemoryBarrier2 toHost{
         .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,

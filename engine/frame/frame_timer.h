@@ -1,8 +1,8 @@
 // GPU time of passes by timestamps, read a few frames later without stalling. A pass begins where the one
-// before it ended, so that its own barriers count as its own. Bracketed, a full barrier stands on both sides
-// of each timestamp and the time is the pass's alone; else passes that overlap share it. The device copies
-// the timestamps to where the host reads them: asking it for query results waits on lavapipe for all its
-// work.
+// before it in its command buffer ended, so that its own barriers count as its own. Bracketed, a full barrier
+// stands on both sides of each timestamp and the time is the pass's alone; else passes that overlap share it.
+// The device copies the timestamps to where the host reads them: asking it for query results waits on
+// lavapipe for all its work.
 #pragma once
 
 #include "engine/gpu/functions.h"
@@ -39,8 +39,8 @@ class FrameTimer {
         Ring& ring = rings_[next_];
         const std::span<const uint64_t> ticks = ticksOf(ring);
         const uint64_t read = ticks.empty() ? 0 : ring.frame;
-        for (size_t i = 0; i < ring.tags.size(); ++i)
-            result(ring.tags[i], ticks[i], ticks[i + 1]);
+        for (const Timed& pass : ring.passes)
+            result(pass.tag, ticks[pass.begin], ticks[pass.end]);
         restart(commands, ring);
         ring.frame = frame;
         return read;
@@ -48,25 +48,30 @@ class FrameTimer {
     double milliseconds(uint64_t ticks) const { return double(ticks) * 1e-6 * periodNs_; }
     void begin(VkCommandBuffer commands, uint32_t tag);
     void end(VkCommandBuffer commands);
-    void endFrame(VkCommandBuffer commands);  // after the last pass
+    void endFrame(VkCommandBuffer commands);  // after the last pass of all queues
 
   private:
+    struct Timed {
+        uint32_t tag = 0, begin = 0, end = 0;  // the last two of the ring's ticks
+    };
     struct Ring {
         VkQueryPool pool = VK_NULL_HANDLE;
-        std::unique_ptr<gpu::Buffer> ticks;  // the first pass's begin, then each one's end
-        std::vector<uint32_t> tags;
+        std::unique_ptr<gpu::Buffer> ticks;
+        std::vector<Timed> passes;
+        uint32_t ticksUsed = 0;
         uint64_t frame = 0;
     };
     static std::span<const uint64_t> ticksOf(const Ring& ring);
     void restart(VkCommandBuffer commands, Ring& ring);
-    void stamp(VkCommandBuffer commands, uint32_t query);
+    uint32_t stamp(VkCommandBuffer commands);
 
     gpu::Context& context_;
     double periodNs_;
     std::array<Ring, kTimerFrames> rings_;
     size_t next_ = 0, active_ = 0;
     bool bracketed_ = false;
-    bool open_ = false;  // a begin() waits for its end()
+    bool open_ = false;                      // a begin() waits for its end()
+    VkCommandBuffer last_ = VK_NULL_HANDLE;  // what the last pass was in
 };
 
 }  // namespace ag

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "engine/gpu/debug_name.h"
@@ -18,6 +19,8 @@ struct ContextHandles {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;  // with requiredFeatures() on
     uint32_t queueFamily = 0;          // of the command buffers recorded into: graphics and compute
+    // Of work beside it; none: there is no second queue. The same: images need no change of their owner.
+    std::optional<uint32_t> asyncFamily;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;         // may be null
     const VkAllocationCallbacks* hostAllocation = nullptr;  // outlives the context; may be null
 };
@@ -36,6 +39,9 @@ class Context {
     VkPhysicalDevice physical() const { return handles_.physical; }
     VkDevice handle() const { return handles_.device; }
     uint32_t queueFamily() const { return handles_.queueFamily; }
+    std::optional<uint32_t> asyncFamily() const { return handles_.asyncFamily; }
+    // Whether buffers and images meet queues of two families.
+    bool twoFamilies() const { return handles_.asyncFamily.value_or(queueFamily()) != queueFamily(); }
     VkPipelineCache pipelineCache() const { return handles_.pipelineCache; }
     const VkAllocationCallbacks* hostAllocation() const { return handles_.hostAllocation; }
     const DeviceInfo& info() const { return info_; }

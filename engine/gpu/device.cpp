@@ -1,5 +1,7 @@
 #include "engine/gpu/device.h"
 
+#include <array>
+
 #include <time.h>
 #include <vulkan/vk_enum_string_helper.h>
 
@@ -78,12 +80,13 @@ struct Device::Impl {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     DeviceChoice choice;
     VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    VkSemaphore timeline = VK_NULL_HANDLE;
+    // By gpu::Queue; without a second queue the second timeline is not used.
+    std::array<VkQueue, kQueues> queues{};
+    std::array<VkSemaphore, kQueues> timelines{};
+    std::array<uint64_t, kQueues> submitted{};
     VkCommandPool oncePool = VK_NULL_HANDLE;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     std::unique_ptr<Context> context;
-    uint64_t submitted = 0;
     int messagesBefore;
     std::optional<WindowSurface> window;
 
@@ -146,21 +149,25 @@ Status Device::Impl::createDevice(const DeviceOptions& options) {
     if (!opened) return opened.error();
     device = *opened;
     loadDeviceFunctions(vk, device);
-    vk.GetDeviceQueue(device, choice.queueFamily, 0, &queue);
+    vk.GetDeviceQueue(device, choice.queueFamily, 0, &queues[0]);
+    if (choice.asyncFamily) vk.GetDeviceQueue(device, *choice.asyncFamily, choice.asyncIndex, &queues[1]);
     createPipelineCache();
     context = std::make_unique<Context>(vk,
                                         ContextHandles{.instance = instance,
                                                        .physical = choice.physical,
                                                        .device = device,
                                                        .queueFamily = choice.queueFamily,
+                                                       .asyncFamily = choice.asyncFamily,
                                                        .pipelineCache = pipelineCache},
                                         choice.info, MemorySource{}, options.fault);
     const VkSemaphoreTypeCreateInfo type{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
     const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
-    AG_VK(vk.CreateSemaphore(device, &semaphore, nullptr, &timeline));
-    context->setDebugName(VK_OBJECT_TYPE_SEMAPHORE, timeline, "device.timeline");
-    context->setDebugName(VK_OBJECT_TYPE_QUEUE, queue, "device.queue");
+    for (VkSemaphore& timeline : timelines) {
+        AG_VK(vk.CreateSemaphore(device, &semaphore, nullptr, &timeline));
+        context->setDebugName(VK_OBJECT_TYPE_SEMAPHORE, timeline, "device.timeline");
+    }
+    context->setDebugName(VK_OBJECT_TYPE_QUEUE, queues[0], "device.queue");
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = choice.queueFamily};
@@ -208,7 +215,8 @@ Device::~Device() {
         d.savePipelineCache();
         d.vk.DestroyPipelineCache(d.device, d.pipelineCache, nullptr);
         d.vk.DestroyCommandPool(d.device, d.oncePool, nullptr);
-        d.vk.DestroySemaphore(d.device, d.timeline, nullptr);
+        for (VkSemaphore timeline : d.timelines)
+            d.vk.DestroySemaphore(d.device, timeline, nullptr);
         d.context.reset();
     }
     if (d.device) d.vk.DestroyDevice(d.device, nullptr);
@@ -224,7 +232,7 @@ const Context& Device::asContext() const {
     return *impl_->context;
 }
 VkQueue Device::queue() const {
-    return impl_->queue;
+    return impl_->queues[0];
 }
 VkSurfaceKHR Device::surface() const {
     return impl_->surface;
@@ -237,47 +245,57 @@ Status Device::renewSurface() {
     return Ok{};
 }
 
-uint64_t Device::submit(VkCommandBuffer commands, VkSemaphore waitBinary, VkSemaphore signalBinary) {
+namespace {
+
+VkSemaphoreSubmitInfo atAllCommands(VkSemaphore semaphore, uint64_t value = 0) {
+    return {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
+            .semaphore = semaphore,
+            .value = value,
+            .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
+}
+
+}  // namespace
+
+uint64_t Device::submit(const Submission& work) {
+    const size_t own = size_t(work.queue), other = size_t(otherQueue(work.queue));
     const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
-                                           .commandBuffer = commands};
-    const VkSemaphoreSubmitInfo wait{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-                                     .semaphore = waitBinary,
-                                     .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
-    const VkSemaphoreSubmitInfo signals[] = {{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-                                              .semaphore = impl_->timeline,
-                                              .value = ++impl_->submitted,
-                                              .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT},
-                                             {.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-                                              .semaphore = signalBinary,
-                                              .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT}};
+                                           .commandBuffer = work.commands};
+    std::array<VkSemaphoreSubmitInfo, 2> waits, signals;
+    uint32_t waitCount = 0, signalCount = 0;
+    if (work.waitBinary) waits[waitCount++] = atAllCommands(work.waitBinary);
+    if (work.after) waits[waitCount++] = atAllCommands(impl_->timelines[other], work.after);
+    const uint64_t value = ++impl_->submitted[own];
+    signals[signalCount++] = atAllCommands(impl_->timelines[own], value);
+    if (work.signalBinary) signals[signalCount++] = atAllCommands(work.signalBinary);
     const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                             .waitSemaphoreInfoCount = waitBinary ? 1u : 0u,
-                             .pWaitSemaphoreInfos = &wait,
-                             .commandBufferInfoCount = commands ? 1u : 0u,
+                             .waitSemaphoreInfoCount = waitCount,
+                             .pWaitSemaphoreInfos = waits.data(),
+                             .commandBufferInfoCount = work.commands ? 1u : 0u,
                              .pCommandBufferInfos = &buffer,
-                             .signalSemaphoreInfoCount = signalBinary ? 2u : 1u,
-                             .pSignalSemaphoreInfos = signals};
-    context().record(impl_->submitted + 1);
+                             .signalSemaphoreInfoCount = signalCount,
+                             .pSignalSemaphoreInfos = signals.data()};
+    context().record(submittedValue() + 1);
     const bool lost = context().strikes(Fault::kSubmit);
-    checkVk(lost ? VK_ERROR_DEVICE_LOST : impl_->vk.QueueSubmit2(impl_->queue, 1, &info, VK_NULL_HANDLE),
-            "vkQueueSubmit2");
-    return impl_->submitted;
+    checkVk(
+        lost ? VK_ERROR_DEVICE_LOST : impl_->vk.QueueSubmit2(impl_->queues[own], 1, &info, VK_NULL_HANDLE),
+        "vkQueueSubmit2");
+    return value;
 }
 
 uint64_t Device::completedValue() const {
     uint64_t value = 0;
-    AG_VK(impl_->vk.GetSemaphoreCounterValue(impl_->device, impl_->timeline, &value));
+    AG_VK(impl_->vk.GetSemaphoreCounterValue(impl_->device, impl_->timelines[0], &value));
     return value;
 }
 
 uint64_t Device::submittedValue() const {
-    return impl_->submitted;
+    return impl_->submitted[0];
 }
 
 void Device::waitFor(uint64_t timelineValue) {
     const VkSemaphoreWaitInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
                                    .semaphoreCount = 1,
-                                   .pSemaphores = &impl_->timeline,
+                                   .pSemaphores = &impl_->timelines[0],
                                    .pValues = &timelineValue};
     AG_VK(impl_->vk.WaitSemaphores(impl_->device, &info, UINT64_MAX));
 }
@@ -319,7 +337,7 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
     const VkCommandBuffer commands = impl_->recordOnce(record);
     submit(commands);
     // Not the timeline: synchronization validation follows the queue's own wait only.
-    AG_VK(impl_->vk.QueueWaitIdle(impl_->queue));
+    AG_VK(impl_->vk.QueueWaitIdle(impl_->queues[0]));
     impl_->vk.FreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
 }
 

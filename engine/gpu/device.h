@@ -1,4 +1,5 @@
-// Our own Vulkan device with one queue (graphics, compute, transfer), and the context of it that everything
+// Our own Vulkan device with a queue (graphics, compute, transfer), another one for compute beside it where
+// there is one, and the context of it that everything
 // else works on. bufferDeviceAddress stays off so that RenderDoc can capture on lavapipe.
 #pragma once
 
@@ -11,6 +12,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/context.h"
+#include "engine/gpu/queue.h"
 
 namespace ag::gpu {
 
@@ -18,6 +20,19 @@ namespace ag::gpu {
 struct WindowSurface {
     std::vector<const char*> instanceExtensions;
     std::function<VkResult(VkInstance, VkSurfaceKHR*)> make;
+};
+
+// What runs beside the main queue: nothing; a second queue where the device has one; work of its own on the
+// main queue, as if there were two.
+enum class AsyncQueue : uint8_t { kOff, kOn, kAlone };
+
+// What goes to a queue at once.
+struct Submission {
+    VkCommandBuffer commands = VK_NULL_HANDLE;  // may be null
+    Queue queue = Queue::kMain;
+    uint64_t after = 0;                         // of the other queue's timeline, to wait for
+    VkSemaphore waitBinary = VK_NULL_HANDLE;    // a swapchain's, may be null
+    VkSemaphore signalBinary = VK_NULL_HANDLE;  // the same
 };
 
 struct DeviceOptions {
@@ -29,6 +44,7 @@ struct DeviceOptions {
     std::vector<std::string> without;
     // Instead of subgroups workgroups of so many lanes that share memory, 4 to 64; 0: as the device can.
     uint32_t sharedLanes = 0;
+    AsyncQueue asyncQueue = AsyncQueue::kOn;
     FaultPlan fault;  // for tests
 };
 
@@ -57,11 +73,11 @@ class Device {
     // After it was lost: another one of the same window. Nothing may be under way, no swapchain may be left.
     Status renewSurface();
 
-    // The one timeline of submitted work: submit() signals the next value and returns it.
-    // `waitBinary`/`signalBinary`: swapchain semaphores, may be null.
-    uint64_t submit(VkCommandBuffer commands, VkSemaphore waitBinary = VK_NULL_HANDLE,
-                    VkSemaphore signalBinary = VK_NULL_HANDLE);
-    uint64_t completedValue() const;
+    // Each queue has a timeline of submitted work: submit() signals the next value and returns it. Work of
+    // the other queue is waited for by the main one before a frame ends, so that its values tell all.
+    uint64_t submit(const Submission& work);
+    uint64_t submit(VkCommandBuffer commands) { return submit(Submission{.commands = commands}); }
+    uint64_t completedValue() const;  // of the main queue, as below
     uint64_t submittedValue() const;
     void waitFor(uint64_t timelineValue);  // fatal on device loss
     void waitIdle();

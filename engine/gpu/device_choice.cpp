@@ -8,19 +8,44 @@
 namespace ag::gpu {
 namespace {
 
-std::optional<uint32_t> findQueueFamily(const Functions& vk, VkPhysicalDevice physical,
-                                        VkSurfaceKHR surface) {
+std::vector<VkQueueFamilyProperties> queueFamilies(const Functions& vk, VkPhysicalDevice physical) {
     uint32_t count = 0;
     vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-    for (uint32_t i = 0; i < count; ++i) {
+    return families;
+}
+
+std::optional<uint32_t> findQueueFamily(const Functions& vk, VkPhysicalDevice physical,
+                                        VkSurfaceKHR surface) {
+    const std::vector<VkQueueFamilyProperties> families = queueFamilies(vk, physical);
+    for (uint32_t i = 0; i < families.size(); ++i) {
         constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
         VkBool32 presents = surface == VK_NULL_HANDLE;
         if (surface) vk.GetPhysicalDeviceSurfaceSupportKHR(physical, i, surface, &presents);
         if ((families[i].queueFlags & kNeeded) == kNeeded && presents) return i;
     }
     return std::nullopt;
+}
+
+// A family for compute alone, which graphics do not hold up; else a second queue of the main one. It must
+// have timestamps. kAlone: the main queue again.
+void chooseAsyncQueue(const Functions& vk, AsyncQueue mode, DeviceChoice& choice) {
+    if (mode == AsyncQueue::kOff) return;
+    const std::vector<VkQueueFamilyProperties> families = queueFamilies(vk, choice.physical);
+    const auto isCompute = [](const VkQueueFamilyProperties& f) {
+        return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) && !(f.queueFlags & VK_QUEUE_GRAPHICS_BIT) &&
+               f.timestampValidBits > 0;
+    };
+    const auto compute = std::ranges::find_if(families, isCompute);
+    if (mode == AsyncQueue::kAlone) {
+        choice.asyncFamily = choice.queueFamily;
+    } else if (compute != families.end()) {
+        choice.asyncFamily = uint32_t(compute - families.begin());
+    } else if (families[choice.queueFamily].queueCount > 1) {
+        choice.asyncFamily = choice.queueFamily;
+        choice.asyncIndex = 1;
+    }
 }
 
 // Whether its timestamps can be put on the clock of the host's spans; done without where not.
@@ -126,6 +151,7 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
         }
     }
     if (bestScore > 0) {
+        chooseAsyncQueue(vk, options.asyncQueue, best);
         best.info.calibrated = sharesClock(vk, best.physical);
         if (best.info.calibrated) best.info.enabled.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
         return best;
@@ -138,11 +164,16 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
 Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, bool withSwapchain) {
     DeviceFeatures features;
     enable(features, choice.info);
-    const float priority = 1;
-    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
-                                        .queueFamilyIndex = choice.queueFamily,
-                                        .queueCount = 1,
-                                        .pQueuePriorities = &priority};
+    const float priorities[] = {1, 1};
+    const bool otherFamily = choice.asyncFamily && *choice.asyncFamily != choice.queueFamily;
+    const VkDeviceQueueCreateInfo queues[] = {{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                               .queueFamilyIndex = choice.queueFamily,
+                                               .queueCount = 1 + choice.asyncIndex,
+                                               .pQueuePriorities = priorities},
+                                              {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                               .queueFamilyIndex = choice.asyncFamily.value_or(0),
+                                               .queueCount = 1,
+                                               .pQueuePriorities = priorities}};
     std::vector<const char*> extensions;
     if (withSwapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (choice.info.apiVersion < VK_API_VERSION_1_3)
@@ -150,8 +181,8 @@ Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, boo
     if (choice.info.calibrated) extensions.push_back(VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME);
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.core,
-                                  .queueCreateInfoCount = 1,
-                                  .pQueueCreateInfos = &queue,
+                                  .queueCreateInfoCount = otherFamily ? 2u : 1u,
+                                  .pQueueCreateInfos = queues,
                                   .enabledExtensionCount = uint32_t(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
     VkDevice device = VK_NULL_HANDLE;

@@ -1,6 +1,7 @@
 // Picking a physical device and the features it is opened with.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "engine/gpu/device.h"
@@ -10,6 +11,8 @@ namespace ag::gpu {
 struct DeviceChoice {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     uint32_t queueFamily = 0;
+    std::optional<uint32_t> asyncFamily;
+    uint32_t asyncIndex = 0;  // of the queue in its family
     DeviceInfo info;
 };
 
@@ -17,7 +20,7 @@ struct DeviceChoice {
 Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSurfaceKHR surface,
                                   const DeviceOptions& options);
 
-// Device with one queue of the chosen family and the required features.
+// Device with the chosen queues and the required features.
 Result<VkDevice> openDevice(const Functions& vk, const DeviceChoice& choice, bool withSwapchain);
 
 }  // namespace ag::gpu

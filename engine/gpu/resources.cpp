@@ -57,6 +57,21 @@ VkImageView makeView(Context& context, const Image& image, uint32_t firstMip, ui
     return view;
 }
 
+// Both queues' families where they differ, but for what has one owner at a time.
+struct Sharing {
+    VkSharingMode mode = VK_SHARING_MODE_EXCLUSIVE;
+    uint32_t count = 0;
+    uint32_t families[2] = {0, 0};
+
+    explicit Sharing(const Context& context, bool owned = false) {
+        if (!context.twoFamilies() || owned) return;
+        mode = VK_SHARING_MODE_CONCURRENT;
+        count = 2;
+        families[0] = context.queueFamily();
+        families[1] = *context.asyncFamily();
+    }
+};
+
 }  // namespace
 
 bool isDepthFormat(VkFormat format) {
@@ -85,9 +100,13 @@ Buffer::~Buffer() {
 }
 
 void Buffer::create() {
+    const Sharing sharing(context_);
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                   .size = desc_.sizeBytes,
-                                  .usage = usageOf(context_, desc_)};
+                                  .usage = usageOf(context_, desc_),
+                                  .sharingMode = sharing.mode,
+                                  .queueFamilyIndexCount = sharing.count,
+                                  .pQueueFamilyIndices = sharing.families};
     AG_VK(context_.vk().CreateBuffer(context_.handle(), &info, context_.hostAllocation(), &handle_));
     VkMemoryRequirements requirements;
     context_.vk().GetBufferMemoryRequirements(context_.handle(), handle_, &requirements);
@@ -172,6 +191,7 @@ VkImage makeImage(Context& context, const ImageDesc& desc) {
     if (desc.layers > limits.maxImageArrayLayers)
         failBeyondLimit("the image " + desc.name, "maxImageArrayLayers", desc.layers,
                         limits.maxImageArrayLayers);
+    const Sharing sharing(context, desc.owned);
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                  .imageType = VK_IMAGE_TYPE_2D,
                                  .format = desc.format,
@@ -181,6 +201,9 @@ VkImage makeImage(Context& context, const ImageDesc& desc) {
                                  .samples = VK_SAMPLE_COUNT_1_BIT,
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
                                  .usage = usageOf(context, desc),
+                                 .sharingMode = sharing.mode,
+                                 .queueFamilyIndexCount = sharing.count,
+                                 .pQueueFamilyIndices = sharing.families,
                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     VkImage image = VK_NULL_HANDLE;
     AG_VK(context.vk().CreateImage(context.handle(), &info, context.hostAllocation(), &image));

@@ -71,6 +71,8 @@ struct ImageDesc {
     uint32_t layers = 1;
     uint32_t mips = 1;
     bool array = false;  // view type 2D array even with one layer
+    // Of the frame graph: between queue families it changes its owner by barriers. Others are shared.
+    bool owned = false;
 };
 
 bool isDepthFormat(VkFormat format);

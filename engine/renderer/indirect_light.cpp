@@ -113,7 +113,8 @@ gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const
                                    .drawRsm = draw,
                                    .probes = scene.scene->probes,
                                    .lightUnit = scene.units.light};
-    gi::BounceLight light = addRecipe(scope, scene, in, s, h.bounce);
+    // Beside direct light, where the device has a queue for that.
+    gi::BounceLight light = addRecipe(scope.async(), scene, in, s, h.bounce);
     if (!light.viewPoints) light.viewPoints = gi::addViewPoints(scope, surfaces);
     return light;
 }

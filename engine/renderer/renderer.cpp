@@ -25,25 +25,47 @@ Renderer::Renderer(gpu::Device& device, uint32_t threads)
       pipelines_(device, gpu::loadShader),
       scene_(device),
       graph_(&device.context(), &pipelines_) {
-    for (Slot& slot : slots_) {
-        const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                           .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                           .queueFamilyIndex = device.queueFamily()};
-        AG_VK(device.vk().CreateCommandPool(device.handle(), &pool, nullptr, &slot.pool));
-        device.context().setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.pool, "frame");
-        const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                               .commandPool = slot.pool,
-                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                               .commandBufferCount = 1};
-        AG_VK(device.vk().AllocateCommandBuffers(device.handle(), &info, &slot.commands));
-        device.context().setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, slot.commands, "frame");
-    }
+    const uint32_t families[] = {device.queueFamily(),
+                                 device.context().asyncFamily().value_or(device.queueFamily())};
+    for (Slot& slot : slots_)
+        for (size_t queue = 0; queue < gpu::kQueues; ++queue) {
+            const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                               .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                               .queueFamilyIndex = families[queue]};
+            AG_VK(device.vk().CreateCommandPool(device.handle(), &pool, nullptr, &slot.commands[queue].pool));
+            device.context().setDebugName(VK_OBJECT_TYPE_COMMAND_POOL, slot.commands[queue].pool, "frame");
+        }
 }
 
 Renderer::~Renderer() {
     device_.waitIdle();
     for (Slot& slot : slots_)
-        device_.vk().DestroyCommandPool(device_.handle(), slot.pool, nullptr);
+        for (Commands& commands : slot.commands)
+            device_.vk().DestroyCommandPool(device_.handle(), commands.pool, nullptr);
+}
+
+VkCommandBuffer Renderer::beginCommands(Commands& commands) {
+    if (commands.used == commands.buffers.size()) {
+        const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                               .commandPool = commands.pool,
+                                               .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                               .commandBufferCount = 1};
+        VkCommandBuffer& buffer = commands.buffers.emplace_back(VK_NULL_HANDLE);
+        AG_VK(device_.vk().AllocateCommandBuffers(device_.handle(), &info, &buffer));
+        device_.context().setDebugName(VK_OBJECT_TYPE_COMMAND_BUFFER, buffer, "frame");
+    }
+    const VkCommandBuffer buffer = commands.buffers[commands.used++];
+    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    AG_VK(device_.vk().BeginCommandBuffer(buffer, &begin));
+    return buffer;
+}
+
+void Renderer::resetCommands(Slot& slot) {
+    for (Commands& commands : slot.commands) {
+        AG_VK(device_.vk().ResetCommandPool(device_.handle(), commands.pool, 0));
+        commands.used = 0;
+    }
 }
 
 void Renderer::load(const GeometryArrays& geometry) {
@@ -82,8 +104,7 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     moments_.begin = steadyNs();
     device_.waitFor(slot.submitted);
     device_.collect();
-    AG_VK(device_.vk().ResetCommandPool(device_.handle(), slot.pool, 0));
-
+    resetCommands(slot);
     moments_.waited = steadyNs();
     const RenderScene& scene = inOwnUnits(given);
     graph_.beginFrame(options);
@@ -99,28 +120,48 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     finish(graph_, view, frame);
     moments_.declared = steadyNs();
 
-    const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    AG_VK(device_.vk().BeginCommandBuffer(slot.commands, &begin));
+    const VkCommandBuffer first = beginCommands(slot.commands[0]);
     using Previous = SceneGpu::Previous;
     const Previous previous = graph_.isRead(view.previousInstances) ? Previous::kKept : Previous::kUnread;
-    scene_.upload(slot.commands, graph_, view, previous, index);
-    if (options.timing == TimingMode::kProcessCpu) {
-        // The graph submits by itself, so the uploads must be on their way before it.
-        AG_VK(device_.vk().EndCommandBuffer(slot.commands));
-        device_.waitFor(device_.submit(slot.commands));
-        AG_VK(device_.vk().ResetCommandPool(device_.handle(), slot.pool, 0));
-        graph_.executeAlone([&](const auto& record) { return device_.timeOnCpu(record); });
-        AG_VK(device_.vk().BeginCommandBuffer(slot.commands, &begin));
-    } else {
-        graph_.execute(slot.commands);
-    }
-    presentation.record(slot.commands);
-    AG_VK(device_.vk().EndCommandBuffer(slot.commands));
+    scene_.upload(first, graph_, view, previous, index);
+    recordFrame(slot, options, first);
+    presentation.record(batches_.back().commands);
+    for (const QueueBatch& batch : batches_)
+        AG_VK(device_.vk().EndCommandBuffer(batch.commands));
     moments_.recorded = steadyNs();
-    slot.submitted = device_.submit(slot.commands, presentation.wait, presentation.signal);
+    submitBatches(slot, presentation);
     moments_.submitted = steadyNs();
     if (jobs_.threadCount() == 1) device_.waitFor(slot.submitted);
+}
+
+void Renderer::recordFrame(Slot& slot, const FrameGraphOptions& options, VkCommandBuffer first) {
+    if (options.timing != TimingMode::kProcessCpu) {
+        const auto more = graph_.execute(
+            first, [&](gpu::Queue queue) { return beginCommands(slot.commands[size_t(queue)]); });
+        batches_.assign(more.begin(), more.end());
+        return;
+    }
+    // The graph submits by itself, so the uploads must be on their way before it.
+    AG_VK(device_.vk().EndCommandBuffer(first));
+    device_.waitFor(device_.submit(first));
+    resetCommands(slot);
+    graph_.executeAlone([&](const auto& record) { return device_.timeOnCpu(record); });
+    batches_.assign(1, {gpu::Queue::kMain, beginCommands(slot.commands[0])});
+}
+
+// The window's image is drawn in the last batch.
+void Renderer::submitBatches(Slot& slot, const Presentation& presentation) {
+    batchesSubmitted_.clear();
+    for (const QueueBatch& batch : batches_) {
+        gpu::Submission work{.commands = batch.commands, .queue = batch.queue};
+        if (batch.after >= 0) work.after = batchesSubmitted_[size_t(batch.after)];
+        if (&batch == &batches_.back()) {
+            work.waitBinary = presentation.wait;
+            work.signalBinary = presentation.signal;
+        }
+        batchesSubmitted_.push_back(device_.submit(work));
+    }
+    slot.submitted = batchesSubmitted_.back();
 }
 
 Image readImage(Renderer& renderer, ImageHandle handle) {

@@ -57,16 +57,26 @@ class Renderer {
     // Of the times that the graph reports now: what may be late was (see refresh.h).
     bool timesArePartial() const { return history_.bounce.refresh.sincePatient <= kFramesInFlight; }
     const FrameMoments& moments() const { return moments_; }  // of the frame last rendered
+    size_t submissions() const { return batches_.size(); }    // the same: 1 where all went to one queue
     uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
 
   private:
     void startAnew();
     const RenderScene& inOwnUnits(const RenderScene& scene);
-    struct Slot {
+    // Command buffers of a queue, used again every kFramesInFlight frames.
+    struct Commands {
         VkCommandPool pool = VK_NULL_HANDLE;
-        VkCommandBuffer commands = VK_NULL_HANDLE;
+        std::vector<VkCommandBuffer> buffers;
+        size_t used = 0;
+    };
+    struct Slot {
+        std::array<Commands, gpu::kQueues> commands;  // by gpu::Queue
         uint64_t submitted = 0;
     };
+    VkCommandBuffer beginCommands(Commands& commands);
+    void resetCommands(Slot& slot);
+    void recordFrame(Slot& slot, const FrameGraphOptions& options, VkCommandBuffer first);
+    void submitBatches(Slot& slot, const Presentation& presentation);
     gpu::Device& device_;
     JobRunner jobs_;
     gpu::PipelineLibrary pipelines_;
@@ -78,6 +88,8 @@ class Renderer {
     uint64_t unitsGeneration_ = 0;
     RenderScene converted_;  // while the units are not metres and watts
     std::array<Slot, kFramesInFlight> slots_;
+    std::vector<QueueBatch> batches_;         // of the frame being recorded
+    std::vector<uint64_t> batchesSubmitted_;  // scratch: their values
     uint64_t frame_ = 0;
     FrameMoments moments_;
 };

@@ -9,34 +9,12 @@
 #include "engine/frame/frame_timer.h"
 #include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
-#include "tests/support/device_environment.h"
+#include "tests/frame_gpu/random_web.h"
 
 namespace ag {
 namespace {
 
-struct DeviceGraph {
-    gpu::Device& device = test::device();
-    gpu::PipelineLibrary pipelines{device, gpu::loadShader};
-    FrameGraph graph{&device.context(), &pipelines};
-    FrameGraphOptions options{.timing = TimingMode::kOff};
-
-    void execute() {
-        device.runOnce([&](VkCommandBuffer commands) { graph.execute(commands); });
-    }
-    std::vector<glm::vec4> read(ImageHandle handle) {
-        const gpu::Image& image = graph.physical(handle);
-        std::vector<glm::vec4> texels(size_t(image.desc().size.x) * image.desc().size.y);
-        gpu::downloadImage(device, image, graph.layoutAfterFrame(handle),
-                           std::as_writable_bytes(std::span(texels)));
-        return texels;
-    }
-    std::vector<uint32_t> read(BufferHandle handle) {
-        const gpu::Buffer& buffer = graph.physical(handle);
-        std::vector<uint32_t> words(buffer.sizeBytes() / 4);
-        gpu::downloadBuffer(device, buffer, std::as_writable_bytes(std::span(words)));
-        return words;
-    }
-};
+using namespace test;
 
 TEST(DeviceGraph, HistoriesCountTheirSteps) {
     DeviceGraph g;
@@ -211,62 +189,6 @@ TEST(DeviceGraph, PassesMayRecordByThemselves) {
     EXPECT_EQ(calls, 1u);
     EXPECT_EQ(frame(2, 0.75f)[0].x, 0.75f);
     EXPECT_EQ(calls, 2u);
-}
-
-// A random web of images: some drawn, some mixed from two earlier ones, some in shared memory, some asked
-// for.
-struct Node {
-    bool drawn = false, scratch = false, output = false;
-    uint32_t a = 0, b = 0;
-    float value = 0;
-};
-
-constexpr std::array<std::string_view, 14> kNames = {"n0", "n1", "n2", "n3",  "n4",  "n5",  "n6",
-                                                     "n7", "n8", "n9", "n10", "n11", "n12", "n13"};
-
-std::vector<Node> randomWeb(std::mt19937& random) {
-    std::vector<Node> web(kNames.size());
-    for (uint32_t i = 0; i < web.size(); ++i) {
-        web[i].drawn = i < 2 || random() % 4 == 0;
-        web[i].output = random() % 4 == 0 || i + 1 == web.size();
-        web[i].scratch = !web[i].output && random() % 2 == 0;
-        web[i].a = i ? uint32_t(random() % i) : 0;
-        web[i].b = i ? uint32_t(random() % i) : 0;
-        web[i].value = float(random() % 100) / 100;
-    }
-    return web;
-}
-
-std::vector<glm::vec4> runWeb(DeviceGraph& g, const std::vector<Node>& web) {
-    g.graph.beginFrame(g.options);
-    std::vector<ImageHandle> images;
-    for (uint32_t i = 0; i < web.size(); ++i) {
-        const Node& n = web[i];
-        images.push_back(
-            g.graph.image(kNames[i], {.format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                                      .size = {32, 16},
-                                      .lifetime = n.scratch ? Lifetime::kScratch : Lifetime::kKept}));
-        if (n.drawn)
-            g.graph.fullscreen(kNames[i], "test/draw_value.frag")
-                .push(n.value)
-                .colorClear(images[i], glm::vec4(0));
-        else
-            g.graph.compute(kNames[i], "test/mix_images.comp")
-                .sample("first", images[n.a])
-                .sample("second", images[n.b])
-                .write("result", images[i])
-                .push(n.value)
-                .dispatchThreads(32, 16);
-        if (n.output) g.graph.output(images[i]);
-    }
-    g.execute();
-    std::vector<glm::vec4> all;
-    for (uint32_t i = 0; i < web.size(); ++i) {
-        if (!web[i].output) continue;
-        const auto texels = g.read(images[i]);
-        all.insert(all.end(), texels.begin(), texels.end());
-    }
-    return all;
 }
 
 TEST(DeviceGraph, SkippingAndSharedMemoryChangeNoBit) {

@@ -32,8 +32,14 @@ struct RenderOptions {
     bool validate = false;
     std::vector<std::string> without;
     uint32_t sharedLanes = 0;
+    std::string async = "on";
     std::string fault;
 };
+
+gpu::AsyncQueue asyncQueueOf(std::string_view name) {
+    if (name == "alone") return gpu::AsyncQueue::kAlone;
+    return name == "off" ? gpu::AsyncQueue::kOff : gpu::AsyncQueue::kOn;
+}
 
 struct RenderSettings {
     render::RenderSettings gi;
@@ -279,6 +285,7 @@ int runRender(const RenderOptions& options) {
     auto device = gpu::Device::create({.validation = options.validate,
                                        .without = options.without,
                                        .sharedLanes = options.sharedLanes,
+                                       .asyncQueue = asyncQueueOf(options.async),
                                        .fault = *fault});
     if (!device) return refuse(device.error().message);
 
@@ -329,6 +336,13 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
         ->add_option("--shared-lanes", options->sharedLanes,
                      "workgroups of so many lanes that share memory, in the place of subgroups")
         ->check(CLI::IsMember({4, 8, 16, 32, 64}));
+    command
+        ->add_option(
+            "--async", options->async,
+            "indirect light on a second queue: on, where the device has one; off; alone, as work of its "
+            "own on the one queue")
+        ->check(CLI::IsMember({"on", "off", "alone"}))
+        ->capture_default_str();
     command->add_option("--fault", options->fault, "for tests: make the device fail, KIND:N")->group("");
     command->add_flag("--validate", options->validate, "with Vulkan validation; any message exits with 1");
     command->callback([options, &exitCode] { exitCode = runRender(*options); });
