@@ -153,14 +153,18 @@ void SceneGpu::reserveBuffers(const RenderScene& scene) {
     if (instances_.get() != before) instancesVersion_ = 0;
     previousInstances_ =
         grown(std::move(previousInstances_), "scene.previous_instances", rowBytes, kVec4Texels, false);
-    reserveDraws();
+    reserveDraws(scene);
 }
 
-// Room for what all views draw.
-void SceneGpu::reserveDraws() {
+// Room for what all views draw; in a small scene for all that they ever may, so that it never grows.
+void SceneGpu::reserveDraws(const RenderScene& scene) {
+    constexpr uint64_t kAtOnce = 1u << 16;
+    const uint64_t all =
+        2 * uint64_t(viewSlots(scene).count) * scene.instances.size();  // ranges: powers of two
+    const uint32_t least = uint32_t(std::clamp<uint64_t>(all, 64, kAtOnce));
     const uint64_t commandBytes =
-        std::max(draws_.commandCapacity(), 64u) * sizeof(VkDrawIndexedIndirectCommand);
-    const uint64_t rowBytes = std::max(draws_.rowCapacity(), 64u) * sizeof(uint32_t);
+        std::max(draws_.commandCapacity(), least) * sizeof(VkDrawIndexedIndirectCommand);
+    const uint64_t rowBytes = std::max(draws_.rowCapacity(), least) * sizeof(uint32_t);
     const gpu::Buffer *commandsBefore = commands_.get(), *rowsBefore = drawnRows_.get();
     commands_ = grown(std::move(commands_), "scene.commands", commandBytes, VK_FORMAT_UNDEFINED, true);
     drawnRows_ = grown(std::move(drawnRows_), "scene.drawn_rows", rowBytes, VK_FORMAT_R32_UINT, false);
@@ -340,7 +344,7 @@ void SceneGpu::upload(VkCommandBuffer commands, FrameGraph& graph, const SceneVi
         skin_.upload(scene, [&](std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {
             stage(commands, frameSlot, bytes, to, offset);
         });
-    reserveDraws();
+    reserveDraws(scene);
     graph.rebind(view.commands, *commands_);
     graph.rebind(view.drawnRows, *drawnRows_);
     for (uint32_t slot = 0; slot < draws_.viewCount(); ++slot)

@@ -99,7 +99,7 @@ class SceneGpu {
     void uploadInstances(VkCommandBuffer commands, const RenderScene& scene, uint32_t frameSlot);
     void uploadDraws(VkCommandBuffer commands, const ViewDraws& draws, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
-    void reserveDraws();
+    void reserveDraws(const RenderScene& scene);
     void sampleSurfacesAnew(const RenderScene& scene);
     void noteMovements(const RenderScene& scene);
     std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
