@@ -11,7 +11,6 @@
 //  - A history resource is two halves. A pass that writes `current` and reads `previous` is keyed without
 //    `previous`; it steps only when the rest of its key changed (or its .step() did). Then the halves swap
 //    and the output's version is hash(key, version of previous).
-//
 //  - Passes of a scope that is async() go to a second queue where there is one. What waits for what between
 //    queues follows from what passes read and write, as barriers do.
 //

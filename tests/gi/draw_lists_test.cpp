@@ -45,6 +45,22 @@ std::vector<uint32_t> rowsOf(const ViewDraws& draws, const BucketRange& range) {
     return rows;
 }
 
+// A scene seen by its camera, and its lists.
+struct Lists {
+    SceneAsset asset;
+    RenderScene scene = staticScene(asset);
+    JobRunner one{1};
+    DrawLists lists;
+
+    Lists(const char* name, uint32_t param) : asset(*scenegen::buildScene(name, param)) {
+        setCamera(scene, cameraOf(asset, 0), {160, 90});
+    }
+    const ViewDraws& seenByCamera() {
+        lists.beginFrame(scene, one);
+        return lists.cull(scene, 0, scene.camera.clipFromWorld);
+    }
+};
+
 TEST(DrawLists, JobsCullWhatTheCallerCulls) {
     const SceneAsset asset = *scenegen::buildScene("crowd", 6000);
     RenderScene scene = staticScene(asset);
@@ -85,18 +101,14 @@ TEST(DrawLists, JobsCullWhatTheCallerCulls) {
 }
 
 TEST(DrawLists, WhatIsTurnedOverIsDrawnFromABucketOfItsOwn) {
-    const SceneAsset asset = *scenegen::buildScene("cornell", 0);
-    RenderScene scene = staticScene(asset);
-    setCamera(scene, cameraOf(asset, 0), {160, 90});
-    JobRunner one(1);
-    DrawLists lists;
+    Lists l("cornell", 0);
+    RenderScene& scene = l.scene;
     for (int turn = 0; turn < 4; ++turn) {
-        lists.beginFrame(scene, one);
-        const ViewDraws& draws = lists.cull(scene, 0, scene.camera.clipFromWorld);
+        const ViewDraws& draws = l.seenByCamera();
         EXPECT_EQ(draws.rows.size(), scene.instances.size());
         for (size_t b = 0; b < draws.buckets.size(); ++b)
             for (const uint32_t row : rowsOf(draws, draws.buckets[b]))
-                EXPECT_EQ(lists.buckets()[b].mirrored, row == 1 && turn % 2 == 1);
+                EXPECT_EQ(l.lists.buckets()[b].mirrored, row == 1 && turn % 2 == 1);
         scene.instances[1].worldFromLocal[0] *= -1.0f;
         scene.changedInstances = {{1, 2}};
         scene.allInstancesChanged = false;
@@ -107,14 +119,12 @@ TEST(DrawLists, WhatIsTurnedOverIsDrawnFromABucketOfItsOwn) {
 // Every instance is drawn once, of its own primitive, what is static first; instances of a primitive are one
 // draw.
 TEST(DrawLists, InstancesOfAPrimitiveAreOneDraw) {
-    const SceneAsset asset = *scenegen::buildScene("crowd", 6000);
-    RenderScene scene = staticScene(asset);
+    Lists l("crowd", 6000);
+    RenderScene& scene = l.scene;
     for (size_t i = 0; i < scene.instances.size(); i += 3)
         scene.instances[i].movable = true;
-    JobRunner one(1);
-    DrawLists lists;
-    lists.beginFrame(scene, one);
-    const ViewDraws& draws = lists.cull(scene, 0, sunView({0, -1, 0}, scene.bounds, 0.1f).clipFromWorld);
+    l.lists.beginFrame(scene, l.one);
+    const ViewDraws& draws = l.lists.cull(scene, 0, sunView({0, -1, 0}, scene.bounds, 0.1f).clipFromWorld);
     std::vector<uint32_t> all;
     for (const BucketRange& range : draws.buckets)
         for (uint32_t c = 0; c < range.commandCount; ++c) {
@@ -135,20 +145,15 @@ TEST(DrawLists, InstancesOfAPrimitiveAreOneDraw) {
 }
 
 TEST(DrawLists, WhatIsPickedIsWhatTheViewDrawsOfTheRows) {
-    const SceneAsset asset = *scenegen::buildScene("crowd", 500);
-    RenderScene scene = staticScene(asset);
-    setCamera(scene, cameraOf(asset, 0), {160, 90});
-    JobRunner one(1);
-    DrawLists lists;
-    lists.beginFrame(scene, one);
-    const ViewDraws& all = lists.cull(scene, 0, scene.camera.clipFromWorld);
+    Lists l("crowd", 500);
+    const ViewDraws& all = l.seenByCamera();
     const std::vector<RenderScene::Range> rows = {{3, 4}, {10, 200}, {300, 420}};
-    const ViewDraws& some = lists.pick(1, all, rows);
-    std::vector<uint32_t> expected, picked = some.rows;
+    const ViewDraws& some = l.lists.pick(1, all, rows);
+    std::vector<uint32_t> expected;
     for (const uint32_t row : all.rows)
         if (row == 3 || (row >= 10 && row < 200) || (row >= 300 && row < 420)) expected.push_back(row);
     EXPECT_GT(expected.size(), 20u);
-    EXPECT_EQ(picked, expected);
+    EXPECT_EQ(some.rows, expected);
 }
 
 // 200 punctual lights among 10,000 boxes: each light draws all that it sees into six faces.

@@ -26,7 +26,9 @@ Frames walk(gpu::AsyncQueue mode, const char* preset) {
     renderer.load(asset.geometry);
     Frames frames;
     for (uint32_t i = 0; i < 6; ++i) {
-        setCamera(scene, cameraOf(asset, 0), {96, 54});
+        CameraPose pose = cameraOf(asset, 0);
+        pose.position.x += 0.02f * float(i);
+        setCamera(scene, pose, {96, 54});
         if (i % 2) {
             scene.instances[1].worldFromLocal[3].x += 0.01f;
             scene.changedInstances = {{1, 2}};
