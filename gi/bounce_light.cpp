@@ -26,8 +26,11 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
 
     // Gather on screen, at some of the pixels
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
-    f.bounce1 = addValShading(scope, downsampled, {firstVals(f.vals, f.firstCount), f.isms}, s.valShading,
-                              kFirstBounceShading, refresh.pixels);
+    const ShadowedVals first{firstVals(f.vals, f.firstCount), f.isms};
+    const ValTiles tiles = addShadingTiles(scope, downsampled, first, s.valShading, kFirstBounceShading);
+    f.bounce1 = addValShading(tiles, s.valShading, kFirstBounceShading, refresh.pixels);
+    f.bounce1 = addTexelRays(tiles, f.bounce1, {f.rsm, f.clusters, in.occluders, in.world.versions},
+                             s.valShading, s.texelRays, h.texelRays);
     f.gloss = addValGloss(scope, in.surfaces, {f.vals, f.isms}, s.valShading, refresh.pixels);
 
     // Light that goes on

@@ -26,6 +26,7 @@ struct BounceLightHistory {
     RefreshHistory refresh;
     ClusterShares clusterShares;
     ValClusteringHistory valClustering;
+    TexelRaysHistory texelRays;
     Settling stochasticRsm;
     Settling laterBounces;
     DenoiserHistory denoiser;

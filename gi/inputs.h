@@ -43,6 +43,13 @@ struct RsmLight {
     bool operator==(const RsmLight&) const = default;
 };
 
+// Occluders as trees for rays (shaders/bvh/bvh_io.h); see OccluderTrees.
+struct TracedOccluders {
+    BufferHandle nodes, triangles;    // texel buffers of uvec4 and vec4
+    BufferHandle places, moverNodes;  // the same, of this frame
+    explicit operator bool() const { return bool(nodes); }
+};
+
 // Points on surfaces, carried by their instances: what visibility is made from, and where light bounces on.
 struct Occluders {
     BufferHandle instances;          // io::Instance rows
@@ -54,6 +61,7 @@ struct Occluders {
     uint32_t bouncePointCount = 0;   // a square of a power of two, or 0
     // Vertices of instances that joints bend, as they are now; none: there are no such.
     BufferHandle deformedPositions, deformedAttributes;
+    TracedOccluders trees;       // none: no rays
     uint64_t staticVersion = 0;  // changes when an instance that is not movable may have moved
     float extent = 0;            // m: no two points are farther apart
 };

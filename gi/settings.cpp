@@ -56,6 +56,7 @@ void registerSettings(Settings& settings, BounceLightSettings& s) {
     registerFields(settings, "ism_atlas", s.ismAtlas);
     registerFields(settings, "later_bounces", s.laterBounces);
     registerFields(settings, "val_shading", s.valShading);
+    registerFields(settings, "texel_rays", s.texelRays);
     registerFields(settings, "stochastic_rsm", s.stochasticRsm);
     registerFields(settings, "denoiser", s.denoiser);
     registerFields(settings, "probes", s.probes);

@@ -11,6 +11,7 @@
 #include "gi/refresh_settings.h"
 #include "gi/rsm.h"
 #include "gi/stochastic_rsm.h"
+#include "gi/texel_rays.h"
 #include "gi/val_clustering.h"
 #include "gi/val_shading.h"
 
@@ -24,6 +25,7 @@ struct BounceLightSettings {
     IsmAtlasSettings ismAtlas;
     LaterBouncesSettings laterBounces;
     ValShadingSettings valShading;
+    TexelRaysSettings texelRays;
     StochasticRsmSettings stochasticRsm;
     DenoiserSettings denoiser;
     ProbeSettings probes;

@@ -204,6 +204,9 @@ Clusters addValClustering(GraphScope scope, const RsmSet& rsm, const Importance&
     c.slotOfTexel =
         scope.buffer("val_clustering.slot_of_texel", {.sizeBytes = texelCount * 4, .texelFormat = kUint});
     const Partials partials = addPartials(scope, rsm, settings.count);
+    c.partialOf = partials.of;
+    c.partials = partials.sums;
+    c.mostPartials = partials.most;
 
     const BufferHandle plans =
         settings.adaptive ? addAdaption(scope, rsm, importance, state, push) : BufferHandle{};

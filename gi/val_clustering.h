@@ -59,6 +59,10 @@ struct Clusters {
     BufferHandle seeds;                        // io::ClusterSeed the texels were compared with
     BufferHandle candidates, candidateCounts;  // per tile: cluster indices, how many
     BufferHandle slotOfTexel;                  // per texel: place in its tile's candidates, ~0 unlit
+    // Per tile and cluster which of the sums over a tile's texels is theirs, ~0 none; these, kPartialVec4s
+    // each.
+    BufferHandle partialOf, partials;
+    uint32_t mostPartials = 0;
     uint32_t count = 0;
 };
 

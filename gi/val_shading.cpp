@@ -90,12 +90,22 @@ void addGloss(const ValTiles& t, const GlossGather& of, const WorkList& groups, 
 
 }  // namespace
 
+ValTiles addShadingTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
+                         const ValShadingSettings& settings, const ValShadingNames& names) {
+    if (lights.vals.count == 0) return {.scope = scope, .gbuffer = gbuffer, .lights = lights};
+    return addValTiles(scope, gbuffer, lights, settings.nearReach, tileSizeFor(gbuffer.spacing), names.tiles);
+}
+
 Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
-                         const ValShadingSettings& settings, const ValShadingNames& names,
+                         const ValShadingSettings& settings, const ValShadingNames& names) {
+    return addValShading(addShadingTiles(scope, gbuffer, lights, settings, names), settings, names);
+}
+
+Irradiance addValShading(const ValTiles& t, const ValShadingSettings& settings, const ValShadingNames& names,
                          const PixelShare& share) {
-    if (lights.vals.count == 0) return {};
-    const ValTiles t =
-        addValTiles(scope, gbuffer, lights, settings.nearReach, tileSizeFor(gbuffer.spacing), names.tiles);
+    if (t.tileCount == 0) return {};
+    const GraphScope scope = t.scope;
+    const Surfaces& gbuffer = t.gbuffer;
     const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
     const ImageHandle far = scope.image(names.farIrradiance, info);
     // Pixels that take another's light want to know where it comes from if they are turned otherwise.

@@ -70,10 +70,17 @@ constexpr ValShadingNames kLaterShading = {
     "val_shading.far_toward_later",
     "val_shading.toward_later"};
 
+// Nothing of these where there is no light.
+ValTiles addShadingTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
+                         const ValShadingSettings& settings, const ValShadingNames& names);
+
 // `share`: only of the first bounce.
+Irradiance addValShading(const ValTiles& tiles, const ValShadingSettings& settings,
+                         const ValShadingNames& names, const PixelShare& share = {});
+// Both.
 Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
                          const ValShadingSettings& settings,
-                         const ValShadingNames& names = kFirstBounceShading, const PixelShare& share = {});
+                         const ValShadingNames& names = kFirstBounceShading);
 
 // What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels of the
 // G-buffer; those without a specular lobe cost nothing. Invalid: no gloss.

@@ -25,11 +25,11 @@ struct ValTiles {
     GraphScope scope;
     const Surfaces& gbuffer;
     const ShadowedVals& lights;
-    io::ValShadingPush push;
+    io::ValShadingPush push{};
     BufferHandle lists;   // uint: a tile's near lights, then its far ones
     BufferHandle counts;  // uvec2 a tile: of near and of far lights
-    uint32_t tileCount;
-    uint32_t blocks;  // of 2 x 2 pixels
+    uint32_t tileCount = 0;
+    uint32_t blocks = 0;  // of 2 x 2 pixels
 };
 
 // `tileSize`: pixels. Lights nearer than `nearReach` of their half lengths are near.

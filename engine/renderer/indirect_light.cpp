@@ -45,6 +45,7 @@ gi::Occluders occludersOf(const SceneView& scene) {
             .bouncePointCount = scene.bouncePointCount,
             .deformedPositions = scene.skin.deformedPositions,
             .deformedAttributes = scene.skin.deformedAttributes,
+            .trees = scene.trees,
             .staticVersion = scene.staticVersion,
             .extent = scene.extent};
 }
@@ -82,6 +83,10 @@ gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::Bo
 
 bool needsMotion(const RenderSettings& s) {
     return s.technique != Technique::kNone && s.bounce.denoiser.enabled && s.bounce.denoiser.motion;
+}
+
+bool tracesRays(const RenderSettings& s) {
+    return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
 }
 
 gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,

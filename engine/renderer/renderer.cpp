@@ -7,6 +7,7 @@
 
 #include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
+#include "engine/renderer/indirect_light.h"
 
 namespace ag::render {
 namespace {
@@ -109,7 +110,7 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     const RenderScene& scene = inOwnUnits(given);
     graph_.beginFrame(options);
     scene_.beginFrame(scene, jobs_);
-    SceneView view = scene_.import(graph_, scene, size);
+    SceneView view = scene_.import(graph_, scene, size, tracesRays(settings));
     view.units = units_;
     view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     RenderSettings asked = settings;

@@ -88,7 +88,7 @@ void transferBarrier(const gpu::Functions& vk, VkCommandBuffer commands, Transfe
 
 }  // namespace
 
-SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device) {}
+SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device), trees_(device) {}
 SceneGpu::~SceneGpu() {
     device_.waitIdle();
 }
@@ -218,7 +218,7 @@ ViewSlots viewSlots(const RenderScene& scene) {
     return s;
 }
 
-SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size) {
+SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size, bool trees) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
@@ -261,6 +261,7 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
         view.staticSampleCount = staticSampleCount_;
         view.staticVersion = combineHash(combineHash(sampledSet_, staticVersion_), scene.originVersion);
     }
+    if (trees) view.trees = trees_.import(scope, scene);
     view.camera = gi::addCamera(scope, "scene.camera", scene.camera, size);
     return view;
 }
@@ -340,10 +341,11 @@ void SceneGpu::upload(VkCommandBuffer commands, FrameGraph& graph, const SceneVi
     staging_[frameSlot].used = 0;
     if (previous == Previous::kKept) keepPrevious(commands, view);
     uploadInstances(commands, scene, frameSlot);
-    if (view.skin)
-        skin_.upload(scene, [&](std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {
-            stage(commands, frameSlot, bytes, to, offset);
-        });
+    const auto send = [&](std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset) {
+        stage(commands, frameSlot, bytes, to, offset);
+    };
+    if (view.skin) skin_.upload(scene, send);
+    if (view.trees) trees_.upload(send);
     reserveDraws(scene);
     graph.rebind(view.commands, *commands_);
     graph.rebind(view.drawnRows, *drawnRows_);
@@ -358,7 +360,7 @@ uint64_t SceneGpu::deviceBytes() const {
                                instances_.get(), previousInstances_.get(), commands_.get(), drawnRows_.get(),
                                samples_.get(), pointAreas_.get(), bouncePoints_.get()})
         if (buffer) bytes += buffer->sizeBytes();
-    return bytes + skin_.deviceBytes();
+    return bytes + skin_.deviceBytes() + trees_.deviceBytes();
 }
 
 }  // namespace ag::render

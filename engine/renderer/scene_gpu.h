@@ -12,6 +12,7 @@
 #include "engine/gpu/resources.h"
 #include "engine/renderer/draw_lists.h"
 #include "engine/renderer/render_units.h"
+#include "engine/renderer/scene_trees.h"
 #include "engine/renderer/skinning.h"
 #include "engine/scene/render_scene.h"
 #include "shaders/scene/scene_io.h"
@@ -58,6 +59,7 @@ struct SceneView {
     BufferHandle bouncePoints;        // io::BouncePoint: some of the samples
     uint32_t bouncePointCount = 0;    // a square of a power of two, or 0
     uint64_t staticVersion = 0;       // changes when an instance that is not movable may have moved
+    gi::TracedOccluders trees;        // where asked for
 };
 
 class SceneGpu {
@@ -75,7 +77,8 @@ class SceneGpu {
 
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
-    SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size);
+    // `trees`: for rays, too.
+    SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size, bool trees = false);
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     // `previous`: whether a pass reads where things were in the frame before.
     enum class Previous : uint8_t { kUnread, kKept };
@@ -108,6 +111,7 @@ class SceneGpu {
     gpu::Device& device_;
     DrawLists draws_;
     SkinGpu skin_;
+    SceneTrees trees_;
     uint64_t geometryVersion_ = 0, loads_ = 0;
     float strongestEmission_ = 0;
     uint64_t materialsVersion_ = 0;

@@ -74,7 +74,7 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
         instances.push_back({.worldFromLocal = instance.worldFromLocal,
                              .mesh = instance.primitive,
                              .movable = instance.movable});
-        if (instance.skinnedMesh == kNoSkinnedMesh) continue;
+        if (instance.skinnedMesh == kNoSkinnedMesh || deformed.positions.empty()) continue;
         instances.back().deformed =
             gi::Strided<glm::vec3>::of(verticesOf(scene, deformed, instance).positions);
         instances.back().firstDeformed = uint32_t(firstVertexOf(scene, instance));
@@ -93,6 +93,21 @@ gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
         return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
     };
     return sampleSurfaces(gi::SampledScene{meshes, instances, scene.bounds, cutOut}, count);
+}
+
+gi::OccluderTrees buildTrees(const RenderScene& scene) {
+    const GeometryArrays& g = *scene.geometry;
+    const DeformedVertices deformed = deformSkinnedMeshes(scene);
+    const std::vector<gi::SampledMesh> meshes = meshesOf(g);
+    const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
+    const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
+        return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
+    };
+    return gi::buildOccluderTrees({meshes, instances, scene.bounds, cutOut});
+}
+
+gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees) {
+    return gi::placeTrees(trees, instancesOf(scene, {}));
 }
 
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,

@@ -3,6 +3,7 @@
 
 #include "engine/scene/render_scene.h"
 #include "gi/bounce_points.h"
+#include "gi/occluder_trees.h"
 
 namespace ag::render {
 
@@ -10,5 +11,7 @@ namespace ag::render {
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
                                                 uint32_t count);
+gi::OccluderTrees buildTrees(const RenderScene& scene);
+gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees);
 
 }  // namespace ag::render

@@ -7,11 +7,13 @@
 #define VEC4_TEXELS(name) readonly buffer name##Texels { vec4 items[]; } name
 #define FLOAT_TEXELS(name) readonly buffer name##Texels { float items[]; } name
 #define UINT_TEXELS(name) readonly buffer name##Texels { uint items[]; } name
+#define UVEC4_TEXELS(name) readonly buffer name##Texels { uvec4 items[]; } name
 #define fetchTexel(name, index) name.items[index]
 #else
 #define VEC4_TEXELS(name) uniform samplerBuffer name
 #define FLOAT_TEXELS(name) uniform samplerBuffer name
 #define UINT_TEXELS(name) uniform usamplerBuffer name
+#define UVEC4_TEXELS(name) uniform usamplerBuffer name
 #define fetchTexel(name, index) texelFetch(name, index)
 #endif
 #endif

@@ -1,0 +1,39 @@
+// The scene's occluders as trees for rays, in device memory: built when what is static changes, placed anew
+// when anything moves.
+#pragma once
+
+#include <memory>
+
+#include "engine/core/function_ref.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/resources.h"
+#include "engine/scene/render_scene.h"
+#include "gi/inputs.h"
+#include "gi/occluder_trees.h"
+
+namespace ag::render {
+
+class SceneTrees {
+  public:
+    explicit SceneTrees(gpu::Device& device) : device_(device) {}
+
+    // Of this frame. Blocking where static surfaces changed.
+    gi::TracedOccluders import(GraphScope scope, const RenderScene& scene);
+    using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
+    void upload(Stage stage);
+    uint64_t deviceBytes() const;
+
+  private:
+    void build(const RenderScene& scene);
+    void place(const RenderScene& scene);
+
+    gpu::Device& device_;
+    uint64_t builtOf_ = 0, placedOf_ = 0,
+             checkedOf_ = 0;  // versions: of the static surfaces, of all instances
+    gi::OccluderTrees trees_;
+    gi::MoverTree movers_;
+    bool uploaded_ = true;
+    std::unique_ptr<gpu::Buffer> nodes_, triangles_, places_, moverNodes_;
+};
+
+}  // namespace ag::render

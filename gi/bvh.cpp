@@ -1,0 +1,142 @@
+#include "gi/bvh.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace ag::gi {
+namespace {
+
+constexpr uint32_t kBins = 16;
+constexpr float kTraversalCost = 1;  // of a node, in those of an item
+
+float halfArea(const Bounds& b) {
+    if (b.empty()) return 0;
+    const glm::vec3 s = b.max - b.min;
+    return s.x * s.y + s.y * s.z + s.z * s.x;
+}
+
+struct Bin {
+    Bounds bounds;
+    uint32_t count = 0;
+};
+
+struct Split {
+    uint32_t axis = 0, bin = 0;  // the first bin of the right half; 0: no split is worth it
+    float least = 0, scale = 0;  // of the centres along the axis: to bins
+    uint32_t binOf(glm::vec3 center) const {
+        return std::min(uint32_t(std::max((center[int(axis)] - least) * scale, 0.0f)), kBins - 1);
+    }
+};
+
+class Builder {
+  public:
+    Builder(std::span<const Bounds> items, uint32_t leafItems, Bvh& bvh)
+        : items_(items), leafItems_(leafItems), bvh_(bvh) {}
+
+    // Of order[first, first + count).
+    void build(uint32_t first, uint32_t count) {
+        const uint32_t node = uint32_t(bvh_.nodes.size());
+        Bounds bounds, centers;
+        for (uint32_t i = first; i < first + count; ++i) {
+            bounds.add(items_[bvh_.order[i]]);
+            centers.add(centerOf(bvh_.order[i]));
+        }
+        bvh_.nodes.push_back({.bounds = bounds});
+        const uint32_t left = count > 1 ? divide(first, count, bounds, centers) : 0;
+        if (left == 0) {
+            bvh_.nodes[node].first = first;
+            bvh_.nodes[node].count = count;
+        } else {
+            build(first, left);
+            build(first + left, count - left);
+        }
+        bvh_.nodes[node].next = uint32_t(bvh_.nodes.size());
+    }
+
+  private:
+    glm::vec3 centerOf(uint32_t item) const { return 0.5f * (items_[item].min + items_[item].max); }
+
+    // How many go left; 0: they stay together.
+    uint32_t divide(uint32_t first, uint32_t count, const Bounds& bounds, const Bounds& centers) {
+        const Split split = bestSplit(first, count, bounds, centers);
+        const auto begin = bvh_.order.begin() + first;
+        if (split.bin > 0) {
+            const auto middle = std::partition(
+                begin, begin + count, [&](uint32_t item) { return split.binOf(centerOf(item)) < split.bin; });
+            return uint32_t(middle - begin);
+        }
+        return count > leafItems_ ? count / 2 : 0;
+    }
+
+    Split bestSplit(uint32_t first, uint32_t count, const Bounds& bounds, const Bounds& centers) const {
+        const float whole = std::max(halfArea(bounds), 1e-30f);
+        float least = count > leafItems_ ? 3e38f : float(count) * whole;
+        Split best;
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            const float width = (centers.max - centers.min)[int(axis)];
+            if (!(width > 0)) continue;
+            Split split{axis, 0, centers.min[int(axis)], float(kBins) / width};
+            const float cost = leastCost(first, count, split) + kTraversalCost * whole;
+            if (split.bin > 0 && cost < least) least = cost, best = split;
+        }
+        return best;
+    }
+
+    // Of the halves that a split along its axis makes; chooses the bin.
+    float leastCost(uint32_t first, uint32_t count, Split& split) const {
+        std::array<Bin, kBins> bins;
+        for (uint32_t i = first; i < first + count; ++i) {
+            Bin& bin = bins[split.binOf(centerOf(bvh_.order[i]))];
+            bin.bounds.add(items_[bvh_.order[i]]);
+            ++bin.count;
+        }
+        std::array<float, kBins> rightCost{};
+        Bin right, left;
+        for (uint32_t b = kBins - 1; b > 0; --b) {
+            right.bounds.add(bins[b].bounds);
+            right.count += bins[b].count;
+            rightCost[b] = halfArea(right.bounds) * float(right.count);
+        }
+        float least = 3e38f;
+        for (uint32_t b = 1; b < kBins; ++b) {
+            left.bounds.add(bins[b - 1].bounds);
+            left.count += bins[b - 1].count;
+            if (left.count == 0 || left.count == count) continue;
+            const float cost = halfArea(left.bounds) * float(left.count) + rightCost[b];
+            if (cost < least) least = cost, split.bin = b;
+        }
+        return least;
+    }
+
+    std::span<const Bounds> items_;
+    uint32_t leafItems_;
+    Bvh& bvh_;
+};
+
+}  // namespace
+
+Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems) {
+    Bvh bvh;
+    for (uint32_t i = 0; i < items.size(); ++i)
+        if (!items[i].empty()) bvh.order.push_back(i);
+    if (bvh.order.empty()) return bvh;
+    bvh.nodes.reserve(2 * bvh.order.size());
+    Builder(items, leafItems, bvh).build(0, uint32_t(bvh.order.size()));
+    return bvh;
+}
+
+void refit(Bvh& bvh, std::span<const Bounds> items) {
+    for (size_t n = bvh.nodes.size(); n-- > 0;) {
+        BvhNode& node = bvh.nodes[n];
+        node.bounds = {};
+        for (uint32_t i = 0; i < node.count; ++i)
+            node.bounds.add(items[bvh.order[node.first + i]]);
+        if (node.count > 0) continue;
+        const BvhNode& left = bvh.nodes[n + 1];
+        node.bounds.add(left.bounds);
+        node.bounds.add(bvh.nodes[left.next].bounds);
+    }
+}
+
+}  // namespace ag::gi

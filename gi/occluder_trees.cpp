@@ -1,0 +1,180 @@
+#include "gi/occluder_trees.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/sampling.h"
+#include "gi/bvh.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr uint32_t kLeafTriangles = 4;
+
+struct Triangle {
+    std::array<glm::vec3, 3> corners;
+    float opacity;
+};
+
+Bounds boundsOf(const Triangle& t) {
+    Bounds b;
+    for (const glm::vec3 c : t.corners)
+        b.add(c);
+    return b;
+}
+
+// Grid coordinates of a box: its longest side takes all steps, so that the grid is as fine along each axis.
+struct Grid {
+    glm::vec3 origin;
+    float stepsPerMetre;
+
+    explicit Grid(const Bounds& b) : origin(b.min) {
+        const glm::vec3 size = b.max - b.min;
+        const float longest = std::max({size.x, size.y, size.z});
+        // Two steps less: boxes are rounded outwards.
+        stepsPerMetre = longest > 0 ? (io::kBvhGrid - 2) / longest : 1;
+    }
+    glm::vec3 operator()(glm::vec3 p) const { return (p - origin) * stepsPerMetre + 1.0f; }
+    // Rows of the grid's coordinates from those of the world.
+    void place(const glm::mat4x3& localFromWorld, io::BvhPlace& p) const {
+        const glm::mat3x4 rows = glm::transpose(localFromWorld);
+        const auto row = [&](int i) {
+            glm::vec4 r = rows[i] * stepsPerMetre;
+            r.w += 1 - origin[i] * stepsPerMetre;
+            return r;
+        };
+        p.gridFromWorld0 = row(0), p.gridFromWorld1 = row(1), p.gridFromWorld2 = row(2);
+    }
+};
+
+// Rounded outwards, so that rounding never hides what is inside.
+glm::uvec4 packed(const BvhNode& node, const Grid& grid, uint32_t firstNode, uint32_t firstItem) {
+    const glm::uvec3 low(glm::clamp(glm::floor(grid(node.bounds.min)), 0.0f, io::kBvhGrid));
+    const glm::uvec3 high(glm::clamp(glm::ceil(grid(node.bounds.max)), 0.0f, io::kBvhGrid));
+    const uint32_t link = node.count > 0
+                              ? io::kBvhLeafBit | node.count << io::kBvhCountShift | (firstItem + node.first)
+                              : firstNode + node.next;
+    return {low.x | low.y << 16, low.z | high.x << 16, high.y | high.z << 16, link};
+}
+
+TreeRange append(OccluderTrees& trees, const std::vector<Triangle>& triangles) {
+    std::vector<Bounds> boxes;
+    boxes.reserve(triangles.size());
+    for (const Triangle& t : triangles)
+        boxes.push_back(boundsOf(t));
+    const Bvh bvh = buildBvh(boxes, kLeafTriangles);
+    if (bvh.nodes.empty()) return {};
+    const Grid grid(bvh.nodes[0].bounds);
+    const uint32_t firstNode = uint32_t(trees.nodes.size()), firstTriangle = uint32_t(trees.triangles.size());
+    for (const BvhNode& node : bvh.nodes)
+        trees.nodes.push_back(packed(node, grid, firstNode, firstTriangle));
+    for (const uint32_t item : bvh.order) {
+        const Triangle& t = triangles[item];
+        const glm::vec3 corner = grid(t.corners[0]);
+        trees.triangles.push_back({.corner = corner,
+                                   .opacity = t.opacity,
+                                   .edge1 = grid(t.corners[1]) - corner,
+                                   .edge2 = grid(t.corners[2]) - corner});
+    }
+    return {firstNode, uint32_t(trees.nodes.size()), bvh.nodes[0].bounds};
+}
+
+// Share of a triangle that its alpha mask leaves.
+float opacityOf(const SampledScene& scene, uint32_t mesh, const std::array<glm::vec2, 3>& uvs) {
+    constexpr uint32_t kPlaces = 16;
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < kPlaces; ++i) {
+        const glm::vec2 xi = io::hammersley(i, kPlaces);
+        const float root = std::sqrt(xi.x);
+        const glm::vec2 uv = (1 - root) * uvs[0] + root * (1 - xi.y) * uvs[1] + root * xi.y * uvs[2];
+        left += !scene.isCutOut(mesh, uv);
+    }
+    return float(left) / kPlaces;
+}
+
+void appendTriangles(const SampledScene& scene, uint32_t meshIndex, const Strided<glm::vec3>& positions,
+                     const glm::mat4x3& transform, std::vector<Triangle>& triangles) {
+    const SampledMesh& mesh = scene.meshes[meshIndex];
+    if (!mesh.blocksLight) return;
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        Triangle t;
+        std::array<glm::vec2, 3> uvs{};
+        for (size_t k = 0; k < 3; ++k) {
+            t.corners[k] = transform * glm::vec4(positions[mesh.indices[i + k]], 1);
+            if (mesh.uvs) uvs[k] = mesh.uvs[mesh.indices[i + k]];
+        }
+        t.opacity = opacityOf(scene, meshIndex, uvs);
+        if (t.opacity > 0) triangles.push_back(t);
+    }
+}
+
+glm::mat4x3 inverseOf(const glm::mat4x3& m) {
+    return glm::mat4x3(glm::inverse(glm::mat4(m)));
+}
+
+Bounds transformed(const glm::mat4x3& m, const Bounds& b) {
+    Bounds result;
+    for (int corner = 0; corner < 8; ++corner)
+        result.add(m * glm::vec4(corner & 1 ? b.max.x : b.min.x, corner & 2 ? b.max.y : b.min.y,
+                                 corner & 4 ? b.max.z : b.min.z, 1));
+    return result;
+}
+
+}  // namespace
+
+OccluderTrees buildOccluderTrees(const SampledScene& scene) {
+    OccluderTrees trees;
+    trees.ofMesh.resize(scene.meshes.size());
+    std::vector<Triangle> triangles;
+    for (const SampledInstance& instance : scene.instances)
+        if (!instance.movable)
+            appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions,
+                            instance.worldFromLocal, triangles);
+    trees.everythingStatic = append(trees, triangles);
+    for (const SampledInstance& instance : scene.instances) {
+        if (!instance.movable || !trees.ofMesh[instance.mesh].empty()) continue;
+        triangles.clear();
+        appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions, glm::mat4x3(1),
+                        triangles);
+        trees.ofMesh[instance.mesh] = append(trees, triangles);
+    }
+    return trees;
+}
+
+MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> instances) {
+    MoverTree result;
+    result.places.resize(io::kBvhFirstMover);
+    const auto fill = [](io::BvhPlace& place, const TreeRange& range, const glm::mat4x3& localFromWorld) {
+        Grid(range.bounds).place(localFromWorld, place);
+        place.firstNode = float(range.firstNode);
+        place.endNode = float(range.endNode);
+    };
+    if (!trees.everythingStatic.empty())
+        fill(result.places[io::kBvhStatic], trees.everythingStatic, glm::mat4x3(1));
+    std::vector<const SampledInstance*> movers;
+    std::vector<Bounds> boxes;
+    for (const SampledInstance& instance : instances) {
+        if (!instance.movable || trees.ofMesh[instance.mesh].empty()) continue;
+        const Bounds box = transformed(instance.worldFromLocal, trees.ofMesh[instance.mesh].bounds);
+        if (!std::isfinite(glm::length(box.max - box.min)) ||
+            std::abs(glm::determinant(glm::mat3(instance.worldFromLocal))) < 1e-30f)
+            continue;
+        movers.push_back(&instance);
+        boxes.push_back(box);
+    }
+    const Bvh bvh = buildBvh(boxes, 1);
+    if (bvh.nodes.empty()) return result;
+    const TreeRange range{0, uint32_t(bvh.nodes.size()), bvh.nodes[0].bounds};
+    const Grid grid(range.bounds);
+    for (const BvhNode& node : bvh.nodes)
+        result.nodes.push_back(packed(node, grid, 0, 0));
+    fill(result.places[io::kBvhMovers], range, glm::mat4x3(1));
+    for (const uint32_t item : bvh.order) {
+        const SampledInstance& mover = *movers[item];
+        fill(result.places.emplace_back(), trees.ofMesh[mover.mesh], inverseOf(mover.worldFromLocal));
+    }
+    return result;
+}
+
+}  // namespace ag::gi

@@ -1,0 +1,261 @@
+#include "gi/texel_rays.h"
+
+#include <array>
+
+#include "engine/core/hash.h"
+#include "gi/blue_noise.h"
+#include "gi/pixel_rays.h"
+#include "shaders/texel_rays/texel_rays_io.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr float kOffset = 1e-4f;  // of rays from surfaces, in the scene's extent
+constexpr uint32_t kMostRounds = 4;
+// Names are literals, because the graph keeps views of them.
+constexpr std::array<std::string_view, kMostRounds> kFilterNames = {
+    "texel_rays.filter0", "texel_rays.filter1", "texel_rays.filter2", "texel_rays.filter3"};
+
+BufferHandle uintBuffer(GraphScope scope, std::string_view name, uint64_t count) {
+    return scope.buffer(name, {.sizeBytes = count * 4, .texelFormat = VK_FORMAT_R32_UINT});
+}
+
+// Each cluster's texels, one after another.
+struct Members {
+    BufferHandle ranges, texels;  // first and count of each cluster; indices of texels
+};
+
+Members addMembers(GraphScope scope, const RsmSet& rsm, const Clusters& c) {
+    const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
+    const Members m{uintBuffer(scope, "texel_rays.member_ranges", 2 * c.count),
+                    uintBuffer(scope, "texel_rays.members", texelCount)};
+    const BufferHandle ofTiles = uintBuffer(scope, "texel_rays.tile_members", c.mostPartials);
+    const glm::uvec2 push(c.count, rsm.tileCount);
+    scope.compute("texel_rays.count_members", "texel_rays/count_members.comp")
+        .read("clusters", c.clusters)
+        .read("partialOf", c.partialOf)
+        .read("partials", c.partials)
+        .write("memberRanges", m.ranges)
+        .write("tileMembers", ofTiles)
+        .push(push)
+        .dispatchGroups(c.count);
+    scope.compute("texel_rays.list_members", "texel_rays/list_members.comp")
+        .read("slotOfTexel", c.slotOfTexel)
+        .read("candidates", c.candidates)
+        .read("partialOf", c.partialOf)
+        .read("tileMembers", ofTiles)
+        .write("members", m.texels)
+        .push(push)
+        .dispatchGroups(rsm.tileCount);
+    return m;
+}
+
+// How likely pixels of a block are to draw each light.
+struct Choice {
+    BufferHandle upTo, likely;
+    uint32_t blocks;
+};
+
+Choice addChoice(const ValTiles& t, uint32_t step) {
+    const glm::uvec2 blocks = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
+    const BufferInfo info{.sizeBytes = uint64_t(blocks.x) * blocks.y * t.push.valCount * 4,
+                          .texelFormat = VK_FORMAT_R32_SFLOAT};
+    const Choice choice{t.scope.buffer("texel_rays.up_to", info), t.scope.buffer("texel_rays.likely", info),
+                        blocks.x * blocks.y};
+    t.scope.fill("texel_rays.none_likely", choice.likely, 0);
+    gatherPass(t, "texel_rays.choose", "texel_rays/choose_lights.comp", ValShape::kVectorDisk, 1)
+        .readWrite("likely", choice.likely)
+        .readWrite("upTo", choice.upTo)
+        .push(io::ChoosePush{t.push, step})
+        .dispatchGroups(choice.blocks);
+    return choice;
+}
+
+// Frames are spread evenly: multiples of inverse powers of the root of x^4 = x + 1 (Roberts 2018).
+glm::vec3 shiftOf(uint32_t step) {
+    return glm::vec3(
+        glm::fract(double(step) * glm::dvec3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)));
+}
+
+struct CastHow {
+    float reach;  // in the scene's extent
+    uint32_t step;
+    HistoryBuffer youngest;  // of each block's means
+};
+
+ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, const CastHow& how) {
+    const Members members = addMembers(t.scope, in.rsm, in.clusters);
+    const ImageHandle sent = t.scope.image("texel_rays.sent", {.format = kFloat4, .size = t.gbuffer.size});
+    const BufferHandle noise = addBlueNoise(t.scope);
+    t.scope.compute("texel_rays.cast", "texel_rays/cast_rays.comp")
+        .sample("normalMap", t.gbuffer.normal)
+        .sample("depthMap", t.gbuffer.depth)
+        .read("camera", t.gbuffer.camera)
+        .read("texels", in.rsm.texels)
+        .read("faces", in.rsm.faces)
+        .read("maps", in.rsm.maps)
+        .read("lists", t.lists)
+        .read("counts", t.counts)
+        .read("upTo", choice.upTo)
+        .read("likely", choice.likely)
+        .read("memberRanges", members.ranges)
+        .read("members", members.texels)
+        .read("slotOfTexel", in.clusters.slotOfTexel)
+        .read("candidates", in.clusters.candidates)
+        .read("treeNodes", in.occluders.trees.nodes)
+        .read("treeTriangles", in.occluders.trees.triangles)
+        .read("treePlaces", in.occluders.trees.places)
+        .read("moverNodes", in.occluders.trees.moverNodes)
+        .read("noise", noise)
+        .readPrevious("youngest", how.youngest)
+        .write("sent", sent)
+        .push(io::CastPush{.tiles = t.push,
+                           .atlasWidth = in.rsm.atlas.size.x,
+                           .mapCount = in.rsm.lightRsmCount,
+                           .step = how.step,
+                           .shift = shiftOf(how.step),
+                           .offset = kOffset * in.occluders.extent,
+                           .reach = how.reach * in.occluders.extent,
+                           .known = how.youngest.valid})
+        .step(how.step)
+        .dispatchGroups(choice.blocks);
+    return sent;
+}
+
+ImageHandle addControl(const ValTiles& t, const Choice& choice, ImageHandle sent,
+                       const ValShadingSettings& s) {
+    const ImageHandle control =
+        t.scope.image("texel_rays.control", {.format = kFloat4, .size = t.gbuffer.size});
+    const auto measure = [&](std::string_view name, uint32_t list, ValShape shape, uint32_t taps) {
+        gatherPass(t, name, "texel_rays/measure_control.comp", shape, taps)
+            .sample("sent", sent)
+            .read("likely", choice.likely)
+            .readWrite("control", control)
+            .constant("kList", list)
+            .dispatchThreads(t.gbuffer.size.x * t.gbuffer.size.y);
+    };
+    measure("texel_rays.control_far", io::kFarList, s.farShape, s.farTaps);
+    measure("texel_rays.control_near", io::kNearList, s.shape, s.taps);
+    return control;
+}
+
+struct Means {
+    HistoryImage sent, control, moments, surface;
+    BufferHandle cameras;
+};
+
+BufferHandle addCameras(const ValTiles& t, const RenderCamera& before) {
+    const RenderCamera& now = t.gbuffer.view;
+    const io::PixelRays rays = pixelRays(now, t.gbuffer.size);
+    const io::RayCameras cameras{.previousClipFromWorld = before.clipFromWorld,
+                                 .now = rays,
+                                 .before = pixelRays(before, t.gbuffer.size),
+                                 .pixelSize = glm::length(rays.down)};
+    const BufferHandle buffer = t.scope.buffer("texel_rays.cameras", {.sizeBytes = sizeof cameras});
+    t.scope.upload("texel_rays.cameras", buffer, std::as_bytes(std::span(&cameras, 1)));
+    return buffer;
+}
+
+struct Measured {
+    ImageHandle areaLights, sent, control;
+    BufferHandle youngest;
+    uint32_t step;
+};
+
+Means addMeans(const ValTiles& t, const Measured& of, uint64_t originVersion, const TexelRaysSettings& s,
+               TexelRaysHistory& history) {
+    const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
+    const bool known = history.originVersion == originVersion;
+    const RenderCamera before = known ? history.camera : t.gbuffer.view;
+    history.camera = t.gbuffer.view;
+    history.originVersion = originVersion;
+    const Means m{
+        .sent = t.scope.historyImage("texel_rays.sent_mean", info),
+        .control = t.scope.historyImage("texel_rays.control_mean", info),
+        .moments = t.scope.historyImage("texel_rays.moments", info),
+        .surface = t.scope.historyImage("texel_rays.surface",
+                                        {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = t.gbuffer.size}),
+        .cameras = addCameras(t, before)};
+    t.scope.compute("texel_rays.accumulate", "texel_rays/accumulate.comp")
+        .sample("normalMap", t.gbuffer.normal)
+        .sample("depthMap", t.gbuffer.depth)
+        .sample("areaLights", of.areaLights)
+        .sample("sent", of.sent)
+        .sample("control", of.control)
+        .samplePrevious("previousSent", m.sent, Sampler::kNearestClamp)
+        .samplePrevious("previousControl", m.control, Sampler::kNearestClamp)
+        .samplePrevious("previousMoments", m.moments, Sampler::kNearestClamp)
+        .samplePrevious("previousSurface", m.surface, Sampler::kNearestClamp)
+        .read("cameras", m.cameras)
+        .write("sentMean", m.sent.current)
+        .write("controlMean", m.control.current)
+        .write("moments", m.moments.current)
+        .write("surface", m.surface.current)
+        .write("youngest", of.youngest)
+        .sample("motionMap", t.gbuffer.motion ? t.gbuffer.motion : t.gbuffer.normal)
+        .constant("kMotion", bool(t.gbuffer.motion))
+        .push(io::RayAccumulatePush{
+            .near = t.gbuffer.view.near, .valid = known && m.sent.valid, .mostLength = float(s.mostLength)})
+        .step(of.step)
+        .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
+    return m;
+}
+
+Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const Means& m,
+                         const TexelRaysSettings& s) {
+    const glm::uvec2 size = t.gbuffer.size;
+    const ImageInfo info{.format = kFloat4, .size = size};
+    const std::array<ImageHandle, 2> turns = {t.scope.image("texel_rays.even", info),
+                                              t.scope.image("texel_rays.odd", info)};
+    const ImageHandle share =
+        t.scope.image("texel_rays.share", {.format = VK_FORMAT_R32_SFLOAT, .size = size});
+    t.scope.compute("texel_rays.regress", "texel_rays/regress.comp")
+        .sample("areaLights", areaLights.image)
+        .sample("sentMean", m.sent.current)
+        .sample("controlMean", m.control.current)
+        .sample("moments", m.moments.current)
+        .sample("surface", m.surface.current)
+        .read("cameras", m.cameras)
+        .write("rest", turns[0])
+        .write("shareOf", share)
+        .dispatchThreads(size.x, size.y);
+    uint32_t round = 0;
+    for (; round < std::min(s.rounds, kMostRounds); ++round)
+        t.scope.compute(kFilterNames[round], "texel_rays/filter.comp")
+            .sample("rest", turns[round % 2])
+            .sample("surface", m.surface.current)
+            .read("cameras", m.cameras)
+            .write("result", turns[(round + 1) % 2])
+            .push(io::RayFilterPush{int(1u << round), s.tolerance})
+            .dispatchThreads(size.x, size.y);
+    const ImageHandle corrected = t.scope.image("texel_rays.irradiance", t.scope.info(areaLights.image));
+    t.scope.compute("texel_rays.correct", "texel_rays/correct.comp")
+        .sample("areaLights", areaLights.image)
+        .sample("rest", turns[round % 2])
+        .sample("shareOf", share)
+        .write("irradiance", corrected)
+        .dispatchThreads(size.x, size.y);
+    return {corrected, areaLights.toward};
+}
+
+}  // namespace
+
+Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const TexelRaysInputs& in,
+                        const ValShadingSettings& shading, const TexelRaysSettings& s,
+                        TexelRaysHistory& history) {
+    if (!s.enabled || !areaLights.image || !in.occluders.trees) return areaLights;
+    const uint64_t seen =
+        combineHash(in.rsm.inputsVersion, combineHash(in.versions.camera, in.versions.instances));
+    const uint32_t step = history.settling.advance(seen, s.settleFrames);
+    const Choice choice = addChoice(t, step);
+    const HistoryBuffer youngest =
+        t.scope.historyBuffer("texel_rays.youngest", {.sizeBytes = choice.blocks * sizeof(float)});
+    const ImageHandle sent = addRays(t, choice, in, {s.reach, step, youngest});
+    const ImageHandle control = addControl(t, choice, sent, shading);
+    const Means means = addMeans(t, {areaLights.image, sent, control, youngest.current, step},
+                                 in.versions.origin, s, history);
+    return addCorrection(t, areaLights, means, s);
+}
+
+}  // namespace ag::gi

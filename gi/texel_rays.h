@@ -1,0 +1,61 @@
+// The first bounce made true by rays. Area lights and their imperfect shadow maps give a smooth sum that is
+// wrong where a light is near or a map is coarse; a pixel measures what is wrong with two rays a frame
+// through the occluders' trees, to texels of the reflective shadow maps. The lights' own sum is a control
+// variate of that measurement: where lights are right there is next to no noise, where maps leak the rays
+// alone count. Means over frames, filtered by their variance.
+#pragma once
+
+#include "engine/core/setting_fields.h"
+#include "gi/rsm.h"
+#include "gi/settling.h"
+#include "gi/val_shading.h"
+
+namespace ag::gi {
+
+struct TexelRaysSettings {
+    bool enabled = false;  // not finished: movable things that joints bend do not stand in the way as bent
+    float reach = 0.05f;   // of a hemisphere's ray, in the scene's extent
+    uint32_t mostLength = 128;   // frames that a mean stands for
+    uint32_t settleFrames = 64;  // frames with new rays after anything last changed
+    uint32_t rounds = 3;         // of the filter
+    float tolerance = 2;         // standard deviations by which the light of taps may differ
+
+    static constexpr auto fields() {
+        return std::tuple{SettingField{"enabled", &TexelRaysSettings::enabled, 0, 0, "",
+                                       "correct the first bounce of area lights by rays to texels"},
+                          SettingField{"reach", &TexelRaysSettings::reach, 0, 1, "scene extents",
+                                       "of rays to whatever light is near"},
+                          SettingField{"most_length", &TexelRaysSettings::mostLength, 1, 2048, "frames",
+                                       "a pixel's mean stands for"},
+                          SettingField{"settle_frames", &TexelRaysSettings::settleFrames, 0, 1000000,
+                                       "frames", "with new rays after anything last changed"},
+                          SettingField{"rounds", &TexelRaysSettings::rounds, 0, 4, "rounds",
+                                       "of the filter, each twice as wide"},
+                          SettingField{"tolerance", &TexelRaysSettings::tolerance, 0.01, 1000, "deviations",
+                                       "by which the light of taps may differ"}};
+    }
+
+    bool operator==(const TexelRaysSettings&) const = default;
+};
+
+// Lives on the CPU from frame to frame.
+struct TexelRaysHistory {
+    Settling settling;
+    RenderCamera camera;
+    uint64_t originVersion = 0;
+};
+
+// What the rays go to, and what they meet on the way.
+struct TexelRaysInputs {
+    const RsmSet& rsm;
+    const Clusters& clusters;
+    const Occluders& occluders;
+    const Versions& versions;
+};
+
+// `areaLights`: what they send by `tiles`; the same corrected.
+Irradiance addTexelRays(const ValTiles& tiles, const Irradiance& areaLights, const TexelRaysInputs& in,
+                        const ValShadingSettings& shading, const TexelRaysSettings& settings,
+                        TexelRaysHistory& history);
+
+}  // namespace ag::gi

@@ -1,0 +1,45 @@
+// Occluders as bounding volume hierarchies: one of all that is static, one a mesh that moves, and one over
+// the movable instances' boxes. Each lies in a grid of its own; its triangles are stored in the grid's
+// coordinates too, so that a ray is brought into it once.
+#ifndef AG_BVH_IO_H
+#define AG_BVH_IO_H
+
+#include "common/portable.h"
+
+#ifdef __cplusplus
+namespace ag::io {
+#endif
+
+const float kBvhGrid = 65535.0f;  // a node's box in sixteen-bit steps
+const uint kBvhLeafBit = 0x80000000u;
+const uint kBvhCountShift = 27u,
+           kBvhMostLeafItems = 15u;  // of a leaf: how many items; below it the first one
+const uint kBvhMostItems = 1u << 27;
+
+// A node, uvec4: least x y, least z most x, most y z (16 bits each), then of an inner node the node after its
+// subtree.
+
+struct BvhTriangle {  // 3 vec4
+    vec3 corner;
+    float opacity;  // share of it that an alpha mask leaves
+    vec3 edge1;
+    float spare1;
+    vec3 edge2;
+    float spare2;
+};
+
+// Where rays meet a tree. Whole numbers as floats: exact up to 2^24.
+struct BvhPlace {                                         // 4 vec4
+    vec4 gridFromWorld0, gridFromWorld1, gridFromWorld2;  // rows
+    float firstNode, endNode;
+    vec2 spare;
+};
+
+// Rows of places: of static surfaces, of the tree over movable instances (its items are rows, counted from
+// the third on), then those of these.
+const uint kBvhStatic = 0u, kBvhMovers = 1u, kBvhFirstMover = 2u;
+
+#ifdef __cplusplus
+}  // namespace ag::io
+#endif
+#endif

@@ -1,0 +1,180 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Light that reaches a pixel, by two rays: one to a texel of one area light, drawn by what these are likely to send; one
+// into the hemisphere, not far, for light so near that no draw of a texel is even. Each counts by how likely either was to
+// find that light (balance heuristic, Veach & Guibas 1995). Texels by resampling (Talbot et al. 2005).
+#include "common/form_factors.h"
+#include "common/sampling.h"
+#include "common/texels.glsl"
+#include "gbuffer/gbuffer.glsl"
+#include "rsm/rsm_io.h"
+#include "bvh/bvh_io.h"
+#include "texel_rays/texel_rays_io.h"
+#include "val_clustering/val_clustering_io.h"
+#include "val_shading/light_lists.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { CastPush p; } push;
+
+layout(set = 0, binding = 0) uniform sampler2D normalMap;
+layout(set = 0, binding = 1) uniform sampler2D depthMap;
+layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
+layout(set = 0, binding = 3) VEC4_TEXELS(texels);
+layout(set = 0, binding = 4, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]; } faces;
+layout(set = 0, binding = 5, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
+layout(set = 0, binding = 6) UINT_TEXELS(lists);
+layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } counts;
+layout(set = 0, binding = 8) FLOAT_TEXELS(upTo);
+layout(set = 0, binding = 9) FLOAT_TEXELS(likely);
+layout(set = 0, binding = 10) UINT_TEXELS(memberRanges);
+layout(set = 0, binding = 11) UINT_TEXELS(members);
+layout(set = 0, binding = 12) UINT_TEXELS(slotOfTexel);
+layout(set = 0, binding = 13) UINT_TEXELS(candidates);
+layout(set = 0, binding = 14) UVEC4_TEXELS(treeNodes);
+layout(set = 0, binding = 15, scalar) readonly buffer TreeTriangles { vec4 items[]; } treeTriangles;
+layout(set = 0, binding = 16) VEC4_TEXELS(treePlaces);
+layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
+layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
+layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;  // W/m²; a: 1 + the entry of the light drawn, 0: none, kNoRays
+layout(set = 0, binding = 20, scalar) readonly buffer Youngest { float items[]; } youngest;  // of a block's means, frames
+
+#include "bvh/trace.glsl"
+#include "texel_rays/rsm_lookup.glsl"
+
+const uint kDraws = 8;        // texels that one is resampled from
+const float kResampled = 4.0; // by how much that makes a texel with much to send likelier than drawing one at random
+
+const float kYoung = 16.0;    // frames a mean stands for: below it a block casts rays in each frame,
+const uint kSeldom = 4;       // from then on in every so many
+
+struct Receiver {
+    vec3 position, normal;
+    uint tile, block;  // of the screen
+};
+
+// Of a texel, by drawing its light and then one of its members: per steradian at the receiver.
+float densityOfDraw(float ofLight, uint memberCount, RsmSurface s, vec3 toTexel) {
+    float d2 = max(dot(toTexel, toTexel), 1e-12), cosine = max(-dot(s.normal, toTexel) * inversesqrt(d2), 1e-4);
+    return ofLight * kResampled / float(max(memberCount, 1)) * d2 / (cosine * s.area);
+}
+
+float densityOfHemisphere(vec3 normal, vec3 toPlace) {
+    float d2 = max(dot(toPlace, toPlace), 1e-12), reach = push.p.reach;
+    return d2 < reach * reach ? max(dot(normal, toPlace) * inversesqrt(d2), 0.0) * kInvPi : 0.0;
+}
+
+struct Drawn {
+    uint entry, light;
+    float likely;  // 0: there is no light
+};
+
+Drawn drawLight(uint tile, uint block, float xi) {
+    uint valCount = push.p.tiles.valCount, first = block * valCount;
+    uvec2 count = counts.items[tile];
+    uint low = 0, high = max(count.x + count.y, 1) - 1;
+    while (low < high) {
+        uint middle = (low + high) / 2;
+        bool after = xi >= fetchTexel(upTo, int(first + middle)).x;
+        low = after ? middle + 1 : low;
+        high = after ? high : middle;
+    }
+    uint at = low < count.x ? listStart(tile, kNearList, valCount) + low : listStart(tile, kFarList, valCount) + low - count.x;
+    uint light = fetchTexel(lists, int(at)).x;
+    bool any = count.x + count.y > 0;
+    return Drawn(low, light, any ? fetchTexel(likely, int(first + light)).x : 0.0);
+}
+
+// Mean of the channels of what a texel sends to the receiver if nothing stands between, times its weight against the
+// hemisphere's ray.
+float wantOf(Receiver r, RsmSurface s, float ofLight, uint memberCount) {
+    float factor = diskVectorFactor(r.position, r.normal, s.position, s.normal, s.area * kInvPi);
+    vec3 toTexel = s.position - r.position;
+    float draw = densityOfDraw(ofLight, memberCount, s, toTexel), other = densityOfHemisphere(r.normal, toTexel);
+    return factor * s.weight / s.area * (draw / (draw + other));
+}
+
+vec3 sentByDrawn(Receiver r, Drawn d, inout uint random, out vec3 toTexel) {
+    uint first = fetchTexel(memberRanges, int(d.light * 2)).x, count = fetchTexel(memberRanges, int(d.light * 2 + 1)).x;
+    uint chosen = 0;
+    float sum = 0.0, step = float(count) / float(kDraws);
+    toTexel = vec3(0.0);
+    if (d.likely <= 0.0 || count == 0) return vec3(0.0);
+    for (uint i = 0; i < kDraws; ++i) {
+        random = hashUint(random);
+        uint place = min(uint((float(i) + float(random >> 8) / 16777216.0) * step), count - 1);
+        uint texel = fetchTexel(members, int(first + place)).x;
+        float want = wantOf(r, AG_RSM_FETCH(texels, texel), d.likely, count);
+        sum += want;
+        random = hashUint(random);
+        if (want > 0.0 && float(random >> 8) / 16777216.0 * sum < want) chosen = texel;
+    }
+    if (sum <= 0.0) return vec3(0.0);
+    RsmSurface s = AG_RSM_FETCH(texels, chosen);
+    toTexel = s.position + s.normal * push.p.offset - r.position;
+    return s.flux / s.weight * (sum * step / d.likely);
+}
+
+bool isSeen(Receiver r, vec3 toTexel, float opaqueFrom) {
+    vec3 start = r.normal * push.p.offset;
+    BvhRay ray = BvhRay(r.position + start, toTexel - start, 1.0, opaqueFrom, true);
+    return !traceOccluders(ray);
+}
+
+vec3 cosineDirection(vec3 n, vec2 xi) {
+    vec3 t, b;
+    orthonormalBasis(n, t, b);
+    float radius = sqrt(xi.x), angle = 2.0 * kPi * xi.y;
+    return t * (radius * cos(angle)) + b * (radius * sin(angle)) + n * sqrt(max(1.0 - xi.x, 0.0));
+}
+
+vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
+    vec3 direction = cosineDirection(r.normal, xi);
+    BvhRay ray = BvhRay(r.position + r.normal * push.p.offset, direction, push.p.reach, opaqueFrom, false);
+    if (!traceOccluders(ray)) return vec3(0.0);
+    vec3 place = ray.origin + direction * ray.reach, e = vec3(0.0);
+    for (uint map = 0; map < push.p.mapCount; ++map) {
+        uint texel = texelAt(map, push.p.atlasWidth, place);
+        uint slot = texel == kNoTexel ? kNoCluster : fetchTexel(slotOfTexel, int(texel)).x;
+        if (slot == kNoCluster) continue;
+        RsmSurface s = AG_RSM_FETCH(texels, texel);
+        uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
+        uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
+        float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
+        vec3 toPlace = place - r.position;
+        float draw = densityOfDraw(ofLight, memberCount, s, toPlace), own = densityOfHemisphere(r.normal, toPlace);
+        if (dot(s.normal, direction) < 0.0) e += s.flux / s.area * (own / max(draw + own, 1e-20));
+    }
+    return e;
+}
+
+// Alike for eight neighbours, so that their rays stay together.
+vec2 noiseAt(uvec2 pixel, uint aside) {
+    return unpackUnorm2x16(fetchTexel(noise, int((pixel.y / 2 & 63u) * 64u + (pixel.x / 4 + aside & 63u))).x);
+}
+
+// A block a workgroup.
+void main() {
+    uvec2 size = camera.camera.size, blocks = (size + kDrawBlock - 1) / kDrawBlock;
+    uint block = gl_WorkGroupID.x, inBlock = gl_LocalInvocationID.x;
+    uvec2 cell = uvec2(block % blocks.x, block / blocks.x) * kDrawBlock + uvec2(inBlock & 3u | inBlock >> 1 & 4u, inBlock >> 2 & 1u | inBlock >> 3 & 6u);
+    ivec2 pixel = ivec2(min(cell, size - 1u));
+    bool there = all(equal(uvec2(pixel), cell));
+    if (push.p.known == 1 && youngest.items[block] >= kYoung && (block * 5u + push.p.step) % kSeldom != 0) {
+        if (there) imageStore(sent, pixel, vec4(0.0, 0.0, 0.0, kNoRays));
+        return;
+    }
+    uvec2 tile = uvec2(pixel) / push.p.tiles.tileSize;
+    float depth = texelFetch(depthMap, pixel, 0).x;
+    Receiver r = Receiver(worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0).xyz,
+                          tile.y * push.p.tiles.tiles.x + tile.x, block);
+    uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.step) * 31u);
+    vec3 xi = fract(vec3(noiseAt(cell, 0u), noiseAt(cell, 32u).x) + push.p.shift);
+    Drawn d = drawLight(r.tile, r.block, xi.z);
+    d.likely = depth > 0.0 ? d.likely : 0.0;
+    vec3 toTexel, e = sentByDrawn(r, d, random, toTexel);
+    float opaqueFrom = float(random >> 8) / 16777216.0;
+    if (e.x + e.y + e.z > 0.0 && !isSeen(r, toTexel, opaqueFrom)) e = vec3(0.0);
+    if (depth > 0.0) e += sentByNear(r, xi.xy, opaqueFrom);
+    if (there) imageStore(sent, pixel, vec4(e, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
+}
