@@ -28,12 +28,9 @@ void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlas
     f.isms = addIsmAtlas(scope, f.surfacePoints, f.vals, s);
 }
 
-void addToPixels(GraphScope scope, const BounceLightInputs& in, Surfaces downsampled,
+void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& downsampled,
                  const BounceLightSettings& s, BounceLightHistory& h, BounceLight& f) {
     const bool goesOn = f.irradiance.image != f.bounce1.image;
-    if (f.irradiance.image)
-        downsampled.motion =
-            addDownsampledImage(scope, "gbuffer.downsample_motion", in.surfaces.motion, downsampled.spacing);
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, in.world.versions.instances);
     f.irradiance = addDenoiser(scope, downsampled, in.world.versions.origin, {f.irradiance, light, steps},

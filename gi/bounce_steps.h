@@ -14,7 +14,7 @@ void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLi
 // Points on surfaces, and what each light of `f.vals` sees of them.
 void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlasSettings& s, BounceLight& f);
 // The irradiance gathered at `downsampled` made steady and smooth, and brought to all pixels.
-void addToPixels(GraphScope scope, const BounceLightInputs& in, Surfaces downsampled,
+void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& downsampled,
                  const BounceLightSettings& s, BounceLightHistory& h, BounceLight& f);
 
 }  // namespace ag::gi

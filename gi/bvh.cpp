@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
 
 namespace ag::gi {
 namespace {
@@ -119,24 +119,12 @@ class Builder {
 Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems) {
     Bvh bvh;
     for (uint32_t i = 0; i < items.size(); ++i)
-        if (!items[i].empty()) bvh.order.push_back(i);
+        if (!items[i].empty() && std::isfinite(glm::dot(items[i].min, items[i].min) + halfArea(items[i])))
+            bvh.order.push_back(i);
     if (bvh.order.empty()) return bvh;
     bvh.nodes.reserve(2 * bvh.order.size());
     Builder(items, leafItems, bvh).build(0, uint32_t(bvh.order.size()));
     return bvh;
-}
-
-void refit(Bvh& bvh, std::span<const Bounds> items) {
-    for (size_t n = bvh.nodes.size(); n-- > 0;) {
-        BvhNode& node = bvh.nodes[n];
-        node.bounds = {};
-        for (uint32_t i = 0; i < node.count; ++i)
-            node.bounds.add(items[bvh.order[node.first + i]]);
-        if (node.count > 0) continue;
-        const BvhNode& left = bvh.nodes[n + 1];
-        node.bounds.add(left.bounds);
-        node.bounds.add(bvh.nodes[left.next].bounds);
-    }
 }
 
 }  // namespace ag::gi

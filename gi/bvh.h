@@ -13,8 +13,8 @@ namespace ag::gi {
 struct BvhNode {
     Bounds bounds;
     uint32_t next = 0;  // node that follows this one's subtree
-    uint32_t first = 0,
-             count = 0;  // leaf: of Bvh::order; count 0: inner, its first child is the next in the array
+    // Of a leaf, in Bvh::order. Count 0: an inner node, whose first child is the next in the array.
+    uint32_t first = 0, count = 0;
 };
 
 struct Bvh {
@@ -22,11 +22,8 @@ struct Bvh {
     std::vector<uint32_t> order;  // items, leaf by leaf
 };
 
-// By the surface area heuristic over 16 bins along each axis (Wald 2007). Leaves hold
-// at most `leafItems`. The same items give the same tree. Empty boxes are left out.
+// By the surface area heuristic over 16 bins along each axis (Wald 2007). Leaves hold at most `leafItems`.
+// The same items give the same tree. Boxes that are empty or not finite are left out.
 Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems);
-
-// Boxes of other items in the same order: those of leaves, and of all above them. Keeps the tree's shape.
-void refit(Bvh& bvh, std::span<const Bounds> items);
 
 }  // namespace ag::gi

@@ -62,14 +62,7 @@ Irradiance addDenoiser(GraphScope scope, const Surfaces& gbuffer, uint64_t origi
     Images images{.light = scope.historyImage(kLight, info),
                   .surface = scope.historyImage("denoiser.surface", info),
                   .tiles = scope.historyImage("denoiser.tiles", tileInfo)};
-    const io::PixelRays rays = pixelRays(camera, size);
-    const io::DenoiserCameras cameras{.previousClipFromWorld = before.clipFromWorld,
-                                      .now = rays,
-                                      .before = pixelRays(before, size),
-                                      .pixelSize = glm::length(rays.down)};
-    images.cameras = scope.buffer("denoiser.cameras", {.sizeBytes = sizeof cameras});
-    scope.upload("denoiser.cameras", images.cameras, std::as_bytes(std::span(&cameras, 1)));
-
+    images.cameras = addReprojectionCameras(scope, "denoiser.cameras", camera, before, size);
     const ImageHandle reprojected = scope.image("denoiser.reprojected", info);
     scope.compute("denoiser.reproject", "denoiser/reproject.comp")
         .sample("normalMap", gbuffer.normal)

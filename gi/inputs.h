@@ -45,8 +45,8 @@ struct RsmLight {
 
 // Occluders as trees for rays (shaders/bvh/bvh_io.h); see OccluderTrees.
 struct TracedOccluders {
-    BufferHandle nodes, triangles;    // texel buffers of uvec4 and vec4
-    BufferHandle places, moverNodes;  // the same, of this frame
+    BufferHandle nodes, triangles;    // texel buffer of uvec4; io::BvhTriangle
+    BufferHandle places, moverNodes;  // texel buffers of uvec4: io::BvhPlace, nodes; of this frame
     explicit operator bool() const { return bool(nodes); }
 };
 

@@ -147,8 +147,8 @@ MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance
     result.places.resize(io::kBvhFirstMover);
     const auto fill = [](io::BvhPlace& place, const TreeRange& range, const glm::mat4x3& localFromWorld) {
         Grid(range.bounds).place(localFromWorld, place);
-        place.firstNode = float(range.firstNode);
-        place.endNode = float(range.endNode);
+        place.firstNode = range.firstNode;
+        place.endNode = range.endNode;
     };
     if (!trees.everythingStatic.empty())
         fill(result.places[io::kBvhStatic], trees.everythingStatic, glm::mat4x3(1));

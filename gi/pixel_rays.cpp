@@ -17,4 +17,16 @@ io::PixelRays pixelRays(const RenderCamera& camera, glm::uvec2 size) {
             .down = (rayAt({0, last.y}) - corner) / float(last.y)};
 }
 
+BufferHandle addReprojectionCameras(GraphScope scope, std::string_view name, const RenderCamera& now,
+                                    const RenderCamera& before, glm::uvec2 size) {
+    const io::PixelRays rays = pixelRays(now, size);
+    const io::ReprojectionCameras cameras{.previousClipFromWorld = before.clipFromWorld,
+                                          .now = rays,
+                                          .before = pixelRays(before, size),
+                                          .pixelSize = glm::length(rays.down)};
+    const BufferHandle buffer = scope.buffer(name, {.sizeBytes = sizeof cameras});
+    scope.upload(name, buffer, std::as_bytes(std::span(&cameras, 1)));
+    return buffer;
+}
+
 }  // namespace ag::gi

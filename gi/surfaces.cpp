@@ -43,6 +43,7 @@ Surfaces addDownsampled(GraphScope scope, const Surfaces& all, uint32_t spacing,
     Surfaces g{
         .depth = scope.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
         .normal = addDownsampledImage(scope, names.normal, all.normal, spacing),
+        .motion = addDownsampledImage(scope, names.motion, all.motion, spacing),
         .size = size,
         .normalMapped = all.normalMapped,
         .spacing = all.spacing * spacing,

@@ -57,17 +57,18 @@ struct Choice {
     uint32_t blocks;
 };
 
-Choice addChoice(const ValTiles& t, uint32_t step) {
-    const glm::uvec2 blocks = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
-    const BufferInfo info{.sizeBytes = uint64_t(blocks.x) * blocks.y * t.push.valCount * 4,
+Choice addChoice(const ValTiles& t, uint32_t blocks, const HistoryBuffer& youngest, uint32_t step) {
+    const BufferInfo info{.sizeBytes = uint64_t(blocks) * t.push.valCount * 4,
                           .texelFormat = VK_FORMAT_R32_SFLOAT};
     const Choice choice{t.scope.buffer("texel_rays.up_to", info), t.scope.buffer("texel_rays.likely", info),
-                        blocks.x * blocks.y};
+                        blocks};
     t.scope.fill("texel_rays.none_likely", choice.likely, 0);
     gatherPass(t, "texel_rays.choose", "texel_rays/choose_lights.comp", ValShape::kVectorDisk, 1)
         .readWrite("likely", choice.likely)
         .readWrite("upTo", choice.upTo)
-        .push(io::ChoosePush{t.push, step})
+        .readPrevious("youngest", youngest)
+        .push(io::ChoosePush{t.push, step, youngest.valid})
+        .step(step)
         .dispatchGroups(choice.blocks);
     return choice;
 }
@@ -145,18 +146,6 @@ struct Means {
     BufferHandle cameras;
 };
 
-BufferHandle addCameras(const ValTiles& t, const RenderCamera& before) {
-    const RenderCamera& now = t.gbuffer.view;
-    const io::PixelRays rays = pixelRays(now, t.gbuffer.size);
-    const io::RayCameras cameras{.previousClipFromWorld = before.clipFromWorld,
-                                 .now = rays,
-                                 .before = pixelRays(before, t.gbuffer.size),
-                                 .pixelSize = glm::length(rays.down)};
-    const BufferHandle buffer = t.scope.buffer("texel_rays.cameras", {.sizeBytes = sizeof cameras});
-    t.scope.upload("texel_rays.cameras", buffer, std::as_bytes(std::span(&cameras, 1)));
-    return buffer;
-}
-
 struct Measured {
     ImageHandle areaLights, sent, control;
     BufferHandle youngest;
@@ -176,7 +165,8 @@ Means addMeans(const ValTiles& t, const Measured& of, uint64_t originVersion, co
         .moments = t.scope.historyImage("texel_rays.moments", info),
         .surface = t.scope.historyImage("texel_rays.surface",
                                         {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = t.gbuffer.size}),
-        .cameras = addCameras(t, before)};
+        .cameras =
+            addReprojectionCameras(t.scope, "texel_rays.cameras", t.gbuffer.view, before, t.gbuffer.size)};
     t.scope.compute("texel_rays.accumulate", "texel_rays/accumulate.comp")
         .sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
@@ -248,9 +238,11 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const uint64_t seen =
         combineHash(in.rsm.inputsVersion, combineHash(in.versions.camera, in.versions.instances));
     const uint32_t step = history.settling.advance(seen, s.settleFrames);
-    const Choice choice = addChoice(t, step);
+    const glm::uvec2 along = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
+    const uint32_t blocks = along.x * along.y;
     const HistoryBuffer youngest =
-        t.scope.historyBuffer("texel_rays.youngest", {.sizeBytes = choice.blocks * sizeof(float)});
+        t.scope.historyBuffer("texel_rays.youngest", {.sizeBytes = blocks * sizeof(float)});
+    const Choice choice = addChoice(t, blocks, youngest, step);
     const ImageHandle sent = addRays(t, choice, in, {s.reach, step, youngest});
     const ImageHandle control = addControl(t, choice, sent, shading);
     const Means means = addMeans(t, {areaLights.image, sent, control, youngest.current, step},

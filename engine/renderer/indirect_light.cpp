@@ -82,11 +82,8 @@ gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::Bo
 }  // namespace
 
 bool needsMotion(const RenderSettings& s) {
-    return s.technique != Technique::kNone && s.bounce.denoiser.enabled && s.bounce.denoiser.motion;
-}
-
-bool tracesRays(const RenderSettings& s) {
-    return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
+    if (s.technique == Technique::kNone) return false;
+    return tracesRays(s) || (s.bounce.denoiser.enabled && s.bounce.denoiser.motion);
 }
 
 gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,

@@ -7,8 +7,6 @@ namespace ag::render {
 
 // Whether histories of indirect light follow what moves.
 bool needsMotion(const RenderSettings& settings);
-// Whether occluders are asked for as trees.
-bool tracesRays(const RenderSettings& settings);
 
 gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces,
                                  const RenderSettings& settings, RenderHistory& history);

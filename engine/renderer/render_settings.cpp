@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/core/settings.h"
+#include "engine/gpu/device_limits.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
 
 namespace ag::render {
@@ -193,12 +194,20 @@ bool applyPreset(std::string_view name, RenderSettings& s) {
     return true;
 }
 
+bool tracesRays(const RenderSettings& s) {
+    return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
+}
+
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s) {
     constexpr uint32_t kAtlasColumns = 4;  // of views of kMaxShadowViews
     static_assert(kAtlasColumns * kAtlasColumns == io::kMaxShadowViews);
     const uint32_t side = limits.maxImageDimension2D;
     s.shadowMaps.resolution = std::min(s.shadowMaps.resolution, side / kAtlasColumns);
     s.punctualShadows.atlasSize = std::min(s.punctualShadows.atlasSize, side);
+    const uint32_t buffers = limits.maxPerStageDescriptorStorageBuffers;
+    if (tracesRays(s) && !gpu::hasLargeTexelBuffers(limits) && buffers < gpu::kStorageBuffersOfRays)
+        gpu::failBeyondLimit("texel_rays.enabled", "maxPerStageDescriptorStorageBuffers",
+                             gpu::kStorageBuffersOfRays, buffers);
 }
 
 void registerSettings(Settings& settings, RenderSettings& s) {

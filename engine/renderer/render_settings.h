@@ -57,7 +57,11 @@ struct RenderSettings {
 bool applyPreset(std::string_view name, RenderSettings& s);
 std::span<const std::string_view> presetNames();
 
-// Smaller shadow maps where the device has no images of the size that was asked for.
+// Whether occluders are asked for as trees.
+bool tracesRays(const RenderSettings& settings);
+
+// Smaller shadow maps where the device has no images of the size that was asked for. Fails (failure.h) where
+// it has not what a setting needs.
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s);
 
 // Registers every group's settings. `s` must outlive `settings`.

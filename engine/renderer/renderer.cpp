@@ -7,7 +7,6 @@
 
 #include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
-#include "engine/renderer/indirect_light.h"
 
 namespace ag::render {
 namespace {

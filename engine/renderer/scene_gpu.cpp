@@ -110,6 +110,7 @@ void SceneGpu::load(const GeometryArrays& geometry) {
 void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
     loadMaterials(geometry, units);
     instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
+    trees_.forget();
 }
 
 void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) {

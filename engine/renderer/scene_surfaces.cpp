@@ -82,28 +82,25 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
     return instances;
 }
 
+auto withSampledScene(const RenderScene& scene, auto&& use) {
+    const GeometryArrays& g = *scene.geometry;
+    const DeformedVertices deformed = deformSkinnedMeshes(scene);
+    const std::vector<gi::SampledMesh> meshes = meshesOf(g);
+    const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
+    const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
+        return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
+    };
+    return use(gi::SampledScene{meshes, instances, scene.bounds, cutOut});
+}
+
 }  // namespace
 
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
-    const GeometryArrays& g = *scene.geometry;
-    const DeformedVertices deformed = deformSkinnedMeshes(scene);
-    const std::vector<gi::SampledMesh> meshes = meshesOf(g);
-    const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
-    const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
-        return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
-    };
-    return sampleSurfaces(gi::SampledScene{meshes, instances, scene.bounds, cutOut}, count);
+    return withSampledScene(scene, [&](const gi::SampledScene& s) { return gi::sampleSurfaces(s, count); });
 }
 
 gi::OccluderTrees buildTrees(const RenderScene& scene) {
-    const GeometryArrays& g = *scene.geometry;
-    const DeformedVertices deformed = deformSkinnedMeshes(scene);
-    const std::vector<gi::SampledMesh> meshes = meshesOf(g);
-    const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
-    const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
-        return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
-    };
-    return gi::buildOccluderTrees({meshes, instances, scene.bounds, cutOut});
+    return withSampledScene(scene, [](const gi::SampledScene& s) { return gi::buildOccluderTrees(s); });
 }
 
 gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees) {

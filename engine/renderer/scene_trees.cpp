@@ -9,7 +9,7 @@
 namespace ag::render {
 namespace {
 
-constexpr VkFormat kNodes = VK_FORMAT_R32G32B32A32_UINT, kVec4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kWords = VK_FORMAT_R32G32B32A32_UINT;
 
 // What trees are built of: where static things stand, and the meshes of those that move.
 uint64_t builtFrom(const RenderScene& scene) {
@@ -23,14 +23,14 @@ uint64_t builtFrom(const RenderScene& scene) {
 
 template <class T>
 std::unique_ptr<gpu::Buffer> roomFor(gpu::Device& device, std::unique_ptr<gpu::Buffer> old, const char* name,
-                                     const std::vector<T>& items, VkFormat format) {
+                                     const std::vector<T>& items) {
     const uint64_t bytes = std::max<uint64_t>(items.size(), 1) * sizeof(T);
     if (old && old->sizeBytes() >= bytes) return old;
     gpu::retire(device, std::move(old));
     return std::make_unique<gpu::Buffer>(
         device,
         gpu::BufferDesc{
-            .name = name, .sizeBytes = bytes + bytes / 2 / sizeof(T) * sizeof(T), .texelFormat = format});
+            .name = name, .sizeBytes = bytes + bytes / 2 / sizeof(T) * sizeof(T), .texelFormat = kWords});
 }
 
 }  // namespace
@@ -39,34 +39,33 @@ void SceneTrees::build(const RenderScene& scene) {
     trees_ = buildTrees(scene);
     gpu::retire(device_, std::move(nodes_));
     gpu::retire(device_, std::move(triangles_));
-    nodes_ = gpu::loadBuffer(device_, {.name = "scene.tree_nodes", .texelFormat = kNodes}, trees_.nodes);
-    triangles_ =
-        gpu::loadBuffer(device_, {.name = "scene.tree_triangles", .texelFormat = kVec4}, trees_.triangles);
+    nodes_ = gpu::loadBuffer(device_, {.name = "scene.tree_nodes", .texelFormat = kWords}, trees_.nodes);
+    triangles_ = gpu::loadBuffer(device_, {.name = "scene.tree_triangles"}, trees_.triangles);
     trees_.nodes = {};  // the device has them
     trees_.triangles = {};
-    placedOf_ = 0;
+    ++builds_;
 }
 
 void SceneTrees::place(const RenderScene& scene) {
     movers_ = placeTrees(scene, trees_);
-    places_ = roomFor(device_, std::move(places_), "scene.tree_places", movers_.places, kVec4);
-    moverNodes_ = roomFor(device_, std::move(moverNodes_), "scene.mover_nodes", movers_.nodes, kNodes);
+    places_ = roomFor(device_, std::move(places_), "scene.tree_places", movers_.places);
+    moverNodes_ = roomFor(device_, std::move(moverNodes_), "scene.mover_nodes", movers_.nodes);
     uploaded_ = false;
+    ++placings_;
 }
 
 gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene) {
-    if (checkedOf_ != scene.instancesVersion) {
-        checkedOf_ = scene.instancesVersion;
+    if (placedOf_ != scene.instancesVersion) {
         const uint64_t from = builtFrom(scene);
         if (builtOf_ != from) build(scene);
         builtOf_ = from;
+        place(scene);
+        placedOf_ = scene.instancesVersion;
     }
-    if (placedOf_ != scene.instancesVersion) place(scene);
-    placedOf_ = scene.instancesVersion;
-    return {.nodes = scope.importBuffer("scene.tree_nodes", *nodes_, builtOf_ | 1),
-            .triangles = scope.importBuffer("scene.tree_triangles", *triangles_, builtOf_ | 1),
-            .places = scope.importBuffer("scene.tree_places", *places_, placedOf_ | 1),
-            .moverNodes = scope.importBuffer("scene.mover_nodes", *moverNodes_, placedOf_ | 1)};
+    return {.nodes = scope.importBuffer("scene.tree_nodes", *nodes_, builds_),
+            .triangles = scope.importBuffer("scene.tree_triangles", *triangles_, builds_),
+            .places = scope.importBuffer("scene.tree_places", *places_, placings_),
+            .moverNodes = scope.importBuffer("scene.mover_nodes", *moverNodes_, placings_)};
 }
 
 void SceneTrees::upload(Stage stage) {

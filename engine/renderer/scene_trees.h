@@ -21,6 +21,8 @@ class SceneTrees {
     gi::TracedOccluders import(GraphScope scope, const RenderScene& scene);
     using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
     void upload(Stage stage);
+    // Another scene or other units follow.
+    void forget() { builtOf_ = placedOf_ = 0; }
     uint64_t deviceBytes() const;
 
   private:
@@ -28,8 +30,9 @@ class SceneTrees {
     void place(const RenderScene& scene);
 
     gpu::Device& device_;
-    uint64_t builtOf_ = 0, placedOf_ = 0,
-             checkedOf_ = 0;  // versions: of the static surfaces, of all instances
+    uint64_t builtOf_ = 0;                // a hash of static surfaces and movable meshes; 0: of nothing
+    uint64_t placedOf_ = 0;               // RenderScene::instancesVersion
+    uint64_t builds_ = 0, placings_ = 0;  // versions of the buffers
     gi::OccluderTrees trees_;
     gi::MoverTree movers_;
     bool uploaded_ = true;

@@ -28,11 +28,11 @@ struct BvhTriangle {  // 3 vec4
     float spare2;
 };
 
-// Where rays meet a tree. Whole numbers as floats: exact up to 2^24.
-struct BvhPlace {                                         // 4 vec4
+// Where rays meet a tree. Read as whole words.
+struct BvhPlace {                                         // 4 uvec4
     vec4 gridFromWorld0, gridFromWorld1, gridFromWorld2;  // rows
-    float firstNode, endNode;
-    vec2 spare;
+    uint firstNode, endNode;
+    uvec2 spare;
 };
 
 // Rows of places: of static surfaces, of the tree over movable instances (its items are rows, counted from

@@ -1,6 +1,6 @@
 // Rays through the occluders' trees, without a stack and without ray-tracing hardware: nodes are met in depth-first
-// order, a missed box leads to the node after its subtree. Before: UVEC4_TEXELS treeNodes and moverNodes, VEC4_TEXELS
-// treeTriangles and treePlaces (common/texels.glsl).
+// order, a missed box leads to the node after its subtree. Before: UVEC4_TEXELS treeNodes, moverNodes and treePlaces
+// (common/texels.glsl); treeTriangles, a buffer of vec4 (BvhTriangle).
 #ifndef AG_BVH_TRACE_GLSL
 #define AG_BVH_TRACE_GLSL
 
@@ -20,8 +20,9 @@ struct BvhGridRay {
 };
 
 BvhGridRay rayInTree(BvhRay ray, uint place) {
-    vec4 x = fetchTexel(treePlaces, int(place) * 4), y = fetchTexel(treePlaces, int(place) * 4 + 1);
-    vec4 z = fetchTexel(treePlaces, int(place) * 4 + 2), range = fetchTexel(treePlaces, int(place) * 4 + 3);
+    vec4 x = uintBitsToFloat(fetchTexel(treePlaces, int(place) * 4)), y = uintBitsToFloat(fetchTexel(treePlaces, int(place) * 4 + 1));
+    vec4 z = uintBitsToFloat(fetchTexel(treePlaces, int(place) * 4 + 2));
+    uvec4 range = fetchTexel(treePlaces, int(place) * 4 + 3);
     vec4 o = vec4(ray.origin, 1.0);
     vec3 d = vec3(dot(x.xyz, ray.direction), dot(y.xyz, ray.direction), dot(z.xyz, ray.direction));
     d = mix(d, vec3(1e-12), lessThan(abs(d), vec3(1e-12)));

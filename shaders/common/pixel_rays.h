@@ -1,4 +1,4 @@
-// Surfaces on screen from their depth along the camera's axis, and how alike two of them are.
+// Surfaces on screen from their depth along the camera's axis, and how alike two of them and their light are.
 #ifndef AG_PIXEL_RAYS_H
 #define AG_PIXEL_RAYS_H
 
@@ -14,9 +14,19 @@ struct PixelRays {  // a pixel's surface lies at eye + depth x (corner + x right
     vec3 down;
 };
 
+struct ReprojectionCameras {  // of this frame and the one before
+    mat4 previousClipFromWorld;
+    PixelRays now, before;
+    float pixelSize;  // m at 1 m depth
+};
+
 // Relative to the eye, m.
 AG_FUNCTION vec3 placeOf(PixelRays rays, vec2 pixel, float depth) {
     return depth * (rays.corner + pixel.x * rays.right + pixel.y * rays.down);
+}
+
+AG_FUNCTION float luminance(vec3 linear) {  // Rec. 709
+    return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
 // 1 on one plane and facing one way, else less. `apart`: m between two surface points; `footprint`: m a pixel

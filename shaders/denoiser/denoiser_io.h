@@ -1,4 +1,4 @@
-// The denoiser's view of cameras and its settings.
+// The denoiser's settings.
 #ifndef AG_DENOISER_IO_H
 #define AG_DENOISER_IO_H
 
@@ -9,12 +9,6 @@ namespace ag::io {
 #endif
 
 const uint kDenoiserTile = 8;  // pixels along the side of a tile of statistics
-
-struct DenoiserCameras {
-    mat4 previousClipFromWorld;
-    PixelRays now, before;
-    float pixelSize;  // m at 1 m depth
-};
 
 struct ReprojectPush {
     float near;  // m

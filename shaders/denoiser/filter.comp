@@ -13,7 +13,7 @@ layout(constant_id = 0) const bool kSquare = false;
 layout(set = 0, binding = 0) uniform sampler2D light;
 layout(set = 0, binding = 1) uniform sampler2D surface;
 layout(set = 0, binding = 2) uniform sampler2D tiles;
-layout(set = 0, binding = 3, scalar) uniform Cameras { DenoiserCameras c; } cameras;
+layout(set = 0, binding = 3, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D result;
 
 const float kSpline[3] = float[](0.375, 0.25, 0.0625);

@@ -12,7 +12,7 @@ layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2) uniform sampler2D previousLight;
 layout(set = 0, binding = 3) uniform sampler2D previousSurface;
-layout(set = 0, binding = 4, scalar) uniform Cameras { DenoiserCameras c; } cameras;
+layout(set = 0, binding = 4, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D surface;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D history;  // a: frames it stands for, 0: none
 layout(set = 0, binding = 7) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
@@ -22,7 +22,7 @@ layout(push_constant, scalar) uniform Push { ReprojectPush p; } push;
 
 void main() {
     ivec2 size = imageSize(surface), pixel = min(ivec2(gl_GlobalInvocationID.xy), size - 1);
-    DenoiserCameras c = cameras.c;
+    ReprojectionCameras c = cameras.c;
     float reversed = texelFetch(depthMap, pixel, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
     vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
     vec3 place = placeOf(c.now, vec2(pixel), depth) + c.now.eye;

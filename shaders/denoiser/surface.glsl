@@ -14,8 +14,6 @@ vec3 roundedByChance(vec3 v, ivec2 pixel, uint seed) {
     return uintBitsToFloat(bits & 0xffffe000u);
 }
 
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
-
 // Of a new sample, what does not stand out of three deviations of noise above its pixel's history.
 float keptShare(float sampleLuminance, vec4 history, float noise) {
     float known = history.a > 0.0 ? luminance(history.rgb) : 0.0, most = known + 3.0 * noise;

@@ -2,10 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-// This frame's rays and their control into the means that the frames before left on the same surface. Moments are about the
-// area lights' sum at the pixel, which is what the control is in the mean: so two frames tell already how rays and control
-// go together. Where that sum has left the control's mean by more than noise the light has changed, and the past counts
-// for less.
+// This frame's rays and their control into the means that the frames before left on the same surface, and into their second
+// moments. In the mean the control is the area lights' sum: where that has left it by more than noise the light has changed,
+// and the past counts for less.
 #include "common/pixel_rays.h"
 #include "texel_rays/texel_rays_io.h"
 
@@ -22,17 +21,15 @@ layout(set = 0, binding = 5) uniform sampler2D previousSent;
 layout(set = 0, binding = 6) uniform sampler2D previousControl;
 layout(set = 0, binding = 7) uniform sampler2D previousMoments;
 layout(set = 0, binding = 8) uniform sampler2D previousSurface;
-layout(set = 0, binding = 9, scalar) uniform Cameras { RayCameras c; } cameras;
+layout(set = 0, binding = 9, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D sentMean;     // rgb: W/m²; a: frames it stands for
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D controlMean;  // rgb: W/m²
-layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D moments;      // of rays; both; of control
+layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D moments;      // second ones: of rays; both; of control
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D surface;      // normal; m along the axis, 0: sky
 layout(set = 0, binding = 14) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
 layout(constant_id = 0) const bool kMotion = false;
 
 const float kMostTimes = 64.0;  // a sample may stand out of what is known; more is a draw that was hardly likely
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 shared float lengths[kDrawBlock * kDrawBlock];
 
@@ -52,7 +49,7 @@ struct Means {
 
 Means known(ivec2 size, vec3 normal, vec3 place, float depth) {
     Means m = Means(vec4(0.0), vec4(0.0), vec4(0.0));
-    RayCameras c = cameras.c;
+    ReprojectionCameras c = cameras.c;
     vec4 clip = c.previousClipFromWorld * vec4(place, 1.0);
     vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, low = floor(at);
     float footprint = 2.0 * c.pixelSize * max(depth, 1e-3), total = 0.0;
@@ -75,8 +72,9 @@ Means known(ivec2 size, vec3 normal, vec3 place, float depth) {
 
 // 1 while the area lights send what the control says they did, down to 0.
 float stillTrue(Means m, float now) {
-    float n = max(m.sent.a, 1.0), off = abs(now - luminance(m.control.rgb));
-    float uncertain = 4.0 * sqrt(m.moments.z / n) + 0.1 * now;
+    float n = max(m.sent.a, 1.0), mean = luminance(m.control.rgb), off = abs(now - mean);
+    // About what is sent now: a single sample says no more of its spread.
+    float uncertain = 4.0 * sqrt(max(m.moments.z - 2.0 * now * mean + now * now, 0.0) / n) + 0.1 * now;
     return clamp(2.0 - off / max(uncertain, 1e-20), 0.0, 1.0);
 }
 
@@ -93,10 +91,10 @@ void main() {
     p *= kept, q *= kept;
     float added = rays.a == kNoRays ? 0.0 : 1.0;
     m.sent.a = min(m.sent.a * stillTrue(m, e), push.p.mostLength - 1.0) + added;
-    float share = added / max(m.sent.a, 1.0), dp = luminance(p) - e, dq = luminance(q) - e;
+    float share = added / max(m.sent.a, 1.0), lp = luminance(p), lq = luminance(q);
     m.sent.rgb = mix(m.sent.rgb, p, share);
     m.control.rgb = mix(m.control.rgb, q, share);
-    m.moments.xyz = mix(m.moments.xyz, vec3(dp * dp, dp * dq, dq * dq), share);
+    m.moments.xyz = mix(m.moments.xyz, vec3(lp * lp, lp * lq, lq * lq), share);
     bool seen = depth > 0.0;
     shareLength(seen ? m.sent.a : 1e9);
     if (any(greaterThanEqual(pixel, size))) return;

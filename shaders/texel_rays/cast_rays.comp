@@ -9,7 +9,6 @@
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "rsm/rsm_io.h"
-#include "bvh/bvh_io.h"
 #include "texel_rays/texel_rays_io.h"
 #include "val_clustering/val_clustering_io.h"
 #include "val_shading/light_lists.glsl"
@@ -33,20 +32,18 @@ layout(set = 0, binding = 12) UINT_TEXELS(slotOfTexel);
 layout(set = 0, binding = 13) UINT_TEXELS(candidates);
 layout(set = 0, binding = 14) UVEC4_TEXELS(treeNodes);
 layout(set = 0, binding = 15, scalar) readonly buffer TreeTriangles { vec4 items[]; } treeTriangles;
-layout(set = 0, binding = 16) VEC4_TEXELS(treePlaces);
+layout(set = 0, binding = 16) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
 layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;  // W/m²; a: 1 + the entry of the light drawn, 0: none, kNoRays
-layout(set = 0, binding = 20, scalar) readonly buffer Youngest { float items[]; } youngest;  // of a block's means, frames
+layout(set = 0, binding = 20, scalar) readonly buffer Youngest { float items[]; } youngest;
 
 #include "bvh/trace.glsl"
+#include "texel_rays/blocks.glsl"
 #include "texel_rays/rsm_lookup.glsl"
 
 const uint kDraws = 8;        // texels that one is resampled from
 const float kResampled = 4.0; // by how much that makes a texel with much to send likelier than drawing one at random
-
-const float kYoung = 16.0;    // frames a mean stands for: below it a block casts rays in each frame,
-const uint kSeldom = 4;       // from then on in every so many
 
 struct Receiver {
     vec3 position, normal;
@@ -79,8 +76,7 @@ Drawn drawLight(uint tile, uint block, float xi) {
         low = after ? middle + 1 : low;
         high = after ? high : middle;
     }
-    uint at = low < count.x ? listStart(tile, kNearList, valCount) + low : listStart(tile, kFarList, valCount) + low - count.x;
-    uint light = fetchTexel(lists, int(at)).x;
+    uint light = fetchTexel(lists, int(listEntry(tile, low, count.x, valCount))).x;
     bool any = count.x + count.y > 0;
     return Drawn(low, light, any ? fetchTexel(likely, int(first + light)).x : 0.0);
 }
@@ -153,14 +149,17 @@ vec2 noiseAt(uvec2 pixel, uint aside) {
     return unpackUnorm2x16(fetchTexel(noise, int((pixel.y / 2 & 63u) * 64u + (pixel.x / 4 + aside & 63u))).x);
 }
 
+// Of a block: four by two for each eight invocations in a row.
+uvec2 placeInBlock(uint i) { return uvec2((i & 3u) | (i >> 1 & 4u), (i >> 2 & 1u) | (i >> 3 & 6u)); }
+
 // A block a workgroup.
 void main() {
-    uvec2 size = camera.camera.size, blocks = (size + kDrawBlock - 1) / kDrawBlock;
-    uint block = gl_WorkGroupID.x, inBlock = gl_LocalInvocationID.x;
-    uvec2 cell = uvec2(block % blocks.x, block / blocks.x) * kDrawBlock + uvec2(inBlock & 3u | inBlock >> 1 & 4u, inBlock >> 2 & 1u | inBlock >> 3 & 6u);
+    uvec2 size = camera.camera.size;
+    uint block = gl_WorkGroupID.x;
+    uvec2 cell = blockOrigin(block, size) + placeInBlock(gl_LocalInvocationID.x);
     ivec2 pixel = ivec2(min(cell, size - 1u));
     bool there = all(equal(uvec2(pixel), cell));
-    if (push.p.known == 1 && youngest.items[block] >= kYoung && (block * 5u + push.p.step) % kSeldom != 0) {
+    if (!castsRays(block, push.p.step, push.p.known)) {
         if (there) imageStore(sent, pixel, vec4(0.0, 0.0, 0.0, kNoRays));
         return;
     }

@@ -25,6 +25,9 @@ layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } c
 layout(set = 0, binding = 8, scalar) buffer UpTo { float items[]; } upTo;
 layout(set = 0, binding = 9, scalar) buffer Likely { float items[]; } likely;  // of each light of all
 
+layout(set = 0, binding = 10, scalar) readonly buffer Youngest { float items[]; } youngest;
+#include "texel_rays/blocks.glsl"
+
 const uint kPlaces = 4;       // 2 x 2
 const float kUnseen = 0.1;    // share of its light that counts where its map says it is not seen
 const float kAnywhere = 0.05; // and of what it would send if surface and light faced each other
@@ -52,16 +55,15 @@ float weightOf(AreaLight l, uint ismTileSize) {
         if (places[i].w == 0.0) continue;
         vec3 x = places[i].xyz, d = x - l.place.xyz;
         float seen = kUnseen + (1.0 - kUnseen) * visibility(x, l, f, ismTileSize);
-        float term = shapeTerm(x, normals[i].xyz, 0.0, l, f) * seen + kAnywhere * l.place.w / (dot(d, d) + l.place.w);
-        sum += term;
+        sum += shapeTerm(x, normals[i].xyz, 0.0, l, f) * seen + kAnywhere * l.place.w / (dot(d, d) + l.place.w);
     }
     return sum * (l.power.x + l.power.y + l.power.z);
 }
 
 void main() {
     uint block = gl_WorkGroupID.x, valCount = push.p.tiles.valCount;
-    uint alongX = (camera.camera.size.x + kDrawBlock - 1) / kDrawBlock;
-    uvec2 origin = uvec2(block % alongX, block / alongX) * kDrawBlock, inTiles = origin / push.p.tiles.tileSize;
+    if (!castsRays(block, push.p.step, push.p.known)) return;
+    uvec2 origin = blockOrigin(block, camera.camera.size), inTiles = origin / push.p.tiles.tileSize;
     uint tile = inTiles.y * push.p.tiles.tiles.x + inTiles.x;
     findPlaces(block, origin);
     uvec2 count = counts.items[tile];
@@ -69,9 +71,8 @@ void main() {
     float total = 0.0;
     for (uint base = 0; base < entries; base += kLanes) {
         uint entry = base + laneIndex(), asked = min(entry, entries - 1);
-        uint at = asked < count.x ? listStart(tile, kNearList, valCount) + asked
-                                  : listStart(tile, kFarList, valCount) + asked - count.x;
-        float weight = weightOf(loadLight(fetchTexel(lists, int(at)).x), push.p.tiles.ismTileSize);
+        uint light = fetchTexel(lists, int(listEntry(tile, asked, count.x, valCount))).x;
+        float weight = weightOf(loadLight(light), push.p.tiles.ismTileSize);
         weight = entry < entries ? weight : 0.0;
         total += laneAdd(weight);
         if (entry < entries) upTo.items[first + entry] = weight;
@@ -84,9 +85,7 @@ void main() {
         float end = before + laneInclusiveAdd(weight);
         before += laneAdd(weight);
         if (entry >= entries) continue;
-        uint at = entry < count.x ? listStart(tile, kNearList, valCount) + entry
-                                  : listStart(tile, kFarList, valCount) + entry - count.x;
         upTo.items[first + entry] = end;
-        likely.items[first + fetchTexel(lists, int(at)).x] = weight;
+        likely.items[first + fetchTexel(lists, int(listEntry(tile, entry, count.x, valCount))).x] = weight;
     }
 }

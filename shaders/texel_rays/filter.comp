@@ -12,12 +12,10 @@ layout(push_constant, scalar) uniform Push { RayFilterPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D rest;
 layout(set = 0, binding = 1) uniform sampler2D surface;
-layout(set = 0, binding = 2, scalar) uniform Cameras { RayCameras c; } cameras;
+layout(set = 0, binding = 2, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly image2D result;
 
 const float kSpline[3] = float[](0.375, 0.25, 0.0625);
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 void main() {
     ivec2 size = imageSize(result), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);

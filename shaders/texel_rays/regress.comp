@@ -15,41 +15,41 @@ layout(set = 0, binding = 1) uniform sampler2D sentMean;
 layout(set = 0, binding = 2) uniform sampler2D controlMean;
 layout(set = 0, binding = 3) uniform sampler2D moments;
 layout(set = 0, binding = 4) uniform sampler2D surface;
-layout(set = 0, binding = 5, scalar) uniform Cameras { RayCameras c; } cameras;
+layout(set = 0, binding = 5, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D rest;  // rgb: W/m²; a: variance of its luminance
 layout(set = 0, binding = 7, r32f) uniform writeonly image2D shareOf;  // of the area lights' sum to add to it
 
-const int kReach = 2;              // pixels about
-const float kMostSurprise = 0.3;   // how far the share of detail may be from what moments say, as a deviation
-
-float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+const int kReach = 2;             // pixels about
+const float kLeastSpread = 0.01;  // of the squared mean: few samples may all be alike by chance
+const float kMostSurprise = 0.3;  // how far the share of detail may be from what moments say, as a deviation
 
 struct Window {
-    vec3 moments;                    // of rays; both; of control
-    vec3 mean, withLights;           // of area lights, rays, control; each times area lights
+    vec3 central;           // second moments about each pixel's means: of rays; both; of control
+    vec3 mean, withLights;  // of area lights, rays, control; each times area lights
     float total, count;
 };
 
 Window windowAbout(ivec2 at, vec4 s, ivec2 size) {
     vec3 place = placeOf(cameras.c.now, vec2(at), s.w);
-    float footprint = cameras.c.pixelSize * max(s.w, 1e-3) * 2.0, length_ = 0.0;
+    float footprint = cameras.c.pixelSize * max(s.w, 1e-3) * 2.0;
     Window w = Window(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     [[unroll]] for (int y = -kReach; y <= kReach; ++y)
         [[unroll]] for (int x = -kReach; x <= kReach; ++x) {
-            ivec2 there = clamp(at + ivec2(x, y) * 1, ivec2(0), size - 1);
+            ivec2 there = clamp(at + ivec2(x, y), ivec2(0), size - 1);
             vec4 other = texelFetch(surface, there, 0), sent = texelFetch(sentMean, there, 0);
             float like = likeness(s.xyz, placeOf(cameras.c.now, vec2(there), other.w) - place, footprint, other.xyz);
             float weight = other.w > 0.0 ? like * sent.a : 0.0;
             vec3 means = vec3(luminance(texelFetch(areaLights, there, 0).rgb), luminance(sent.rgb),
                               luminance(texelFetch(controlMean, there, 0).rgb));
-            w.moments += weight * texelFetch(moments, there, 0).xyz;
+            w.central += weight * (texelFetch(moments, there, 0).xyz - means.yyz * means.yzz);
             w.mean += weight * means;
             w.withLights += weight * means * means.x;
             w.total += weight;
             w.count += other.w > 0.0 ? like : 0.0;
         }
     float share = 1.0 / max(w.total, 1e-20);
-    w.moments *= share, w.mean *= share, w.withLights *= share;
+    w.mean *= share, w.withLights *= share;
+    w.central = max(w.central, vec3(0.0)) / max(w.total - w.count, 1e-20);  // of n samples n - 1 are free
     return w;
 }
 
@@ -58,16 +58,15 @@ void main() {
     Window w = windowAbout(at, texelFetch(surface, at, 0), size);
     vec4 sent = texelFetch(sentMean, at, 0);
     vec3 control = texelFetch(controlMean, at, 0).rgb, lights = texelFetch(areaLights, at, 0).rgb;
-    float share = w.moments.z > 0.0 ? clamp(w.moments.y / w.moments.z, 0.0, 1.0) : 1.0;
+    float share = w.central.z > 0.0 ? clamp(w.central.y / w.central.z, 0.0, 1.0) : 1.0;
+    float spread = w.central.x - 2.0 * share * w.central.y + share * share * w.central.z;
+    float variance = max(spread, kLeastSpread * w.mean.y * w.mean.y + 1e-12) / max(sent.a, 1.0);
     // What is left of the rays follows the lights' sum from pixel to pixel by so much.
     vec3 together = w.withLights - w.mean * w.mean.x;
-    float noise = max(w.moments.x - 2.0 * share * w.moments.y + share * share * w.moments.z, 1e-12) / max(sent.a, 1.0);
-    float sure = w.count / noise, expected = 1.0 / (kMostSurprise * kMostSurprise);
+    float sure = w.count / variance, expected = 1.0 / (kMostSurprise * kMostSurprise);
     float detail = ((together.y - share * together.z) * sure + (1.0 - share) * expected) / (together.x * sure + expected);
     detail = clamp(detail, 0.0, 1.0 - share);
     vec3 left = sent.rgb - share * control - detail * lights;
-    float offset = luminance(left) - (1.0 - share - detail) * luminance(lights);
-    float variance = max(noise - offset * offset / max(sent.a, 1.0), 0.02 * w.moments.x / max(sent.a, 1.0));
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(rest, pixel, vec4(left, variance));
     imageStore(shareOf, pixel, vec4(share + detail));

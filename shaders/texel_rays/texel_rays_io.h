@@ -3,7 +3,6 @@
 #ifndef AG_TEXEL_RAYS_IO_H
 #define AG_TEXEL_RAYS_IO_H
 
-#include "common/pixel_rays.h"
 #include "val_shading/val_shading_io.h"
 
 #ifdef __cplusplus
@@ -11,7 +10,6 @@ namespace ag::io {
 #endif
 
 const uint kDrawBlock = 8;  // pixels along the side of a block whose pixels draw lights alike; divides a tile
-
 const float kNoRays = -1.0f;  // in the place of the light that a pixel drew: it cast none in this frame
 
 struct CastPush {
@@ -27,14 +25,8 @@ struct CastPush {
 
 struct ChoosePush {
     ValShadingPush tiles;
-    uint step;
-};
-
-// Cameras of this frame and the one before, for reprojection.
-struct RayCameras {
-    mat4 previousClipFromWorld;
-    PixelRays now, before;
-    float pixelSize;  // m at 1 m depth
+    uint step;   // another in each frame with new rays
+    uint known;  // 0: there is no frame before
 };
 
 struct RayAccumulatePush {

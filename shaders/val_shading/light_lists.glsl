@@ -23,4 +23,10 @@
     }
 
 uint listStart(uint tile, uint list, uint valCount) { return (tile * kLightLists + list) * valCount; }
+
+// Of both lists together, near lights first.
+uint listEntry(uint tile, uint entry, uint nearCount, uint valCount) {
+    return entry < nearCount ? listStart(tile, kNearList, valCount) + entry
+                             : listStart(tile, kFarList, valCount) + entry - nearCount;
+}
 #endif
