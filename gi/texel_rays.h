@@ -1,8 +1,7 @@
-// The first bounce made true by rays. Area lights and their imperfect shadow maps give a smooth sum that is
-// wrong where a light is near or a map is coarse; a pixel measures what is wrong with two rays a frame
-// through the occluders' trees, to texels of the reflective shadow maps. The lights' own sum is a control
-// variate of that measurement: where lights are right there is next to no noise, where maps leak the rays
-// alone count. Means over frames, filtered by their variance.
+// The first bounce of area lights corrected by rays. Their sum is smooth, but wrong where a light is near or
+// its imperfect shadow map is coarse. Each pixel measures the error with two rays a frame to texels of the
+// reflective shadow maps, through the occluders' trees; the area lights' sum is a control variate of that
+// measurement. Means over frames, filtered by their variance.
 #pragma once
 
 #include "engine/core/setting_fields.h"
@@ -13,8 +12,8 @@
 namespace ag::gi {
 
 struct TexelRaysSettings {
-    bool enabled = false;  // not finished: movable things that joints bend do not stand in the way as bent
-    float reach = 0.05f;   // of a hemisphere's ray, in the scene's extent
+    bool enabled = false;        // blotchy still: docs/techniques/texel_rays.md
+    float reach = 0.05f;         // of a hemisphere's ray, in the scene's extent
     uint32_t mostLength = 128;   // frames that a mean stands for
     uint32_t settleFrames = 64;  // frames with new rays after anything last changed
     uint32_t rounds = 3;         // of the filter

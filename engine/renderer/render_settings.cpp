@@ -4,7 +4,6 @@
 #include <array>
 
 #include "engine/core/settings.h"
-#include "engine/gpu/device_limits.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
 
 namespace ag::render {
@@ -204,10 +203,6 @@ void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s) {
     const uint32_t side = limits.maxImageDimension2D;
     s.shadowMaps.resolution = std::min(s.shadowMaps.resolution, side / kAtlasColumns);
     s.punctualShadows.atlasSize = std::min(s.punctualShadows.atlasSize, side);
-    const uint32_t buffers = limits.maxPerStageDescriptorStorageBuffers;
-    if (tracesRays(s) && !gpu::hasLargeTexelBuffers(limits) && buffers < gpu::kStorageBuffersOfRays)
-        gpu::failBeyondLimit("texel_rays.enabled", "maxPerStageDescriptorStorageBuffers",
-                             gpu::kStorageBuffersOfRays, buffers);
 }
 
 void registerSettings(Settings& settings, RenderSettings& s) {

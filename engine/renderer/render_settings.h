@@ -60,8 +60,7 @@ std::span<const std::string_view> presetNames();
 // Whether occluders are asked for as trees.
 bool tracesRays(const RenderSettings& settings);
 
-// Smaller shadow maps where the device has no images of the size that was asked for. Fails (failure.h) where
-// it has not what a setting needs.
+// Smaller shadow maps where the device has no images of the size that was asked for.
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s);
 
 // Registers every group's settings. `s` must outlive `settings`.

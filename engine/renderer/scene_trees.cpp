@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/hash.h"
+#include "engine/gpu/device_limits.h"
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/scene_surfaces.h"
 
@@ -36,6 +37,11 @@ std::unique_ptr<gpu::Buffer> roomFor(gpu::Device& device, std::unique_ptr<gpu::B
 }  // namespace
 
 void SceneTrees::build(const RenderScene& scene) {
+    const gpu::DeviceInfo& info = device_.info();
+    const uint32_t buffers = info.limits.maxPerStageDescriptorStorageBuffers;
+    if (info.storageTexels && buffers < gpu::kStorageBuffersOfRays)
+        gpu::failBeyondLimit("texel_rays.enabled", "maxPerStageDescriptorStorageBuffers",
+                             gpu::kStorageBuffersOfRays, buffers);
     trees_ = buildTrees(scene);
     gpu::retire(device_, std::move(nodes_));
     gpu::retire(device_, std::move(triangles_));

@@ -17,7 +17,8 @@ class SceneTrees {
   public:
     explicit SceneTrees(gpu::Device& device) : device_(device) {}
 
-    // Of this frame. Blocking where static surfaces changed.
+    // Of this frame. Blocking where static surfaces changed. Fails (failure.h) on a device that cannot trace
+    // rays.
     gi::TracedOccluders import(GraphScope scope, const RenderScene& scene);
     using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
     void upload(Stage stage);
