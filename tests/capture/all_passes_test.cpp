@@ -40,7 +40,7 @@ struct Case {
     std::string_view preset;
     const char* scene;
     uint32_t param = 0;
-    bool laterBounces = false;
+    bool options = false;  // those that no preset turns on
     bool waits = false;  // what may be late is, from the second frame after the warm-up
 };
 
@@ -59,7 +59,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     asset.geometry.materials[0].specular = 1;
     RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
     ASSERT_TRUE(render::applyPreset(c.preset, settings.gi));
-    settings.gi.bounce.laterBounces.enabled = c.laterBounces;
+    settings.gi.bounce.laterBounces.enabled = settings.gi.bounce.texelRays.enabled = c.options;
     settings.gi.bounce.denoiser.enabled = settings.gi.bounce.denoiser.motion = true;
     settings.gi.bounce.stochasticRsm.interpolate = c.preset == "rsm-400";
     settings.gi.bounce.valClustering.count = 64;
