@@ -19,13 +19,14 @@ void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLi
     f.importance = addImportance(scope, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(scope, f.rsm, f.importance, s.valClustering, in.world.versions.camera,
                                   h.valClustering);
-    f.vals = addValFit(scope, f.rsm, f.laterLight, f.clusters);
+    f.vals = addValFit(scope, f.rsm, f.laterLight, f.clusters,
+                       s.ismAtlas.traced && in.occluders.trees ? &in.occluders : nullptr);
 }
 
 void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlasSettings& s, BounceLight& f) {
     if (f.vals.count == 0 || !s.enabled) return;
     f.surfacePoints = addSurfacePoints(scope, in.occluders, in.world.versions.instances);
-    f.isms = addIsmAtlas(scope, f.surfacePoints, f.vals, s);
+    f.isms = addIsmAtlas(scope, f.surfacePoints, in.occluders.trees, f.vals, s);
 }
 
 void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& downsampled,

@@ -38,9 +38,11 @@ uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const Surf
     return uint32_t(combineHash(combineHash(size, like), points.staticVersion)) | 1;
 }
 
-// What makes the static layer of a map, kept for those whose light and points have not moved.
-struct MapHistories {
-    HistoryBuffer places, chosen, keys;
+// All that is static, kept for maps whose light and surfaces have not moved: the nearest points, or traced
+// planes.
+struct StaticLayer {
+    BufferHandle keys, chosen;
+    BufferHandle planes;  // valid: of rays, map by map, row by row; then there are no keys
 };
 
 // How many of a map's points movable surfaces get: their share of the area within bounds, as what moves is
@@ -98,17 +100,22 @@ PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle chosen,
     return pass;
 }
 
-// All that is static: maps are kept where neither it nor the light has moved; a splat of those would cost
-// its workgroups all the same, so the others are listed.
-void addStaticLayer(const Splat& s, const MapHistories& kept, const io::IsmSplatPush& push) {
+// Maps that are not kept are listed: a splat of the others would cost its workgroups all the same.
+StaticLayer addSplattedLayer(const Splat& s, const HistoryBuffer& places, const io::IsmSplatPush& push) {
+    const uint32_t texels = s.atlas.mapCount * s.atlas.tileSize * s.atlas.tileSize;
+    const HistoryBuffer chosen = s.scope.historyBuffer(
+        "ism_atlas.chosen",
+        {.sizeBytes = std::max(push.entryCount, 1u) * s.atlas.mapCount * 4ull, .texelFormat = kUint});
+    const HistoryBuffer keys =
+        s.scope.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4ull, .texelFormat = kUint});
     const WorkList anew = addWorkList(s.scope, kMapsAnew, s.atlas.mapCount, {splatGroups(push), 0, 1});
     s.scope.compute("ism_atlas.choose", "ism_atlas/choose_static.comp")
         .readPart("segments", s.points.segments, s.points.staticVersion)
         .read("vals", s.vals.vals)
-        .readPrevious("previousPlaces", kept.places)
-        .readPrevious("previousChosen", kept.chosen)
-        .write("places", kept.places.current)
-        .write("chosen", kept.chosen.current)
+        .readPrevious("previousPlaces", places)
+        .readPrevious("previousChosen", chosen)
+        .write("places", places.current)
+        .write("chosen", chosen.current)
         .write("states", s.atlas.states)
         .write("anew", anew.items)
         .readWrite("anewGroups", anew.groups)
@@ -116,17 +123,53 @@ void addStaticLayer(const Splat& s, const MapHistories& kept, const io::IsmSplat
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
     s.scope.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
-        .readPrevious("previousKeys", kept.keys)
+        .readPrevious("previousKeys", keys)
         .read("states", s.atlas.states)
-        .write("keys", kept.keys.current)
+        .write("keys", keys.current)
         .push(push)
         .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
-    addSplat(s, "ism_atlas.splat", s.atlas.chosen, s.atlas.states, kept.keys.current, push)
+    addSplat(s, "ism_atlas.splat", chosen.current, s.atlas.states, keys.current, push)
         .readPart("points", s.points.points, s.points.staticVersion)
-        .readWrite("finishes", kept.keys.current)  // not looked at
+        .readWrite("finishes", keys.current)  // not looked at
         .read("listed", anew.items)
         .constant("kListed", true)
         .dispatchIndirect(anew.groups);
+    return {.keys = keys.current, .chosen = chosen.current};
+}
+
+// The same by a ray a texel.
+StaticLayer addTracedLayer(const Splat& s, const TracedOccluders& trees, const HistoryBuffer& places,
+                           const io::IsmSplatPush& push, const BufferInfo& info) {
+    constexpr uint32_t kGroupTexels = 64;
+    const uint32_t groups = s.atlas.tileSize * s.atlas.tileSize / kGroupTexels;
+    const WorkList anew = addWorkList(s.scope, kMapsAnew, s.atlas.mapCount, {groups, 0, 1});
+    const HistoryBuffer planes = s.scope.historyBuffer("ism_atlas.traced", info);
+    s.scope.compute("ism_atlas.list", "ism_atlas/list_traced.comp")
+        .read("vals", s.vals.vals)
+        .readPrevious("previousPlaces", places)
+        .write("places", places.current)
+        .write("states", s.atlas.states)
+        .write("anew", anew.items)
+        .readWrite("anewGroups", anew.groups)
+        .push(MapPush{push, s.atlas.mapCount})
+        .dispatchThreads(s.atlas.mapCount);
+    s.scope.compute("ism_atlas.keep_traced", "ism_atlas/keep_planes.comp")
+        .readPrevious("previousPlanes", planes)
+        .read("states", s.atlas.states)
+        .write("planes", planes.current)
+        .push(push)
+        .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
+    s.scope.compute("ism_atlas.trace", "ism_atlas/trace_maps.comp")
+        .read("vals", s.vals.vals)
+        .read("listed", anew.items)
+        .read("treeNodes", trees.nodes)
+        .read("treeTriangles", trees.triangles)
+        .readPart("treePlaces", trees.places, s.points.staticVersion)
+        .readWrite("planes", planes.current)
+        .constant("kParaboloid", s.settings.mapping == IsmMapping::kParaboloid)
+        .push(push)
+        .dispatchIndirect(anew.groups);
+    return {.planes = planes.current};
 }
 
 // Regions of maps, see list_regions.comp.
@@ -150,11 +193,13 @@ struct MovableLayer {
 };
 
 // What may move, over the static layer: only where it shows or showed in the frame before is anything done.
-MovableLayer addMovableLayer(const Splat& s, BufferHandle staticKeys, BufferHandle finishes,
+MovableLayer addMovableLayer(const Splat& s, const StaticLayer& still, BufferHandle finishes,
                              const WorkList& restored, const io::IsmSplatPush& push) {
     const BufferHandle states =
         s.scope.buffer("ism_atlas.movable_states", {.sizeBytes = s.atlas.mapCount * sizeof(io::IsmMapState)});
-    const BufferHandle keys = s.scope.buffer("ism_atlas.all_keys", s.scope.info(staticKeys));
+    const uint64_t texels = s.scope.info(s.atlas.planes).sizeBytes / sizeof(glm::vec4);
+    const BufferHandle keys =
+        s.scope.buffer("ism_atlas.all_keys", {.sizeBytes = texels * 4, .texelFormat = kUint});
     const BufferHandle chosen =
         s.scope.buffer("ism_atlas.movable_chosen",
                        {.sizeBytes = s.atlas.mapCount * push.entryCount * 4ull, .texelFormat = kUint});
@@ -168,8 +213,9 @@ MovableLayer addMovableLayer(const Splat& s, BufferHandle staticKeys, BufferHand
         .dispatchGroups(s.atlas.mapCount);
     s.scope.compute("ism_atlas.restore", "ism_atlas/restore_keys.comp")
         .read("listed", restored.items)
-        .read("staticKeys", staticKeys)
+        .read("staticKeys", still.planes ? chosen : still.keys)
         .write("keys", keys)
+        .constant("kTraced", bool(still.planes))
         .push(push)
         .dispatchIndirect(restored.groups);
     addSplat(s, "ism_atlas.splat_movable", chosen, states, keys, push)
@@ -182,7 +228,7 @@ MovableLayer addMovableLayer(const Splat& s, BufferHandle staticKeys, BufferHand
 }
 
 // From the nearest points to planes without holes, where maps may be otherwise than they were.
-void addFinish(const Splat& s, const MovableLayer& layer, const WorkList& finished,
+void addFinish(const Splat& s, const StaticLayer& still, const MovableLayer& layer, const WorkList& finished,
                const io::IsmSplatPush& push) {
     const BufferHandle resolved = s.settings.pullPush
                                       ? s.scope.buffer("ism_atlas.resolved", s.scope.info(s.atlas.planes))
@@ -191,10 +237,12 @@ void addFinish(const Splat& s, const MovableLayer& layer, const WorkList& finish
         .read("points", s.points.points)
         .read("vals", s.vals.vals)
         .read("keys", layer.keys)
-        .read("staticChosen", s.atlas.chosen)
+        .read("staticChosen", still.planes ? layer.chosen : still.chosen)
         .read("movableChosen", layer.chosen)
+        .read("tracedPlanes", still.planes ? still.planes : s.vals.vals)
         .read("listed", finished.items)
         .write("planes", resolved)
+        .constant("kTraced", bool(still.planes))
         .constant("kPlanes", s.settings.planes)
         .constant("kLast", !s.settings.pullPush)
         .constant("kMovable", push.entryCount > 0)
@@ -206,6 +254,7 @@ void addFinish(const Splat& s, const MovableLayer& layer, const WorkList& finish
         .read("listed", finished.items)
         .write("planes", s.atlas.planes)
         .constant("kParaboloid", s.atlas.mapping == IsmMapping::kParaboloid)
+        .constant("kTraced", bool(still.planes))
         .push(push)
         .dispatchIndirect(finished.groups);
 }
@@ -220,40 +269,44 @@ uint32_t tileSizeFor(uint32_t asked, uint32_t mapCount) {
 
 }  // namespace
 
-IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Vals& vals,
-                     const IsmAtlasSettings& settings) {
+IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const TracedOccluders& trees,
+                     const Vals& vals, const IsmAtlasSettings& settings) {
     if (!settings.enabled || points.count == 0 || vals.count == 0) return {};
     IsmAtlas atlas{.mapCount = std::min(vals.count, io::kMaxIsms), .mapping = settings.mapping};
     atlas.tileSize = tileSizeFor(settings.tileSize, atlas.mapCount);
+    const bool traced = settings.traced && trees;
     const uint32_t perMap = atlas.pointsPerMap = std::min(settings.pointsPerMap, points.count);
-    const uint32_t movableCount = movableEntries(points, perMap), staticCount = perMap - movableCount;
+    const uint32_t movableCount = movableEntries(points, perMap),
+                   staticCount = traced ? 0 : perMap - movableCount;
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
-    atlas.planes = scope.buffer("ism_atlas.planes",
-                                {.sizeBytes = texels * 16, .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    const BufferInfo planes{.sizeBytes = texels * 16, .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};
     const io::IsmSplatPush push{.pointCount = points.count,
                                 .tileSize = atlas.tileSize,
                                 .inverseExtent = 1 / points.extent,
                                 .contents = contentsOf(settings, atlas, points, staticCount)};
-    const MapHistories kept{
-        .places =
-            scope.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)}),
-        .chosen = scope.historyBuffer(
-            "ism_atlas.chosen",
-            {.sizeBytes = std::max(staticCount, 1u) * atlas.mapCount * 4ull, .texelFormat = kUint}),
-        .keys = scope.historyBuffer("ism_atlas.keys", {.sizeBytes = texels * 4, .texelFormat = kUint})};
-    atlas.chosen = kept.chosen.current;
+    const HistoryBuffer places =
+        scope.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)});
     atlas.states = scope.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});
     const Splat splat{scope, points, vals, settings, atlas};
-    addStaticLayer(splat, kept, layerPush(push, points.staticLayer, 0, staticCount, settings.splatScale));
+    const StaticLayer still =
+        traced ? addTracedLayer(splat, trees, places, push, planes)
+               : addSplattedLayer(splat, places,
+                                  layerPush(push, points.staticLayer, 0, staticCount, settings.splatScale));
+    atlas.chosen = still.chosen;
+    if (traced && movableCount == 0) {
+        atlas.planes = still.planes;
+        return atlas;
+    }
+    atlas.planes = scope.buffer("ism_atlas.planes", planes);
     const HistoryBuffer finishes =
         scope.historyBuffer("ism_atlas.finishes", {.sizeBytes = atlas.mapCount * sizeof(io::IsmFinish)});
-    const WorkList restored = addRegions(splat, kRestored, kept.places.current, finishes, true, push);
+    const WorkList restored = addRegions(splat, kRestored, places.current, finishes, true, push);
     const io::IsmSplatPush movablePush =
         layerPush(push, points.movableLayer, staticCount, movableCount, settings.splatScale);
-    MovableLayer all{kept.keys.current, atlas.chosen};
-    if (movableCount > 0) all = addMovableLayer(splat, all.keys, finishes.current, restored, movablePush);
-    const WorkList finished = addRegions(splat, kFinished, kept.places.current, finishes, false, push);
-    addFinish(splat, all, finished, movablePush);
+    MovableLayer all{still.keys, still.chosen};
+    if (movableCount > 0) all = addMovableLayer(splat, still, finishes.current, restored, movablePush);
+    const WorkList finished = addRegions(splat, kFinished, places.current, finishes, false, push);
+    addFinish(splat, still, all, finished, movablePush);
     return atlas;
 }
 

@@ -2,8 +2,9 @@
 // light sees, splatted from points on the surfaces and closed by pull-push. Hemispheres in one
 // buffer, a square tile a light; each tile takes points of its own,
 // more of them from surfaces near by. A map whose light and points did not move is not splatted again.
-// Difference: a texel keeps the nearest surface's plane instead of its depth, so that no bias is needed and a
-// surface never shadows itself.
+// Differences: a texel keeps the nearest surface's plane instead of its depth, so that no bias is needed and
+// a surface never shadows itself; and where the host has trees of its occluders, static surfaces are traced,
+// a ray a texel, and only what moves is splatted.
 #pragma once
 
 #include "engine/core/setting_fields.h"
@@ -17,6 +18,7 @@ enum class IsmMapping : uint32_t { kOctahedral, kParaboloid };
 
 struct IsmAtlasSettings {
     bool enabled = true;           // off: bounced light passes through everything
+    bool traced = true;            // static surfaces by rays, where there are trees; off: all by points
     uint32_t tileSize = 48;        // texels along a map's side, a multiple of 16 up to 128
     uint32_t pointsPerMap = 1536;  // splatted into each map
     bool nearMore = true;          // points by the solid angle of surfaces instead of their area
@@ -29,6 +31,8 @@ struct IsmAtlasSettings {
     static constexpr auto fields() {
         return std::tuple{
             SettingField{"enabled", &IsmAtlasSettings::enabled, 0, 0, "", "visibility of indirect light"},
+            SettingField{"traced", &IsmAtlasSettings::traced, 0, 0, "",
+                         "static surfaces by rays through the host's trees; off: all from points"},
             SettingField{"tile_size", &IsmAtlasSettings::tileSize, 16, 128, "texels",
                          "side of a light's depth map, rounded down to a multiple of 16"},
             SettingField{"points_per_map", &IsmAtlasSettings::pointsPerMap, 64, 131072, "points",
@@ -52,7 +56,7 @@ struct IsmAtlasSettings {
 
 struct IsmAtlas {
     BufferHandle planes;  // vec4; also a texel buffer; invalid: no visibility
-    BufferHandle chosen;  // per map its static points, see ism_light.glsl
+    BufferHandle chosen;  // per map its static points, see ism_light.glsl; invalid where these are traced
     BufferHandle states;  // io::IsmMapState
     uint32_t pointsPerMap = 0;
     uint32_t mapCount = 0;
@@ -67,7 +71,8 @@ struct ShadowedVals {
     IsmAtlas isms;
 };
 
-IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Vals& vals,
-                     const IsmAtlasSettings& settings);
+// `trees`: may be none. `points`: of all surfaces, or of nothing where trees stand for all.
+IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const TracedOccluders& trees,
+                     const Vals& vals, const IsmAtlasSettings& settings);
 
 }  // namespace ag::gi

@@ -5,13 +5,13 @@
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
 #include "gi/pixel_rays.h"
+#include "shaders/bvh/bvh_io.h"
 #include "shaders/texel_rays/texel_rays_io.h"
 
 namespace ag::gi {
 namespace {
 
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr float kOffset = 1e-4f;  // of rays from surfaces, in the scene's extent
 constexpr uint32_t kMostRounds = 4;
 // Names are literals, because the graph keeps views of them.
 constexpr std::array<std::string_view, kMostRounds> kFilterNames = {
@@ -116,7 +116,7 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
                            .mapCount = in.rsm.lightRsmCount,
                            .step = how.step,
                            .shift = shiftOf(how.step),
-                           .offset = kOffset * in.occluders.extent,
+                           .offset = io::kBvhOffset * in.occluders.extent,
                            .reach = how.reach * in.occluders.extent,
                            .known = how.youngest.valid})
         .step(how.step)

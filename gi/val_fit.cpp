@@ -2,15 +2,29 @@
 
 #include <algorithm>
 
+#include "shaders/bvh/bvh_io.h"
+
 namespace ag::gi {
 
-Vals allocateVals(GraphScope scope, std::string_view vals, std::string_view shapes, uint32_t count) {
+namespace {
+
+// Lights come in whole subgroups.
+uint32_t paddedCount(uint32_t count) {
     constexpr uint32_t kLargestSubgroup = 64;
-    Vals v{.count = (count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup};
-    v.vals = scope.buffer(
-        vals, {.sizeBytes = v.count * sizeof(io::Val), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
-    v.shapes = scope.buffer(shapes, {.sizeBytes = v.count * sizeof(io::ValShapeVectors),
-                                     .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    return (count + kLargestSubgroup - 1) / kLargestSubgroup * kLargestSubgroup;
+}
+
+template <class Row>
+BufferInfo rows(uint32_t count) {
+    return {.sizeBytes = count * sizeof(Row), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};
+}
+
+}  // namespace
+
+Vals allocateVals(GraphScope scope, std::string_view vals, std::string_view shapes, uint32_t count) {
+    Vals v{.count = paddedCount(count)};
+    v.vals = scope.buffer(vals, rows<io::Val>(v.count));
+    v.shapes = scope.buffer(shapes, rows<io::ValShapeVectors>(v.count));
     return v;
 }
 
@@ -24,20 +38,34 @@ Vals laterVals(Vals vals, uint32_t first) {
     return vals;
 }
 
-Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters) {
+Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters,
+               const Occluders* traced) {
     if (clusters.count == 0) return {};
-    const Vals v = allocateVals(scope, "val_fit.vals", "val_fit.shapes", clusters.count);
-    scope.compute("val_fit.fit", "val_fit/fit_vals.comp")
-        .read("clusters", clusters.clusters)
+    Vals v{.count = paddedCount(clusters.count)};
+    const HistoryBuffer vals = scope.historyBuffer("val_fit.vals", rows<io::Val>(v.count));
+    v.vals = vals.current;
+    v.shapes = scope.buffer("val_fit.shapes", rows<io::ValShapeVectors>(v.count));
+    PassBuilder fit =
+        scope.compute("val_fit.fit", traced ? "val_fit/fit_traced_vals.comp" : "val_fit/fit_vals.comp");
+    fit.read("clusters", clusters.clusters)
         .read("extents", clusters.extents)
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
         .read("edges", later.edges ? later.edges : rsm.texels)
+        .readPrevious("previousVals", vals)
         .write("vals", v.vals)
         .write("shapes", v.shapes)
-        .push(glm::uvec3(clusters.count, v.count, rsm.atlas.size.x))
+        .push(io::ValFitPush{.clusterCount = clusters.count,
+                             .valCount = v.count,
+                             .atlasWidth = rsm.atlas.size.x,
+                             .known = vals.valid,
+                             .offset = traced ? io::kBvhOffset * traced->extent : 0})
         .dispatchThreads(v.count);
+    if (traced)
+        fit.read("treeNodes", traced->trees.nodes)
+            .read("treeTriangles", traced->trees.triangles)
+            .readPart("treePlaces", traced->trees.places, traced->staticVersion);
     return v;
 }
 

@@ -22,6 +22,9 @@ Vals allocateVals(GraphScope scope, std::string_view vals, std::string_view shap
 Vals firstVals(Vals vals, uint32_t end);
 Vals laterVals(Vals vals, uint32_t first);
 
-Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters);
+// `traced`: occluders that have trees, if the lights may look at them: then none looks out from within a
+// solid.
+Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters,
+               const Occluders* traced);
 
 }  // namespace ag::gi

@@ -37,8 +37,8 @@ std::vector<std::string> lackingLimits(VkPhysicalDeviceLimits limits);
 // storage buffers instead (shaders/common/texels.glsl).
 bool hasLargeTexelBuffers(const VkPhysicalDeviceLimits& limits);
 
-// maxPerStageDescriptorStorageBuffers that rays through occluders want where they read storage buffers
-// instead; the least limit is for all else.
+// maxPerStageDescriptorStorageBuffers that rays to texels want where they read storage buffers instead; the
+// least limit is for all else.
 constexpr uint32_t kStorageBuffersOfRays = 15;
 
 }  // namespace ag::gpu

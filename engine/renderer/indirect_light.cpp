@@ -83,7 +83,7 @@ gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::Bo
 
 bool needsMotion(const RenderSettings& s) {
     if (s.technique == Technique::kNone) return false;
-    return tracesRays(s) || (s.bounce.denoiser.enabled && s.bounce.denoiser.motion);
+    return castsTexelRays(s) || (s.bounce.denoiser.enabled && s.bounce.denoiser.motion);
 }
 
 gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,

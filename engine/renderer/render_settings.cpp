@@ -49,7 +49,8 @@ void setIsm(RenderSettings& s) {
     s.technique = Technique::kIsm;
     s.bounce.importance.viewWeight = 0;
     s.bounce.valClustering.count = 1024;
-    s.bounce.ismAtlas = {.tileSize = 64,
+    s.bounce.ismAtlas = {.traced = false,
+                         .tileSize = 64,
                          .pointsPerMap = 2048,
                          .nearMore = false,
                          .mapping = gi::IsmMapping::kParaboloid,
@@ -95,7 +96,8 @@ void setAcrsm(RenderSettings& s) {
     s.bounce.importance.viewWeight = 0.5f;
     s.bounce.valClustering.adaptive = true;
     s.bounce.valClustering.count = 512;
-    s.bounce.ismAtlas = {.tileSize = 128,
+    s.bounce.ismAtlas = {.traced = false,
+                         .tileSize = 128,
                          .pointsPerMap = 2048,
                          .nearMore = false,
                          .mapping = gi::IsmMapping::kParaboloid,
@@ -193,8 +195,17 @@ bool applyPreset(std::string_view name, RenderSettings& s) {
     return true;
 }
 
-bool tracesRays(const RenderSettings& s) {
+bool castsTexelRays(const RenderSettings& s) {
     return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
+}
+
+TracedScene tracedBy(const RenderSettings& s) {
+    constexpr std::array kWithMaps = {Technique::kAreaLights, Technique::kStochastic, Technique::kIsm,
+                                      Technique::kRsmc, Technique::kAcrsm};
+    const bool maps = s.bounce.ismAtlas.enabled && s.bounce.ismAtlas.traced;
+    if (castsTexelRays(s)) return TracedScene::kAll;
+    return maps && std::ranges::count(kWithMaps, s.technique) > 0 ? TracedScene::kStatic
+                                                                  : TracedScene::kNothing;
 }
 
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s) {

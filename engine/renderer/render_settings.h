@@ -8,6 +8,7 @@
 #include "engine/gpu/functions.h"
 #include "engine/renderer/composite.h"
 #include "engine/renderer/punctual_lighting.h"
+#include "engine/renderer/scene_trees.h"
 #include "engine/renderer/shadow_maps.h"
 #include "gi/published/interleaved_shading.h"
 #include "gi/published/ssvp.h"
@@ -57,8 +58,9 @@ struct RenderSettings {
 bool applyPreset(std::string_view name, RenderSettings& s);
 std::span<const std::string_view> presetNames();
 
-// Whether occluders are asked for as trees.
-bool tracesRays(const RenderSettings& settings);
+// Whether rays go to texels, and what rays of any kind are to meet.
+bool castsTexelRays(const RenderSettings& settings);
+TracedScene tracedBy(const RenderSettings& settings);
 
 // Smaller shadow maps where the device has no images of the size that was asked for.
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "engine/gpu/device_limits.h"
 #include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
 
@@ -15,6 +16,14 @@ uint64_t steadyNs() {
     return uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(
                         std::chrono::steady_clock::now().time_since_epoch())
                         .count());
+}
+
+// Fails (failure.h) on a device that cannot cast rays to texels.
+void checkTexelRays(const gpu::DeviceInfo& info) {
+    const uint32_t buffers = info.limits.maxPerStageDescriptorStorageBuffers;
+    if (info.storageTexels && buffers < gpu::kStorageBuffersOfRays)
+        gpu::failBeyondLimit("texel_rays.enabled", "maxPerStageDescriptorStorageBuffers",
+                             gpu::kStorageBuffersOfRays, buffers);
 }
 
 }  // namespace
@@ -109,7 +118,8 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     const RenderScene& scene = inOwnUnits(given);
     graph_.beginFrame(options);
     scene_.beginFrame(scene, jobs_);
-    SceneView view = scene_.import(graph_, scene, size, tracesRays(settings));
+    if (castsTexelRays(settings)) checkTexelRays(device_.info());
+    SceneView view = scene_.import(graph_, scene, size, tracedBy(settings));
     view.units = units_;
     view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     RenderSettings asked = settings;

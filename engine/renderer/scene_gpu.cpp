@@ -219,7 +219,7 @@ ViewSlots viewSlots(const RenderScene& scene) {
     return s;
 }
 
-SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size, bool trees) {
+SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size, TracedScene traced) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
@@ -262,7 +262,9 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
         view.staticSampleCount = staticSampleCount_;
         view.staticVersion = combineHash(combineHash(sampledSet_, staticVersion_), scene.originVersion);
     }
-    if (trees) view.trees = trees_.import(scope, scene);
+    if (traced != TracedScene::kNothing)
+        view.trees = trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion),
+                                   traced == TracedScene::kAll);
     view.camera = gi::addCamera(scope, "scene.camera", scene.camera, size);
     return view;
 }

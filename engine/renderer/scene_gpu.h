@@ -77,8 +77,8 @@ class SceneGpu {
 
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
-    // `trees`: for rays, too.
-    SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size, bool trees = false);
+    SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size,
+                     TracedScene traced = TracedScene::kNothing);
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     // `previous`: whether a pass reads where things were in the frame before.
     enum class Previous : uint8_t { kUnread, kKept };

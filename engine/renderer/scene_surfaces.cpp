@@ -73,7 +73,7 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
     for (const RenderInstance& instance : scene.instances) {
         instances.push_back({.worldFromLocal = instance.worldFromLocal,
                              .mesh = instance.primitive,
-                             .movable = instance.movable});
+                             .movable = instance.movable || instance.skinnedMesh != kNoSkinnedMesh});
         if (instance.skinnedMesh == kNoSkinnedMesh || deformed.positions.empty()) continue;
         instances.back().deformed =
             gi::Strided<glm::vec3>::of(verticesOf(scene, deformed, instance).positions);
@@ -103,8 +103,8 @@ gi::OccluderTrees buildTrees(const RenderScene& scene) {
     return withSampledScene(scene, [](const gi::SampledScene& s) { return gi::buildOccluderTrees(s); });
 }
 
-gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees) {
-    return gi::placeTrees(trees, instancesOf(scene, {}));
+gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers) {
+    return gi::placeTrees(trees, movers ? instancesOf(scene, {}) : std::vector<gi::SampledInstance>{});
 }
 
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,

@@ -12,6 +12,6 @@ gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
                                                 uint32_t count);
 gi::OccluderTrees buildTrees(const RenderScene& scene);
-gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees);
+gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers);
 
 }  // namespace ag::render

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/core/hash.h"
-#include "engine/gpu/device_limits.h"
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/scene_surfaces.h"
 
@@ -16,8 +15,9 @@ constexpr VkFormat kWords = VK_FORMAT_R32G32B32A32_UINT;
 uint64_t builtFrom(const RenderScene& scene) {
     uint64_t hash = scene.geometry->version;
     for (const RenderInstance& instance : scene.instances) {
-        hash = combineHash(hash, instance.primitive * 2 + instance.movable);
-        if (!instance.movable) hash = combineHash(hash, hashValue(instance.worldFromLocal));
+        const bool moves = instance.movable || instance.skinnedMesh != kNoSkinnedMesh;
+        hash = combineHash(hash, instance.primitive * 2 + moves);
+        if (!moves) hash = combineHash(hash, hashValue(instance.worldFromLocal));
     }
     return hash;
 }
@@ -37,11 +37,6 @@ std::unique_ptr<gpu::Buffer> roomFor(gpu::Device& device, std::unique_ptr<gpu::B
 }  // namespace
 
 void SceneTrees::build(const RenderScene& scene) {
-    const gpu::DeviceInfo& info = device_.info();
-    const uint32_t buffers = info.limits.maxPerStageDescriptorStorageBuffers;
-    if (info.storageTexels && buffers < gpu::kStorageBuffersOfRays)
-        gpu::failBeyondLimit("texel_rays.enabled", "maxPerStageDescriptorStorageBuffers",
-                             gpu::kStorageBuffersOfRays, buffers);
     trees_ = buildTrees(scene);
     gpu::retire(device_, std::move(nodes_));
     gpu::retire(device_, std::move(triangles_));
@@ -52,22 +47,36 @@ void SceneTrees::build(const RenderScene& scene) {
     ++builds_;
 }
 
-void SceneTrees::place(const RenderScene& scene) {
-    movers_ = placeTrees(scene, trees_);
+void SceneTrees::place(const RenderScene& scene, bool movers) {
+    movers_ = placeTrees(scene, trees_, movers);
     places_ = roomFor(device_, std::move(places_), "scene.tree_places", movers_.places);
     moverNodes_ = roomFor(device_, std::move(moverNodes_), "scene.mover_nodes", movers_.nodes);
     uploaded_ = false;
     ++placings_;
 }
 
-gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene) {
-    if (placedOf_ != scene.instancesVersion) {
+// Whether the trees are those of what is static now.
+bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion) {
+    if (staticVersion_ != staticVersion) {
         const uint64_t from = builtFrom(scene);
-        if (builtOf_ != from) build(scene);
-        builtOf_ = from;
-        place(scene);
-        placedOf_ = scene.instancesVersion;
+        if (from != wanted_) restedFrames_ = 0;
+        wanted_ = from;
+        staticVersion_ = staticVersion;
     }
+    if (builtOf_ == wanted_) return true;
+    if (builtOf_ != 0 && restedFrames_++ < kRestFrames) return false;
+    build(scene);
+    builtOf_ = wanted_;
+    placedOf_ = 0;
+    return true;
+}
+
+gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
+                                       bool movers) {
+    if (!follow(scene, staticVersion)) return {};
+    const uint64_t placing = combineHash(movers ? scene.instancesVersion : 0, movers + 1);
+    if (placedOf_ != placing) place(scene, movers);
+    placedOf_ = placing;
     return {.nodes = scope.importBuffer("scene.tree_nodes", *nodes_, builds_),
             .triangles = scope.importBuffer("scene.tree_triangles", *triangles_, builds_),
             .places = scope.importBuffer("scene.tree_places", *places_, placings_),

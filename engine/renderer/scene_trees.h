@@ -13,26 +13,36 @@
 
 namespace ag::render {
 
+// What of a scene rays are to meet.
+enum class TracedScene { kNothing, kStatic, kAll };
+
 class SceneTrees {
   public:
     explicit SceneTrees(gpu::Device& device) : device_(device) {}
 
-    // Of this frame. Blocking where static surfaces changed. Fails (failure.h) on a device that cannot trace
-    // rays.
-    gi::TracedOccluders import(GraphScope scope, const RenderScene& scene);
+    // Of this frame. Blocking where a scene is new. Where what is static is moved none, until it has rested
+    // for some frames: then they are built anew. `staticVersion`: changes when it may have moved. `movers`:
+    // whether rays are to meet what moves, too.
+    gi::TracedOccluders import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
+                               bool movers);
     using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
     void upload(Stage stage);
     // Another scene or other units follow.
-    void forget() { builtOf_ = placedOf_ = 0; }
+    void forget() { builtOf_ = wanted_ = staticVersion_ = placedOf_ = 0; }
     uint64_t deviceBytes() const;
 
   private:
     void build(const RenderScene& scene);
-    void place(const RenderScene& scene);
+    void place(const RenderScene& scene, bool movers);
+    bool follow(const RenderScene& scene, uint64_t staticVersion);
+    static constexpr uint32_t kRestFrames = 16;
 
     gpu::Device& device_;
-    uint64_t builtOf_ = 0;                // a hash of static surfaces and movable meshes; 0: of nothing
-    uint64_t placedOf_ = 0;               // RenderScene::instancesVersion
+    // Hashes of static surfaces and movable meshes: of those in the trees (0: none), and of the scene's.
+    uint64_t builtOf_ = 0, wanted_ = 0;
+    uint64_t staticVersion_ = 0;
+    uint32_t restedFrames_ = 0;
+    uint64_t placedOf_ = 0;               // a hash of RenderScene::instancesVersion
     uint64_t builds_ = 0, placings_ = 0;  // versions of the buffers
     gi::OccluderTrees trees_;
     gi::MoverTree movers_;

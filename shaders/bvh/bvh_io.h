@@ -19,6 +19,8 @@ const uint kBvhMostItems = 1u << 27;
 // A node, uvec4: least x y, least z most x, most y z (16 bits each), then of an inner node the node after its
 // subtree.
 
+const float kBvhOffset = 1e-4f;  // of rays' starts from their surfaces, in the scene's extent
+
 struct BvhTriangle {  // 3 vec4
     vec3 corner;
     float opacity;  // share of it that an alpha mask leaves

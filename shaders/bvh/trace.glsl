@@ -1,6 +1,7 @@
 // Rays through the occluders' trees, without a stack and without ray-tracing hardware: nodes are met in depth-first
 // order, a missed box leads to the node after its subtree. Before: UVEC4_TEXELS treeNodes, moverNodes and treePlaces
-// (common/texels.glsl); treeTriangles, a buffer of vec4 (BvhTriangle).
+// (common/texels.glsl); treeTriangles, a buffer of vec4 (BvhTriangle). What moves is traced with AG_BVH_MOVERS alone;
+// without it moverNodes is not needed.
 #ifndef AG_BVH_TRACE_GLSL
 #define AG_BVH_TRACE_GLSL
 
@@ -12,6 +13,7 @@ struct BvhRay {
     float reach;
     float opaqueFrom;  // triangles of less opacity let it through
     bool any;          // the first hit will do
+    int triangle;      // that was met
 };
 
 struct BvhGridRay {
@@ -49,6 +51,14 @@ float meetTriangle(BvhGridRay r, int triangle, float reach, float opaqueFrom) {
     return hit ? min(t, reach) : reach;
 }
 
+// Across a triangle of the tree, in the world; of any length.
+vec3 triangleNormal(int triangle, uint place) {
+    vec3 n = cross(treeTriangles.items[triangle * 3 + 1].xyz, treeTriangles.items[triangle * 3 + 2].xyz);
+    vec3 x = uintBitsToFloat(fetchTexel(treePlaces, int(place) * 4).xyz), y = uintBitsToFloat(fetchTexel(treePlaces, int(place) * 4 + 1).xyz);
+    vec3 z = uintBitsToFloat(fetchTexel(treePlaces, int(place) * 4 + 2).xyz);
+    return x * n.x + y * n.y + z * n.z;
+}
+
 #define AG_BVH_NODE_ITEMS(node) int((node).w >> kBvhCountShift & kBvhMostLeafItems)
 #define AG_BVH_NODE_FIRST(node) int((node).w & (kBvhMostItems - 1u))
 
@@ -66,12 +76,17 @@ void traceTree(inout BvhRay ray, uint place) {
         if (!found) break;
         float before = ray.reach;
         int first = AG_BVH_NODE_FIRST(node), count = AG_BVH_NODE_ITEMS(node);
-        for (int i = 0; i < count; ++i) ray.reach = meetTriangle(r, first + i, ray.reach, ray.opaqueFrom);
+        for (int i = 0; i < count; ++i) {
+            float reach = meetTriangle(r, first + i, ray.reach, ray.opaqueFrom);
+            ray.triangle = reach < ray.reach ? first + i : ray.triangle;
+            ray.reach = reach;
+        }
         if (ray.any && ray.reach < before) return;
     }
 }
 
-// Whether something is met; then ray.reach is where.
+#ifdef AG_BVH_MOVERS
+// Through all that is static and all that moves: whether something is met; then ray.reach is where.
 bool traceOccluders(inout BvhRay ray) {
     float before = ray.reach;
     traceTree(ray, kBvhStatic);
@@ -89,4 +104,5 @@ bool traceOccluders(inout BvhRay ray) {
     }
     return ray.reach < before;
 }
+#endif
 #endif

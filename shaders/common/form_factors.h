@@ -177,5 +177,20 @@ AG_FUNCTION vec2 layersBelow(float z, float thickness) {
     return vec2(share, (max(t, 0.0f) + log(1.0f + e)) / (perUnit * max(share, 1e-6f)));
 }
 
+// Whether a receiver, in the light's frame, is outside of a light whose texels bulge: 0 behind what they are
+// on, 1 before it. That is taken for a paraboloid within the light's outline, of the texels' mean second
+// moment in the plane [m²], whose heights have the deviation `thickness` (0.29 of what it falls in twice that
+// moment, over a disk), and whose top is `top` over the plane.
+AG_FUNCTION float outsideBulge(vec3 p, vec2 corners[8], float top, float thickness, float secondMoment) {
+    bool beside = false;
+    for (int i = 0; i < 8; ++i) {
+        vec2 a = corners[i], side = corners[(i + 1) % 8] - a;
+        beside = beside || side.x * (p.y - a.y) - side.y * (p.x - a.x) < 0.0f;
+    }
+    float height = top - thickness * (p.x * p.x + p.y * p.y) / max(1.2f * secondMoment, 1e-20f);
+    float t = clamp((p.z - height) / (0.5f * thickness), 0.0f, 1.0f);
+    return p.z < 0.0f ? 0.0f : beside ? 1.0f : t * t * (3.0f - 2.0f * t);
+}
+
 AG_END
 #endif

@@ -5,7 +5,7 @@
 // Closes the holes of listed regions. What lies behind shows through where disks do not meet: a texel beyond a plane that
 // its neighbours on two opposite sides share is a hole in that plane. What is empty then is filled by pull-push (Marroquim
 // et al. 2007; Ritschel et al. 2008): from the finest coarser level that was met there, whose texels are the lower medians
-// of four. Each lane has two by two texels.
+// of four. Each lane has two by two texels. Traced planes, whose distance is below 0, have no holes and close none.
 #include "common/texels.glsl"
 #include "ism_atlas/ism_map.glsl"
 #include "ism_atlas/lower_median.glsl"
@@ -18,6 +18,8 @@ layout(set = 0, binding = 0) VEC4_TEXELS(resolved);
 layout(set = 0, binding = 1, scalar) readonly buffer Listed { uint items[]; } listed;
 layout(set = 0, binding = 2, scalar) writeonly buffer Planes { vec4 items[]; } planes;
 
+layout(constant_id = 0) const bool kTraced = false;  // static surfaces are
+
 const float kMostApart = 0.05;  // of two texels' planes for one, relative
 
 // What the map holds at a texel: its own or, where that is beyond the plane of a and b, that one.
@@ -25,7 +27,7 @@ void closeBetween(vec4 a, vec4 b, vec3 direction, inout vec4 texel) {
     vec3 apart = a.xyz - b.xyz;
     bool onePlane = a.w > 0.0 && b.w > 0.0 && dot(apart, apart) <= kMostApart * kMostApart * dot(a.xyz, a.xyz);
     float along = dot(a.xyz, direction);
-    bool beyond = along > 0.0 && (texel.w <= 0.0 || ismBeyond(along * texel.w, int(push.p.tileSize)));
+    bool beyond = along > 0.0 && (texel.w == 0.0 || ismBeyond(along * abs(texel.w), int(push.p.tileSize)));
     if (onePlane && beyond) texel = vec4(a.xyz, 1.0 / along);
 }
 
@@ -60,13 +62,8 @@ void pull(uint i) {
                                                level[levelTexel(i - 1, 2 * at + uvec2(0, 1))], level[levelTexel(i - 1, 2 * at + 1)]);
 }
 
-void main() {
-    IsmRegion region = regionOf(listed.items[gl_WorkGroupID.x]);
-    int size = int(push.p.tileSize);
-    uvec2 at = gl_LocalInvocationID.xy;
-    ivec2 corner = ivec2(region.first + 2 * at);
-    vec4 quad[4];
-    [[unroll]] for (int i = 0; i < 4; ++i) quad[i] = closed(region.map, corner + ivec2(i & 1, i >> 1), size);
+// What a lane's empty texels are filled with; all lanes ask.
+vec4 pulledPlane(uvec2 at, vec4 quad[4]) {
     level[levelTexel(0, at)] = lowerMedian(quad[0], quad[1], quad[2], quad[3]);
     for (uint i = 1; i < kLevels; ++i) {
         barrier();
@@ -79,8 +76,20 @@ void main() {
         bool coarser = push.p.tileSize >> (i + 1) >= kCoarsestSide;
         if (behind.w <= 0.0 && coarser) behind = coarse;
     }
+    return behind;
+}
+
+void main() {
+    IsmRegion region = regionOf(listed.items[gl_WorkGroupID.x]);
+    int size = int(push.p.tileSize);
+    uvec2 at = gl_LocalInvocationID.xy;
+    ivec2 corner = ivec2(region.first + 2 * at);
+    vec4 quad[4];
+    [[unroll]] for (int i = 0; i < 4; ++i) quad[i] = closed(region.map, corner + ivec2(i & 1, i >> 1), size);
+    vec4 behind = kTraced ? vec4(0.0) : pulledPlane(at, quad);
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 place = corner + ivec2(i & 1, i >> 1);
-        planes.items[(int(region.map) * size + place.y) * size + place.x] = quad[i].w > 0.0 ? quad[i] : behind;
+        vec4 own = vec4(quad[i].xyz, abs(quad[i].w));
+        planes.items[(int(region.map) * size + place.y) * size + place.x] = own.w > 0.0 ? own : behind;
     }
 }

@@ -14,12 +14,14 @@ layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 layout(constant_id = 0) const bool kPlanes = true;  // else distances
 layout(constant_id = 2) const bool kMovable = false;  // some points may move
 layout(constant_id = 1) const bool kLast = false;   // nothing is closed: maps row by row
+layout(constant_id = 3) const bool kTraced = false;  // points are those of movable surfaces alone, over traced planes
 
 layout(set = 0, binding = 0) VEC4_TEXELS(points);
 layout(set = 0, binding = 1) VEC4_TEXELS(vals);
 layout(set = 0, binding = 2) UINT_TEXELS(keys);
 layout(set = 0, binding = 4) UINT_TEXELS(staticChosen);
 layout(set = 0, binding = 6) UINT_TEXELS(movableChosen);
+layout(set = 0, binding = 7) VEC4_TEXELS(tracedPlanes);
 layout(set = 0, binding = 5, scalar) readonly buffer Listed { uint items[]; } listed;
 layout(set = 0, binding = 3, scalar) writeonly buffer Planes { vec4 items[]; } planes;
 
@@ -54,6 +56,9 @@ void main() {
     vec3 normal = kPlanes ? toLight(light, normalAndRadius.xyz) : p / max(length(p), 1e-20);
     vec3 m = planeThrough(p, normal);
     uvec2 at = region.first + uvec2(gl_LocalInvocationID.x % kIsmRegionSide, gl_LocalInvocationID.x / kIsmRegionSide);
-    uint to = kLast ? (map * push.p.tileSize + at.y) * push.p.tileSize + at.x : texel;
-    planes.items[to] = key == kIsmNoPoint ? vec4(0.0) : vec4(m, distance_);
+    uint row = (map * push.p.tileSize + at.y) * push.p.tileSize + at.x;
+    vec4 behind = kTraced ? fetchTexel(tracedPlanes, int(row)) : vec4(0.0);
+    bool met = key != kIsmNoPoint && (behind.w <= 0.0 || distance_ < behind.w);
+    if (!kLast) behind.w = -behind.w;  // closes no hole
+    planes.items[kLast ? row : texel] = met ? vec4(m, distance_) : behind;
 }

@@ -38,6 +38,7 @@ layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
 layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;  // W/m²; a: 1 + the entry of the light drawn, 0: none, kNoRays
 layout(set = 0, binding = 20, scalar) readonly buffer Youngest { float items[]; } youngest;
 
+#define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
 #include "texel_rays/blocks.glsl"
 #include "texel_rays/rsm_lookup.glsl"
@@ -113,7 +114,7 @@ vec3 sentByDrawn(Receiver r, Drawn d, inout uint random, out vec3 toTexel) {
 
 bool isSeen(Receiver r, vec3 toTexel, float opaqueFrom) {
     vec3 start = r.normal * push.p.offset;
-    BvhRay ray = BvhRay(r.position + start, toTexel - start, 1.0, opaqueFrom, true);
+    BvhRay ray = BvhRay(r.position + start, toTexel - start, 1.0, opaqueFrom, true, 0);
     return !traceOccluders(ray);
 }
 
@@ -126,7 +127,7 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 
 vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
     vec3 direction = cosineDirection(r.normal, xi);
-    BvhRay ray = BvhRay(r.position + r.normal * push.p.offset, direction, push.p.reach, opaqueFrom, false);
+    BvhRay ray = BvhRay(r.position + r.normal * push.p.offset, direction, push.p.reach, opaqueFrom, false, 0);
     if (!traceOccluders(ray)) return vec3(0.0);
     vec3 place = ray.origin + direction * ray.reach, e = vec3(0.0);
     for (uint map = 0; map < push.p.mapCount; ++map) {

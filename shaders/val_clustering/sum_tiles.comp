@@ -24,6 +24,7 @@ layout(set = 0, binding = 7, scalar) buffer PartialCount { uint count; } partial
 
 const uint kTileTexels = kRsmTileSize * kRsmTileSize;
 const float kNever = -3.0e38;
+const uint kNoTexel = 0x7f7fffffu;  // as far as can be
 
 struct Sums {
     vec4 fluxArea;       // flux, area
@@ -33,6 +34,7 @@ struct Sums {
     vec3 momentMixed;    // w * offset products xy, xz, yz
     vec3 areaOffset;     // area * offset
     float before;        // most along the seed's normal
+    uint nearest;        // to the seed: squared distance, the last eight bits the texel in the tile
     float most[kExtremes];
     uint farthest[kExtremes];  // texel in the tile
 };
@@ -69,6 +71,8 @@ void addTexel(inout Sums sums, bool isMember, Frame frame, vec4 a, vec4 b, vec3 
     sums.momentDiagonal += weighted * offset;
     sums.momentMixed += weighted.xxy * offset.yzz;
     sums.areaOffset += offset * (a.w * mine);
+    uint near = floatBitsToUint(dot(offset, offset)) & ~(kTileTexels - 1) | texel;
+    sums.nearest = min(sums.nearest, isMember ? near : kNoTexel);
     measureExtent(sums, isMember, frame, offset, texel);
 }
 
@@ -77,6 +81,7 @@ Sums noTexels() {
     sums.fluxArea = sums.offsetWeight = sums.normalCount = vec4(0.0);
     sums.momentDiagonal = sums.momentMixed = sums.areaOffset = vec3(0.0);
     sums.before = kNever;
+    sums.nearest = kNoTexel;
     for (int i = 0; i < int(kExtremes); ++i) {
         sums.most[i] = kNever;
         sums.farthest[i] = 0;
@@ -93,6 +98,7 @@ Sums addLanes(Sums s) {
     s.momentMixed = laneAdd(s.momentMixed);
     s.areaOffset = laneAdd(s.areaOffset);
     s.before = laneMax(s.before);
+    s.nearest = laneMin(s.nearest);
     [[unroll]] for (int i = 0; i < int(kExtremes); ++i) {
         float most = laneMax(s.most[i]);
         s.farthest[i] = laneMin(s.most[i] == most ? s.farthest[i] : kTileTexels - 1);
@@ -107,7 +113,7 @@ void store(uint at, Sums s) {
     partials.items[at + 2] = s.normalCount;
     partials.items[at + 3] = vec4(s.momentDiagonal, s.before);
     partials.items[at + 4] = vec4(s.momentMixed, 0.0);
-    partials.items[at + 5] = vec4(s.areaOffset, 0.0);
+    partials.items[at + 5] = vec4(s.areaOffset, uintBitsToFloat(s.nearest));
     [[unroll]] for (int i = 0; i < 2; ++i) {
         partials.items[at + 6 + i] = vec4(s.most[4 * i], s.most[4 * i + 1], s.most[4 * i + 2], s.most[4 * i + 3]);
         partials.items[at + 8 + i] =

@@ -57,12 +57,15 @@ struct Gathered {
     vec4 sums[kSumVec4s];
     Extreme extremes[kExtremes];
     float before;
+    uint nearest, nearestTexel;  // squared distance of bits of a float; of the atlas
 };
 
 void addTile(inout Gathered g, uint cluster, uint tile) {
     int at = int(fetchTexel(partialOf, int(tile * push.settings.clusterCount + cluster)).x * kPartialVec4s);
     for (int i = 0; i < kSumVec4s; ++i) g.sums[i] += fetchTexel(partials, at + i);
     g.before = max(g.before, fetchTexel(partials, at + 3).w);
+    uint nearest = floatBitsToUint(fetchTexel(partials, at + 5).w), inTile = nearest & (kRsmTileSize * kRsmTileSize - 1);
+    if (nearest < g.nearest) g.nearest = nearest, g.nearestTexel = rsmTexelIndex(tile, inTile);
     for (int i = 0; i < int(kExtremes); ++i) {
         float reach = fetchTexel(partials, at + kSumVec4s + i / 4)[i % 4];
         uint texel = rsmTexelIndex(tile, uint(fetchTexel(partials, at + kSumVec4s + 2 + i / 4)[i % 4]));
@@ -75,6 +78,7 @@ Gathered gather(uint cluster) {
     for (int i = 0; i < kSumVec4s; ++i) g.sums[i] = vec4(0.0);
     for (int i = 0; i < int(kExtremes); ++i) g.extremes[i] = Extreme(-3.0e38, 0);
     g.before = -3.0e38;
+    g.nearest = g.nearestTexel = 0xffffffffu;
     uint tileCount = (push.settings.atlasSize.x / kRsmTileSize) * (push.settings.atlasSize.y / kRsmTileSize);
     for (uint first = 0; first < tileCount; first += kBatch) {
         uint found = findTiles(cluster, first, tileCount);
@@ -92,6 +96,8 @@ void main() {
     ClusterExtent extent;
     for (int i = 0; i < int(kExtremes); ++i) extent.texels[i] = farthestTexel(g.extremes[i]);
     float before = laneMax(g.before);
+    uint nearest = laneMin(g.nearest);
+    extent.nearest = laneMin(g.nearest == nearest ? g.nearestTexel : 0xffffffffu);
     if (laneIndex() != 0) return;
 
     ClusterSeed seed = seeds.items[cluster];
@@ -116,5 +122,6 @@ void main() {
     float deviation = sqrt(max(dot(c.normal, covarianceOf(c) * c.normal), 0.0));
     extent.before = clamp(before - dot(offset, seed.normal), 0.0, kMostDeviations * deviation);
     extent.areaCentre = empty ? vec3(0.0) : sums[5].xyz / max(c.area, 1e-38) - offset;
+    extent.spare = uint[](0u, 0u, 0u);
     extents.items[cluster] = extent;
 }

@@ -42,10 +42,12 @@ struct Cluster {       // 6 vec4: the state after a step
     float cosineSpread;    // |mean of normals| before normalising: 1 flat, 0 all round
 };
 
-struct ClusterExtent {       // 3 vec4: how far a cluster's texels reach from it
+struct ClusterExtent {       // 4 vec4: how far a cluster's texels reach from it
     uint texels[kExtremes];  // the farthest ones, in the directions' order
     float before;            // m, before the plane through the centre
     vec3 areaCentre;         // m, from the centre: the mean of its texels' places by area
+    uint nearest;            // the texel nearest to where the cluster was a step ago
+    uint spare[3];
 };
 
 struct ClusterError {  // what one light instead of its texels gets wrong

@@ -12,7 +12,7 @@ struct Val {          // 3 vec4; black lights pad the list to whole subgroups
     vec3 position;    // m
     float area;       // m²
     vec3 normal;      // unit
-    float thickness;  // m, deviation of its texels from the plane, by flux
+    float thickness;  // m, deviation of its texels from the plane, by flux; below 0 where it bulges
     vec3 flux;        // W
     float before;     // m, its texels reach before the plane through the centre
 };
@@ -32,6 +32,14 @@ struct ValShapeVectors {
 };
 
 const uint kValShapeVec4s = 7;
+
+struct ValFitPush {
+    uint clusterCount;
+    uint valCount;  // with padding
+    uint atlasWidth;
+    uint known;    // 1: there are lights of the step before
+    float offset;  // m, of rays from surfaces
+};
 
 #ifdef __cplusplus
 }  // namespace ag::io

@@ -40,7 +40,7 @@ uvec2 sortLights(uint tile, Box box, uint firstVal, uint valCount, float nearRea
         vec4 normal = fetchTexel(vals, at * 3 + 1);  // and thickness
         bool lit = fetchTexel(vals, at * 3 + 2).rgb != vec3(0.0) && any && light < valCount;
         vec3 d = middle - place;
-        bool reaches = lit && dot(d, normal.xyz) + dot(half_, abs(normal.xyz)) > -kDeepest * normal.w;
+        bool reaches = lit && dot(d, normal.xyz) + dot(half_, abs(normal.xyz)) > -kDeepest * abs(normal.w);
         vec3 apart = max(abs(d) - half_, vec3(0.0));
         vec3 halfU = fetchTexel(shapes, at * int(kValShapeVec4s)).xyz;
         float reach = nearReach * length(halfU);

@@ -40,13 +40,17 @@ struct MapLookup {
 glm::vec3 polygonIrradiance(const AreaLightRead& light, const Receiver& at) {
     const LightFrame frame(light.val.normal);
     glm::vec3 p = frame.of(at.position - light.val.position);
-    float below = 1;
-    if (light.val.thickness > 0.25f * at.width) {
-        const glm::vec2 layers = io::layersBelow(p.z, light.val.thickness);
-        below = layers.x, p.z = layers.y;
-    }
     glm::vec2 corners[io::kValCorners];
     std::copy(std::begin(light.shape.corners), std::end(light.shape.corners), corners);
+    float below = 1;
+    const float thickness = std::abs(light.val.thickness);
+    if (thickness > 0.25f * at.width) {
+        const glm::vec2 layers = io::layersBelow(p.z, thickness);
+        below = layers.x;
+        if (light.val.thickness < 0)
+            below *= io::outsideBulge(p, corners, light.val.before, thickness, light.shape.gradient.w);
+        p.z = layers.y;
+    }
     const float factor =
         io::polygonVectorFactor(p, frame.of(at.normal), corners, light.shape.gradient, 0.25f * at.width);
     return light.val.flux * (light.shape.inversePolygon * below * factor);
