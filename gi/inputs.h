@@ -45,8 +45,10 @@ struct RsmLight {
 
 // Occluders as trees for rays (shaders/bvh/bvh_io.h); see OccluderTrees.
 struct TracedOccluders {
-    BufferHandle nodes, triangles;    // texel buffer of uvec4; io::BvhTriangle
-    BufferHandle places, moverNodes;  // texel buffers of uvec4: io::BvhPlace, nodes; of this frame
+    BufferHandle nodes, triangles;  // texel buffer of uvec4; io::BvhTriangle
+    // Texel buffers of uvec4 of this frame: io::BvhPlace; nodes over what moves, invalid where that is left
+    // out.
+    BufferHandle places, moverNodes;
     explicit operator bool() const { return bool(nodes); }
 };
 

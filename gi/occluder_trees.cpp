@@ -123,7 +123,26 @@ Bounds transformed(const glm::mat4x3& m, const Bounds& b) {
 
 }  // namespace
 
-OccluderTrees buildOccluderTrees(const SampledScene& scene) {
+TreeUpkeep::Task TreeUpkeep::next(uint64_t version) {
+    constexpr uint32_t kRestFrames = 16;
+    if (wanted_ != version) restedFrames_ = 0;
+    wanted_ = version;
+    if (built_ == version) return Task::kUse;
+    if (built_ != 0 && restedFrames_++ < kRestFrames) return Task::kNone;
+    built_ = version;
+    return Task::kBuild;
+}
+
+io::BvhPlace placeOf(const TreeRange& tree, const glm::mat4x3& treeFromWorld) {
+    io::BvhPlace place{};
+    if (tree.empty()) return place;
+    Grid(tree.bounds).place(treeFromWorld, place);
+    place.firstNode = tree.firstNode;
+    place.endNode = tree.endNode;
+    return place;
+}
+
+OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of) {
     OccluderTrees trees;
     trees.ofMesh.resize(scene.meshes.size());
     std::vector<Triangle> triangles;
@@ -132,6 +151,7 @@ OccluderTrees buildOccluderTrees(const SampledScene& scene) {
             appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions,
                             instance.worldFromLocal, triangles);
     trees.everythingStatic = append(trees, triangles);
+    if (of == TreesOf::kStatic) return trees;
     for (const SampledInstance& instance : scene.instances) {
         if (!instance.movable || !trees.ofMesh[instance.mesh].empty()) continue;
         triangles.clear();
@@ -145,13 +165,7 @@ OccluderTrees buildOccluderTrees(const SampledScene& scene) {
 MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> instances) {
     MoverTree result;
     result.places.resize(io::kBvhFirstMover);
-    const auto fill = [](io::BvhPlace& place, const TreeRange& range, const glm::mat4x3& localFromWorld) {
-        Grid(range.bounds).place(localFromWorld, place);
-        place.firstNode = range.firstNode;
-        place.endNode = range.endNode;
-    };
-    if (!trees.everythingStatic.empty())
-        fill(result.places[io::kBvhStatic], trees.everythingStatic, glm::mat4x3(1));
+    result.places[io::kBvhStatic] = placeOf(trees.everythingStatic, glm::mat4x3(1));
     std::vector<const SampledInstance*> movers;
     std::vector<Bounds> boxes;
     for (const SampledInstance& instance : instances) {
@@ -169,10 +183,10 @@ MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance
     const Grid grid(range.bounds);
     for (const BvhNode& node : bvh.nodes)
         result.nodes.push_back(packed(node, grid, 0, 0));
-    fill(result.places[io::kBvhMovers], range, glm::mat4x3(1));
+    result.places[io::kBvhMovers] = placeOf(range, glm::mat4x3(1));
     for (const uint32_t item : bvh.order) {
         const SampledInstance& mover = *movers[item];
-        fill(result.places.emplace_back(), trees.ofMesh[mover.mesh], inverseOf(mover.worldFromLocal));
+        result.places.push_back(placeOf(trees.ofMesh[mover.mesh], inverseOf(mover.worldFromLocal)));
     }
     return result;
 }

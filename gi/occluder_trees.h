@@ -23,9 +23,28 @@ struct OccluderTrees {
     std::vector<TreeRange> ofMesh;  // in the mesh's own coordinates; empty of those that nothing movable has
 };
 
-// Of all surfaces that block light. The cost is that of sorting all triangles some 18 times: half a second
-// for 250,000 on one core.
-OccluderTrees buildOccluderTrees(const SampledScene& scene);
+enum class TreesOf { kStatic, kAll };
+
+// Of all surfaces that block light, or of static ones alone. The cost is that of sorting all triangles some
+// 18 times: half a second for 250,000 on one core.
+OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of = TreesOf::kAll);
+
+// When trees are built: at once for what is new, else when what is static has not changed for some frames, as
+// long as it moves there are none.
+class TreeUpkeep {
+  public:
+    enum class Task { kNone, kUse, kBuild };
+    // Once a frame. `version`: of what is static; never 0.
+    Task next(uint64_t version);
+    void forget() { *this = {}; }
+
+  private:
+    uint64_t built_ = 0, wanted_ = 0;
+    uint32_t restedFrames_ = 0;
+};
+
+// Where rays from other coordinates meet a tree.
+io::BvhPlace placeOf(const TreeRange& tree, const glm::mat4x3& treeFromWorld);
 
 struct MoverTree {
     std::vector<glm::uvec4> nodes;  // items: movable instances, in the order of places from kBvhFirstMover on

@@ -234,7 +234,7 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
 Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const TexelRaysInputs& in,
                         const ValShadingSettings& shading, const TexelRaysSettings& s,
                         TexelRaysHistory& history) {
-    if (!s.enabled || !areaLights.image || !in.occluders.trees) return areaLights;
+    if (!s.enabled || !areaLights.image || !in.occluders.trees.moverNodes) return areaLights;
     const uint64_t seen =
         combineHash(in.rsm.inputsVersion, combineHash(in.versions.camera, in.versions.instances));
     const uint32_t step = history.settling.advance(seen, s.settleFrames);

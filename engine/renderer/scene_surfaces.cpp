@@ -99,8 +99,8 @@ gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
     return withSampledScene(scene, [&](const gi::SampledScene& s) { return gi::sampleSurfaces(s, count); });
 }
 
-gi::OccluderTrees buildTrees(const RenderScene& scene) {
-    return withSampledScene(scene, [](const gi::SampledScene& s) { return gi::buildOccluderTrees(s); });
+gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of) {
+    return withSampledScene(scene, [of](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of); });
 }
 
 gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers) {

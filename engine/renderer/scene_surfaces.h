@@ -11,7 +11,7 @@ namespace ag::render {
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
                                                 uint32_t count);
-gi::OccluderTrees buildTrees(const RenderScene& scene);
+gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of = gi::TreesOf::kAll);
 gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers);
 
 }  // namespace ag::render

@@ -57,18 +57,14 @@ void SceneTrees::place(const RenderScene& scene, bool movers) {
 
 // Whether the trees are those of what is static now.
 bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion) {
-    if (staticVersion_ != staticVersion) {
-        const uint64_t from = builtFrom(scene);
-        if (from != wanted_) restedFrames_ = 0;
-        wanted_ = from;
-        staticVersion_ = staticVersion;
+    if (staticVersion_ != staticVersion) from_ = builtFrom(scene);
+    staticVersion_ = staticVersion;
+    const gi::TreeUpkeep::Task task = upkeep_.next(from_);
+    if (task == gi::TreeUpkeep::Task::kBuild) {
+        build(scene);
+        placedOf_ = 0;
     }
-    if (builtOf_ == wanted_) return true;
-    if (builtOf_ != 0 && restedFrames_++ < kRestFrames) return false;
-    build(scene);
-    builtOf_ = wanted_;
-    placedOf_ = 0;
-    return true;
+    return task != gi::TreeUpkeep::Task::kNone;
 }
 
 gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,

@@ -28,22 +28,22 @@ class SceneTrees {
     using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
     void upload(Stage stage);
     // Another scene or other units follow.
-    void forget() { builtOf_ = wanted_ = staticVersion_ = placedOf_ = 0; }
+    void forget() {
+        upkeep_.forget();
+        staticVersion_ = placedOf_ = 0;
+    }
     uint64_t deviceBytes() const;
 
   private:
     void build(const RenderScene& scene);
     void place(const RenderScene& scene, bool movers);
     bool follow(const RenderScene& scene, uint64_t staticVersion);
-    static constexpr uint32_t kRestFrames = 16;
 
     gpu::Device& device_;
-    // Hashes of static surfaces and movable meshes: of those in the trees (0: none), and of the scene's.
-    uint64_t builtOf_ = 0, wanted_ = 0;
-    uint64_t staticVersion_ = 0;
-    uint32_t restedFrames_ = 0;
-    uint64_t placedOf_ = 0;               // a hash of RenderScene::instancesVersion
-    uint64_t builds_ = 0, placings_ = 0;  // versions of the buffers
+    gi::TreeUpkeep upkeep_;
+    uint64_t staticVersion_ = 0, from_ = 0;  // from_: a hash of static surfaces and movable meshes
+    uint64_t placedOf_ = 0;                  // a hash of RenderScene::instancesVersion
+    uint64_t builds_ = 0, placings_ = 0;     // versions of the buffers
     gi::OccluderTrees trees_;
     gi::MoverTree movers_;
     bool uploaded_ = true;

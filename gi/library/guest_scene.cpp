@@ -61,6 +61,7 @@ void GuestScene::setInstance(const GuestInstance& given) {
         ++meshes_[given.mesh].instances;
         ++setVersion_;
     }
+    if (!old.movable || !given.movable) ++staticMoves_;
     old = given;
     old.moved = ++movedVersion_;
 }
@@ -116,13 +117,17 @@ const GuestScene::DoubleBounds& GuestScene::bounds() {
     return bounds_;
 }
 
-const GuestPoints& GuestScene::points() {
-    if (points_.set == setVersion_) return points_;
+glm::dvec3 GuestScene::middle() {
+    const DoubleBounds& all = bounds();
+    return instances_.empty() ? glm::dvec3(0) : 0.5 * (all.min + all.max);
+}
+
+// Passes all surfaces on, about `middle`, in m.
+template <class Use>
+void GuestScene::withSurfaces(glm::dvec3 middle, Use&& use) {
     std::vector<gi::SampledMesh> meshes;
     for (const GuestMesh& mesh : meshes_)
         meshes.push_back(sampledOf(mesh));
-    const DoubleBounds& all = bounds();
-    const glm::dvec3 middle = instances_.empty() ? glm::dvec3(0) : 0.5 * (all.min + all.max);
     std::vector<gi::SampledInstance> instances;
     for (const GuestInstance& instance : instances_)
         instances.push_back(
@@ -136,17 +141,35 @@ const GuestPoints& GuestScene::points() {
         const GuestMaterial& m = materials_[meshes_[mesh].given.material];
         return m.alphaCutoff > 0 && float(io::hashUint(++number) >> 8) * 0x1p-24f >= m.coverage;
     };
+    const DoubleBounds& all = bounds();
     const Bounds box{glm::vec3(all.min - middle), glm::vec3(all.max - middle)};
-    GuestPoints fresh{.set = setVersion_};
-    fresh.samples = gi::sampleSurfaces({meshes, instances, box, isCutOut}, kSurfaceSamples);
+    use(gi::SampledScene{meshes, instances, box, isCutOut});
+}
+
+const GuestPoints& GuestScene::points() {
+    if (points_.set == setVersion_) return points_;
     const auto albedoAt = [&](uint32_t instance, glm::vec2) {
         const GuestMaterial& m = materials_[meshes_[instances_[instance].mesh].given.material];
         return m.map ? m.albedo * m.mean : m.albedo;
     };
-    if (!fresh.samples.samples.empty())
-        fresh.bounces = gi::chooseBouncePoints(instances, fresh.samples, albedoAt, kBouncePoints);
+    GuestPoints fresh{.set = setVersion_};
+    withSurfaces(middle(), [&](const gi::SampledScene& scene) {
+        fresh.samples = gi::sampleSurfaces(scene, kSurfaceSamples);
+        if (!fresh.samples.samples.empty())
+            fresh.bounces = gi::chooseBouncePoints(scene.instances, fresh.samples, albedoAt, kBouncePoints);
+    });
     points_ = std::move(fresh);
     return points_;
+}
+
+const GuestTrees& GuestScene::trees() {
+    if (trees_.version == staticVersion()) return trees_;
+    GuestTrees fresh{.version = staticVersion(), .middle = middle()};
+    withSurfaces(fresh.middle, [&](const gi::SampledScene& scene) {
+        fresh.trees = gi::buildOccluderTrees(scene, gi::TreesOf::kStatic);
+    });
+    trees_ = std::move(fresh);
+    return trees_;
 }
 
 }  // namespace ag::guest

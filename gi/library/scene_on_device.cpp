@@ -10,6 +10,7 @@
 namespace ag::guest {
 namespace {
 
+constexpr VkFormat kWords = VK_FORMAT_R32G32B32A32_UINT;
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 at, float perMetre) {
@@ -23,7 +24,8 @@ io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 a
 }  // namespace
 
 SceneOnDevice::~SceneOnDevice() {
-    for (auto* buffer : {&instances_, &samples_, &pointAreas_, &bouncePoints_})
+    for (auto* buffer :
+         {&instances_, &samples_, &pointAreas_, &bouncePoints_, &treeNodes_, &treeTriangles_, &treePlace_})
         gpu::retire(context_, std::move(*buffer));
 }
 
@@ -32,6 +34,7 @@ bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
     if (other) {
         scene_ = scene.id();
         setVersion_ = movedVersion_ = lightsVersion_ = pointsSet_ = 0;
+        upkeep_.forget();
         originIsChosen_ = false;
         units_ = {};
         extent_ = 0;
@@ -44,6 +47,7 @@ bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
     allAnew_ = allAnew_ || setVersion_ != scene.setVersion() || !(units_ == before);
     takePoints(scene);
     takeInstances(scene);
+    takeTrees(scene);
     takeLights(scene);
     return other || !(units_ == before);
 }
@@ -151,6 +155,32 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
     movedVersion_ = scene.movedVersion();
 }
 
+// They lie about a place of their own in the world, in m: only where that is changes with origin and units.
+void SceneOnDevice::takeTrees(GuestScene& scene) {
+    using enum gi::TreeUpkeep::Task;
+    const auto task = upkeep_.next(scene.staticVersion());
+    treesVersion_ = task == kNone ? 0 : scene.staticVersion();
+    if (task == kNone) return;
+    const GuestTrees& trees = scene.trees();
+    if (task == kBuild) {
+        for (auto* buffer : {&treeNodes_, &treeTriangles_})
+            gpu::retire(context_, std::move(*buffer));
+        treeNodes_ = make("guest.tree_nodes", std::span<const glm::uvec4>(trees.trees.nodes), kWords);
+        treeTriangles_ =
+            make("guest.tree_triangles", std::span<const io::BvhTriangle>(trees.trees.triangles), kWords);
+    }
+    const glm::dvec3 from = origin_ - trees.middle;
+    const uint64_t placed =
+        combineHash(treesVersion_, combineHash(hashValue(from), hashValue(units_.length)));
+    if (treesPlaced_ == placed) return;
+    treesPlaced_ = placed;
+    glm::mat4x3 treeFromOurs(units_.length);
+    treeFromOurs[3] = glm::vec3(from);
+    const io::BvhPlace place = gi::placeOf(trees.trees.everythingStatic, treeFromOurs);
+    gpu::retire(context_, std::move(treePlace_));
+    treePlace_ = make("guest.tree_place", std::span(&place, 1), kWords);
+}
+
 void SceneOnDevice::takeLights(const GuestScene& scene) {
     const float perMetre = 1 / units_.length, perWatt = 1 / units_.light;
     lightsVersion_ = scene.lightsVersion();
@@ -220,6 +250,10 @@ gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
     o.pointAreas = scope.importBuffer("guest.point_areas", *pointAreas_, pointsSet_);
     o.bouncePoints = scope.importBuffer("guest.bounce_points", *bouncePoints_, pointsSet_);
     o.bouncePointCount = bounceCount_;
+    if (treesVersion_ != 0)
+        o.trees = {.nodes = scope.importBuffer("guest.tree_nodes", *treeNodes_, treesVersion_),
+                   .triangles = scope.importBuffer("guest.tree_triangles", *treeTriangles_, treesVersion_),
+                   .places = scope.importBuffer("guest.tree_place", *treePlace_, treesPlaced_)};
     return o;
 }
 

@@ -43,6 +43,7 @@ class SceneOnDevice {
     void chooseUnits(GuestScene& scene);
     void takeInstances(GuestScene& scene);
     void takePoints(GuestScene& scene);
+    void takeTrees(GuestScene& scene);
     void takeLights(const GuestScene& scene);
     void stage(std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset);
     template <class T>
@@ -63,6 +64,10 @@ class SceneOnDevice {
     std::unique_ptr<gpu::Buffer> instances_, samples_, pointAreas_, bouncePoints_;
     uint32_t sampleCount_ = 0, staticCount_ = 0, bounceCount_ = 0;
     uint64_t pointsSet_ = 0;
+    gi::TreeUpkeep upkeep_;
+    std::unique_ptr<gpu::Buffer> treeNodes_, treeTriangles_, treePlace_;
+    uint64_t treesVersion_ = 0;  // of what is in them; 0: they are not to be used
+    uint64_t treesPlaced_ = 0;   // a hash of that and of where they stand
     std::vector<Bounds> rowBounds_;
     std::vector<uint64_t> rowVersions_;
     std::vector<gi::RsmLight> lights_;

@@ -20,6 +20,7 @@ TEST(SteadyFrame, AllocatesNothingWhileThingsMove) {
     const glm::uvec2 size(96, 54);
     Renderer renderer(**device);
     renderer.load(asset.geometry);
+    scene.instances.back().movable = true;
     const RenderSettings settings;
     CameraPose pose = cameraOf(asset, 0);
     uint64_t ran = 0;
