@@ -188,7 +188,7 @@ AG_FUNCTION float outsideBulge(vec3 p, vec2 corners[8], float top, float thickne
         beside = beside || side.x * (p.y - a.y) - side.y * (p.x - a.x) < 0.0f;
     }
     float height = top - thickness * (p.x * p.x + p.y * p.y) / max(1.2f * secondMoment, 1e-20f);
-    float t = clamp((p.z - height) / (0.5f * thickness), 0.0f, 1.0f);
+    float t = clamp((p.z - height) / (0.5f * thickness) - 0.5f, 0.0f, 1.0f);
     return p.z < 0.0f ? 0.0f : beside ? 1.0f : t * t * (3.0f - 2.0f * t);
 }
 

@@ -130,5 +130,45 @@ TEST(OccluderTrees, NothingIsNoTree) {
     EXPECT_EQ(movers.places[io::kBvhStatic].endNode, 0u);
 }
 
+// What is new at once, what moves not before it has rested.
+TEST(TreeUpkeep, BuildsWhatHasRested) {
+    using enum TreeUpkeep::Task;
+    TreeUpkeep upkeep;
+    EXPECT_EQ(upkeep.next(7), kBuild);
+    EXPECT_EQ(upkeep.next(7), kUse);
+    for (uint64_t version = 8; version < 60; ++version)
+        EXPECT_EQ(upkeep.next(version), kNone) << "it moves each frame";
+    int frames = 1;
+    while (upkeep.next(59) == kNone)
+        ++frames;
+    EXPECT_EQ(frames, 16);
+    EXPECT_EQ(upkeep.next(59), kUse);
+    EXPECT_EQ(upkeep.next(60), kNone);
+    EXPECT_EQ(upkeep.next(59), kUse) << "it went back";
+    upkeep.forget();
+    EXPECT_EQ(upkeep.next(60), kBuild);
+}
+
+// In a grid's coordinates places are where the tree's own coordinates say, whatever those of the rays.
+TEST(OccluderTrees, ArePlacedInOtherUnitsAndAboutOtherOrigins) {
+    const SceneAsset asset = *scenegen::buildScene("occluder", 0);
+    const OccluderTrees trees = render::buildTrees(staticScene(asset));
+    const float units = 0.25f;
+    const glm::vec3 origin(3, -2, 5), place(0.3f, 1.1f, -0.4f);
+    glm::mat4x3 treeFromOurs(units);
+    treeFromOurs[3] = origin;
+    const io::BvhPlace own = placeOf(trees.everythingStatic, glm::mat4x3(1)),
+                       other = placeOf(trees.everythingStatic, treeFromOurs);
+    const auto inGrid = [](const io::BvhPlace& p, glm::vec3 x) {
+        const glm::vec4 at(x, 1);
+        return glm::vec3(glm::dot(p.gridFromWorld0, at), glm::dot(p.gridFromWorld1, at),
+                         glm::dot(p.gridFromWorld2, at));
+    };
+    const glm::vec3 a = inGrid(own, place), b = inGrid(other, (place - origin) / units);
+    EXPECT_LT(glm::length(a - b), 0.02f) << "of 65,535 steps";
+    EXPECT_GT(glm::length(a), 100.0f);
+    EXPECT_EQ(own.endNode, other.endNode);
+}
+
 }  // namespace
 }  // namespace ag::gi

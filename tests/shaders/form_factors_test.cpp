@@ -261,6 +261,26 @@ TEST(FormFactors, AReceiverAmongTheLayersSeesThoseBelow) {
     EXPECT_LT(layered, 0.4 * plane);
 }
 
+// A half sphere lit from outside, as one light: its inside is behind it, places above and beside it are not.
+TEST(FormFactors, TheInsideOfADomeIsBehindIt) {
+    constexpr float kRadius = 2, kThick = 0.2f;
+    // Heights are spread evenly from 0 to the radius; the outline is a disk.
+    const float thickness = kRadius / std::sqrt(12.0f), top = 0.5f * kRadius;
+    const float secondMoment = 0.25f * kRadius * kRadius;
+    glm::vec2 corners[8];
+    for (int i = 0; i < 8; ++i)
+        corners[i] = kRadius * glm::vec2(std::cos(float(i) * 0.7853982f), std::sin(float(i) * 0.7853982f));
+    const auto outside = [&](vec3 p) { return io::outsideBulge(p, corners, top, thickness, secondMoment); };
+    for (float angle = 0.05f; angle < 1.57f; angle += 0.1f) {
+        const vec3 on(std::cos(angle), 0, std::sin(angle));
+        const vec3 centre(0, 0, -top);  // the light's plane is through the middle of the heights
+        EXPECT_EQ(outside(centre + (kRadius - kThick) * on), 0) << angle;
+    }
+    EXPECT_EQ(outside({0, 0, -top}), 0) << "the floor";
+    EXPECT_EQ(outside({0, 0, top + thickness}), 1);
+    EXPECT_EQ(outside({1.5f * kRadius, 0, 0.1f}), 1);
+}
+
 TEST(Sampling, HaltonFillsTheSquareEvenly) {
     std::array<int, 64> cells{};
     for (uint32_t i = 1; i <= 6400; ++i) {
