@@ -36,8 +36,11 @@ void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& 
     const uint64_t light = combineHash(f.rsm.inputsVersion, in.world.versions.instances);
     f.irradiance = addDenoiser(scope, downsampled, in.world.versions.origin, {f.irradiance, light, steps},
                                s.denoiser, h.denoiser);
-    f.irradiance = addUpsampling(scope, in.surfaces, downsampled, f.irradiance);
-    f.bounce1 = goesOn ? addUpsampling(scope, in.surfaces, downsampled, f.bounce1, kFirstBounceUpsampling)
+    const uint32_t taps = s.valShading.taps;
+    f.irradiance =
+        addUpsampling(scope, in.surfaces, downsampled, f.irradiance, kUpsampling, {f.vals, f.isms}, taps);
+    f.bounce1 = goesOn ? addUpsampling(scope, in.surfaces, downsampled, f.bounce1, kFirstBounceUpsampling,
+                                       {firstVals(f.vals, f.firstCount), f.isms}, taps)
                        : f.irradiance;
 }
 

@@ -4,11 +4,16 @@
 #include "shaders/upsampling/upsampling_io.h"
 
 namespace ag::gi {
+namespace {
 
-Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
-                         const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
+struct Upsampled {
+    Irradiance irradiance;
+    PixelList alone;
+};
+
+Upsampled addUpsampled(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                       const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
     const uint32_t spacing = downsampled.spacing / all.spacing;
-    if (!gathered.image || spacing == 1) return gathered;
     const io::PixelRays rays = pixelRays(all.view, all.size);
     const io::UpsamplingPush push{.rays = rays,
                                   .footprint = 2 * float(spacing) * glm::length(rays.down),
@@ -17,6 +22,7 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
     const ImageHandle result =
         scope.image(names.irradiance, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size});
     const PixelList lacking = addPixelList(scope, names.lacking, all.size);
+    const PixelList alone = addPixelList(scope, names.alone, all.size);
     const auto addPass = [&](std::string_view name, const char* shader) {
         PassBuilder pass = scope.compute(name, shader);
         pass.sample("normalMap", all.normal)
@@ -36,11 +42,47 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
         .readWrite("listedGroups", lacking.groups)
         .write("result", result)
         .dispatchThreads(all.size.x, all.size.y);
-    addPass(names.far, "upsampling/upsample_lacking.comp")
-        .read("lacking", lacking.pixels)
+    PassBuilder far = addPass(names.far, "upsampling/upsample_lacking.comp");
+    far.read("lacking", lacking.pixels)
+        .readWrite("listed", alone.pixels)
+        .readWrite("listedGroups", alone.groups)
         .readWrite("result", result)
         .dispatchIndirect(lacking.groups);
-    return {result, base.toward};
+    return {{result, base.toward}, alone};
+}
+
+bool isGatheredAtAll(const Surfaces& all, const Surfaces& downsampled, const Irradiance& gathered) {
+    return !gathered.image || downsampled.spacing == all.spacing;
+}
+
+}  // namespace
+
+Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                         const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
+    if (isGatheredAtAll(all, downsampled, gathered)) return gathered;
+    return addUpsampled(scope, all, downsampled, gathered, names, base).irradiance;
+}
+
+Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                         const Irradiance& gathered, const UpsamplingNames& names, const ShadowedVals& lights,
+                         uint32_t taps) {
+    if (isGatheredAtAll(all, downsampled, gathered)) return gathered;
+    const Upsampled up = addUpsampled(scope, all, downsampled, gathered, names, {});
+    const IsmAtlas& isms = lights.isms;
+    scope.compute(names.gather, "upsampling/gather_alone.comp")
+        .sample("normalMap", all.normal)
+        .sample("depthMap", all.depth)
+        .read("camera", all.camera)
+        .read("vals", lights.vals.vals)
+        .read("shapes", lights.vals.shapes)
+        .read("isms", isms.planes ? isms.planes : lights.vals.vals)
+        .read("alone", up.alone.pixels)
+        .readWrite("result", up.irradiance.image)
+        .constant("kVisibilityTaps", isms.planes ? taps : 0)
+        .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
+        .push(glm::uvec2(lights.vals.count, isms.tileSize))
+        .dispatchIndirect(up.alone.groups);
+    return up.irradiance;
 }
 
 }  // namespace ag::gi

@@ -1,5 +1,6 @@
 // Irradiance of every n-th pixel brought to every pixel: bilinearly among those on the same surface (joint
-// bilateral upsampling, Kopf et al. 2007); the few pixels without any look farther for what is most alike.
+// bilateral upsampling, Kopf et al. 2007); the few pixels without any look farther for what is most alike,
+// and those that are like nothing there are gathered by themselves.
 #pragma once
 
 #include "gi/pixel_list.h"
@@ -11,29 +12,43 @@ namespace ag::gi {
 // Passes and resources; literals, because the graph keeps views of them.
 struct UpsamplingNames {
     std::string_view near, far, irradiance;
-    PixelListNames lacking;
+    PixelListNames lacking, alone;
+    std::string_view gather;
 };
 constexpr UpsamplingNames kUpsampling = {
     "upsampling.near",
     "upsampling.far",
     "upsampling.irradiance",
-    {"upsampling.lacking", "upsampling.none_lacking", "upsampling.groups", "upsampling.no_groups"}};
+    {"upsampling.lacking", "upsampling.none_lacking", "upsampling.groups", "upsampling.no_groups"},
+    {"upsampling.alone", "upsampling.none_alone", "upsampling.alone_groups", "upsampling.no_alone_groups"},
+    "upsampling.gather"};
 constexpr UpsamplingNames kFirstBounceUpsampling = {
     "upsampling.near_first",
     "upsampling.far_first",
     "upsampling.irradiance_first",
     {"upsampling.lacking_first", "upsampling.none_lacking_first", "upsampling.groups_first",
-     "upsampling.no_groups_first"}};
-constexpr UpsamplingNames kLaterUpsampling = {"upsampling.near_later",
-                                              "upsampling.far_later",
-                                              "upsampling.irradiance_later",
-                                              {"upsampling.lacking_later", "upsampling.none_lacking_later",
-                                               "upsampling.groups_later", "upsampling.no_groups_later"}};
+     "upsampling.no_groups_first"},
+    {"upsampling.alone_first", "upsampling.none_alone_first", "upsampling.alone_groups_first",
+     "upsampling.no_alone_groups_first"},
+    "upsampling.gather_first"};
+constexpr UpsamplingNames kLaterUpsampling = {
+    "upsampling.near_later",
+    "upsampling.far_later",
+    "upsampling.irradiance_later",
+    {"upsampling.lacking_later", "upsampling.none_lacking_later", "upsampling.groups_later",
+     "upsampling.no_groups_later"},
+    {"upsampling.alone_later", "upsampling.none_alone_later", "upsampling.alone_groups_later",
+     "upsampling.no_alone_groups_later"},
+    ""};
 
 // What was gathered at the pixels of `downsampled` = addDownsampled(`all`); comes back as it is if those are
 // all. Added to `base`, if there is one, whose direction stands for both.
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                          const Irradiance& gathered, const UpsamplingNames& names = kUpsampling,
                          const Irradiance& base = {});
+// The same, and pixels like none of those gathered by themselves from the lights that made `gathered`.
+Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                         const Irradiance& gathered, const UpsamplingNames& names, const ShadowedVals& lights,
+                         uint32_t taps);
 
 }  // namespace ag::gi
