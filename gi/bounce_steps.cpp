@@ -36,12 +36,15 @@ void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& 
     const uint64_t light = combineHash(f.rsm.inputsVersion, in.world.versions.instances);
     f.irradiance = addDenoiser(scope, downsampled, in.world.versions.origin, {f.irradiance, light, steps},
                                s.denoiser, h.denoiser);
-    const uint32_t taps = s.valShading.taps;
-    f.irradiance =
-        addUpsampling(scope, in.surfaces, downsampled, f.irradiance, kUpsampling, {f.vals, f.isms}, taps);
-    f.bounce1 = goesOn ? addUpsampling(scope, in.surfaces, downsampled, f.bounce1, kFirstBounceUpsampling,
-                                       {firstVals(f.vals, f.firstCount), f.isms}, taps)
-                       : f.irradiance;
+    // Pixels meet area lights, not points that share maps.
+    const bool areas = s.valShading.shape != ValShape::kPoint && !f.isms.shared;
+    const Vals vals = areas ? f.vals : Vals{};
+    const LightsOfPixels all{{vals, f.isms}, s.valShading.taps},
+        first{{firstVals(vals, f.firstCount), f.isms}, s.valShading.taps};
+    f.irradiance = addUpsampling(scope, in.surfaces, downsampled, f.irradiance, kUpsampling, all);
+    f.bounce1 = goesOn
+                    ? addUpsampling(scope, in.surfaces, downsampled, f.bounce1, kFirstBounceUpsampling, first)
+                    : f.irradiance;
 }
 
 }  // namespace ag::gi

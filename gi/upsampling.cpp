@@ -64,23 +64,24 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
 }
 
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
-                         const Irradiance& gathered, const UpsamplingNames& names, const ShadowedVals& lights,
-                         uint32_t taps) {
+                         const Irradiance& gathered, const UpsamplingNames& names, const LightsOfPixels& of) {
     if (isGatheredAtAll(all, downsampled, gathered)) return gathered;
     const Upsampled up = addUpsampled(scope, all, downsampled, gathered, names, {});
-    const IsmAtlas& isms = lights.isms;
+    const Vals& vals = of.lights.vals;
+    const IsmAtlas& isms = of.lights.isms;
+    if (!vals.shapes) return up.irradiance;  // samples of RSMs, or points
     scope.compute(names.gather, "upsampling/gather_alone.comp")
         .sample("normalMap", all.normal)
         .sample("depthMap", all.depth)
         .read("camera", all.camera)
-        .read("vals", lights.vals.vals)
-        .read("shapes", lights.vals.shapes)
-        .read("isms", isms.planes ? isms.planes : lights.vals.vals)
+        .read("vals", vals.vals)
+        .read("shapes", vals.shapes)
+        .read("isms", isms.planes ? isms.planes : vals.vals)
         .read("alone", up.alone.pixels)
         .readWrite("result", up.irradiance.image)
-        .constant("kVisibilityTaps", isms.planes ? taps : 0)
+        .constant("kVisibilityTaps", isms.planes ? of.taps : 0)
         .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
-        .push(glm::uvec2(lights.vals.count, isms.tileSize))
+        .push(glm::uvec2(vals.count, isms.tileSize))
         .dispatchIndirect(up.alone.groups);
     return up.irradiance;
 }

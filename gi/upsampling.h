@@ -46,9 +46,13 @@ constexpr UpsamplingNames kLaterUpsampling = {
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                          const Irradiance& gathered, const UpsamplingNames& names = kUpsampling,
                          const Irradiance& base = {});
-// The same, and pixels like none of those gathered by themselves from the lights that made `gathered`.
+// Area lights that pixels like none of those gathered meet by themselves, and taps of their soft shadows.
+struct LightsOfPixels {
+    ShadowedVals lights;
+    uint32_t taps = 1;
+};
+// The same with those that made `gathered`.
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
-                         const Irradiance& gathered, const UpsamplingNames& names, const ShadowedVals& lights,
-                         uint32_t taps);
+                         const Irradiance& gathered, const UpsamplingNames& names, const LightsOfPixels& of);
 
 }  // namespace ag::gi
