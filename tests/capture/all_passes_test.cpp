@@ -41,7 +41,7 @@ struct Case {
     const char* scene;
     uint32_t param = 0;
     bool options = false;  // those that no preset turns on
-    bool waits = false;  // what may be late is, from the second frame after the warm-up
+    bool waits = false;    // what may be late is, from the second frame after the warm-up
 };
 
 void moveLast(RenderScene& scene) {
