@@ -49,6 +49,7 @@ struct TracedOccluders {
     // Texel buffers of uvec4 of this frame: io::BvhPlace; nodes over what moves, invalid where that is left
     // out.
     BufferHandle places, moverNodes;
+    uint64_t staticVersion = 0;  // changes with what is static in them and with where that stands
     explicit operator bool() const { return bool(nodes); }
 };
 

@@ -26,16 +26,16 @@ constexpr RegionNames kFinished = {
     "ism_atlas.list_finished",
     {"ism_atlas.finished", "ism_atlas.finished_groups", "ism_atlas.none_finished"}};
 
-// What static layers are made of and like, as a number; 0: none are kept.
+// What static layers are made of (`of`: a version of the surfaces) and like, as a number; 0: none are kept.
 uint32_t contentsOf(const IsmAtlasSettings& s, const IsmAtlas& atlas, const SurfacePoints& points,
-                    uint32_t staticEntries) {
+                    uint32_t staticEntries, uint64_t of) {
     if (!s.keepMaps) return 0;
     const uint64_t size =
         hashValue(glm::uvec4(atlas.mapCount, atlas.tileSize, atlas.pointsPerMap, staticEntries));
     const uint64_t like =
         combineHash(hashValue(glm::vec4(s.splatScale, float(s.mapping), float(s.nearMore), points.extent)),
                     uint64_t(s.planes) * 2 + s.pullPush);
-    return uint32_t(combineHash(combineHash(size, like), points.staticVersion)) | 1;
+    return uint32_t(combineHash(combineHash(size, like), of)) | 1;
 }
 
 // All that is static, kept for maps whose light and surfaces have not moved: the nearest points, or traced
@@ -100,6 +100,17 @@ PassBuilder addSplat(const Splat& s, std::string_view name, BufferHandle chosen,
     return pass;
 }
 
+// The half of a layer's history that is now, as it was where maps are kept.
+void addKeptMaps(const Splat& s, std::string_view name, std::string_view shader, const HistoryBuffer& layer,
+                 const io::IsmSplatPush& push) {
+    s.scope.compute(name, shader)
+        .readPrevious("previous", layer)
+        .read("states", s.atlas.states)
+        .write("kept", layer.current)
+        .push(push)
+        .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
+}
+
 // Maps that are not kept are listed: a splat of the others would cost its workgroups all the same.
 StaticLayer addSplattedLayer(const Splat& s, const HistoryBuffer& places, const io::IsmSplatPush& push) {
     const uint32_t texels = s.atlas.mapCount * s.atlas.tileSize * s.atlas.tileSize;
@@ -122,12 +133,7 @@ StaticLayer addSplattedLayer(const Splat& s, const HistoryBuffer& places, const 
         .constant("kByDistance", s.settings.nearMore)
         .push(push)
         .dispatchGroups(s.atlas.mapCount);
-    s.scope.compute("ism_atlas.keep", "ism_atlas/keep_maps.comp")
-        .readPrevious("previousKeys", keys)
-        .read("states", s.atlas.states)
-        .write("keys", keys.current)
-        .push(push)
-        .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
+    addKeptMaps(s, "ism_atlas.keep", "ism_atlas/keep_maps.comp", keys, push);
     addSplat(s, "ism_atlas.splat", chosen.current, s.atlas.states, keys.current, push)
         .readPart("points", s.points.points, s.points.staticVersion)
         .readWrite("finishes", keys.current)  // not looked at
@@ -153,18 +159,13 @@ StaticLayer addTracedLayer(const Splat& s, const TracedOccluders& trees, const H
         .readWrite("anewGroups", anew.groups)
         .push(MapPush{push, s.atlas.mapCount})
         .dispatchThreads(s.atlas.mapCount);
-    s.scope.compute("ism_atlas.keep_traced", "ism_atlas/keep_planes.comp")
-        .readPrevious("previousPlanes", planes)
-        .read("states", s.atlas.states)
-        .write("planes", planes.current)
-        .push(push)
-        .dispatchGroups(s.texelGroups(), s.atlas.mapCount);
+    addKeptMaps(s, "ism_atlas.keep_traced", "ism_atlas/keep_planes.comp", planes, push);
     s.scope.compute("ism_atlas.trace", "ism_atlas/trace_maps.comp")
         .read("vals", s.vals.vals)
         .read("listed", anew.items)
         .read("treeNodes", trees.nodes)
         .read("treeTriangles", trees.triangles)
-        .readPart("treePlaces", trees.places, s.points.staticVersion)
+        .readPart("treePlaces", trees.places, trees.staticVersion)
         .readWrite("planes", planes.current)
         .constant("kParaboloid", s.settings.mapping == IsmMapping::kParaboloid)
         .push(push)
@@ -280,10 +281,13 @@ IsmAtlas addIsmAtlas(GraphScope scope, const SurfacePoints& points, const Traced
                    staticCount = traced ? 0 : perMap - movableCount;
     const uint64_t texels = uint64_t(atlas.mapCount) * atlas.tileSize * atlas.tileSize;
     const BufferInfo planes{.sizeBytes = texels * 16, .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT};
+    // Traced or splatted, the numbers are never those of the other.
+    const uint64_t surfaces =
+        traced ? combineHash(trees.staticVersion, 1) : combineHash(points.staticVersion, 2);
     const io::IsmSplatPush push{.pointCount = points.count,
                                 .tileSize = atlas.tileSize,
                                 .inverseExtent = 1 / points.extent,
-                                .contents = contentsOf(settings, atlas, points, staticCount)};
+                                .contents = contentsOf(settings, atlas, points, staticCount, surfaces)};
     const HistoryBuffer places =
         scope.historyBuffer("ism_atlas.places", {.sizeBytes = atlas.mapCount * sizeof(io::IsmPlace)});
     atlas.states = scope.buffer("ism_atlas.states", {.sizeBytes = atlas.mapCount * sizeof(io::IsmMapState)});

@@ -5,7 +5,6 @@
 #include "shaders/bvh/bvh_io.h"
 
 namespace ag::gi {
-
 namespace {
 
 // Lights come in whole subgroups.
@@ -65,7 +64,7 @@ Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, con
     if (traced)
         fit.read("treeNodes", traced->trees.nodes)
             .read("treeTriangles", traced->trees.triangles)
-            .readPart("treePlaces", traced->trees.places, traced->staticVersion);
+            .readPart("treePlaces", traced->trees.places, traced->trees.staticVersion);
     return v;
 }
 

@@ -199,13 +199,13 @@ bool castsTexelRays(const RenderSettings& s) {
     return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
 }
 
-TracedScene tracedBy(const RenderSettings& s) {
+std::optional<gi::TreesOf> tracedBy(const RenderSettings& s) {
     constexpr std::array kWithMaps = {Technique::kAreaLights, Technique::kStochastic, Technique::kIsm,
                                       Technique::kRsmc, Technique::kAcrsm};
+    if (castsTexelRays(s)) return gi::TreesOf::kAll;
     const bool maps = s.bounce.ismAtlas.enabled && s.bounce.ismAtlas.traced;
-    if (castsTexelRays(s)) return TracedScene::kAll;
-    return maps && std::ranges::count(kWithMaps, s.technique) > 0 ? TracedScene::kStatic
-                                                                  : TracedScene::kNothing;
+    if (maps && std::ranges::count(kWithMaps, s.technique) > 0) return gi::TreesOf::kStatic;
+    return {};
 }
 
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s) {

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "engine/gpu/functions.h"
 #include "engine/renderer/composite.h"
 #include "engine/renderer/punctual_lighting.h"
-#include "engine/renderer/scene_trees.h"
 #include "engine/renderer/shadow_maps.h"
+#include "gi/occluder_trees.h"
 #include "gi/published/interleaved_shading.h"
 #include "gi/published/ssvp.h"
 #include "gi/settings.h"
@@ -58,9 +59,9 @@ struct RenderSettings {
 bool applyPreset(std::string_view name, RenderSettings& s);
 std::span<const std::string_view> presetNames();
 
-// Whether rays go to texels, and what rays of any kind are to meet.
+// Whether rays go to texels, and what rays of any kind are to meet; none: there are none.
 bool castsTexelRays(const RenderSettings& settings);
-TracedScene tracedBy(const RenderSettings& settings);
+std::optional<gi::TreesOf> tracedBy(const RenderSettings& settings);
 
 // Smaller shadow maps where the device has no images of the size that was asked for.
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s);

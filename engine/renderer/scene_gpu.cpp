@@ -219,7 +219,8 @@ ViewSlots viewSlots(const RenderScene& scene) {
     return s;
 }
 
-SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size, TracedScene traced) {
+SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size,
+                           std::optional<gi::TreesOf> traced) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
@@ -262,9 +263,9 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
         view.staticSampleCount = staticSampleCount_;
         view.staticVersion = combineHash(combineHash(sampledSet_, staticVersion_), scene.originVersion);
     }
-    if (traced != TracedScene::kNothing)
-        view.trees = trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion),
-                                   traced == TracedScene::kAll);
+    if (traced)
+        view.trees =
+            trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion), *traced);
     view.camera = gi::addCamera(scope, "scene.camera", scene.camera, size);
     return view;
 }

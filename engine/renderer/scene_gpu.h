@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/frame/frame_graph.h"
@@ -78,7 +79,7 @@ class SceneGpu {
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
     SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size,
-                     TracedScene traced = TracedScene::kNothing);
+                     std::optional<gi::TreesOf> traced = {});
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     // `previous`: whether a pass reads where things were in the frame before.
     enum class Previous : uint8_t { kUnread, kKept };

@@ -11,11 +11,12 @@ namespace {
 
 constexpr VkFormat kWords = VK_FORMAT_R32G32B32A32_UINT;
 
-// What trees are built of: where static things stand, and the meshes of those that move.
-uint64_t builtFrom(const RenderScene& scene) {
-    uint64_t hash = scene.geometry->version;
+// What trees are built of: where static things stand and, if they are of all, the meshes of those that move.
+uint64_t builtFrom(const RenderScene& scene, gi::TreesOf of) {
+    uint64_t hash = combineHash(scene.geometry->version, uint64_t(of));
     for (const RenderInstance& instance : scene.instances) {
         const bool moves = instance.movable || instance.skinnedMesh != kNoSkinnedMesh;
+        if (moves && of == gi::TreesOf::kStatic) continue;
         hash = combineHash(hash, instance.primitive * 2 + moves);
         if (!moves) hash = combineHash(hash, hashValue(instance.worldFromLocal));
     }
@@ -37,7 +38,7 @@ std::unique_ptr<gpu::Buffer> roomFor(gpu::Device& device, std::unique_ptr<gpu::B
 }  // namespace
 
 void SceneTrees::build(const RenderScene& scene) {
-    trees_ = buildTrees(scene);
+    trees_ = buildTrees(scene, of_);
     gpu::retire(device_, std::move(nodes_));
     gpu::retire(device_, std::move(triangles_));
     nodes_ = gpu::loadBuffer(device_, {.name = "scene.tree_nodes", .texelFormat = kWords}, trees_.nodes);
@@ -47,8 +48,8 @@ void SceneTrees::build(const RenderScene& scene) {
     ++builds_;
 }
 
-void SceneTrees::place(const RenderScene& scene, bool movers) {
-    movers_ = placeTrees(scene, trees_, movers);
+void SceneTrees::place(const RenderScene& scene) {
+    movers_ = placeTrees(scene, trees_, of_ == gi::TreesOf::kAll);
     places_ = roomFor(device_, std::move(places_), "scene.tree_places", movers_.places);
     moverNodes_ = roomFor(device_, std::move(moverNodes_), "scene.mover_nodes", movers_.nodes);
     uploaded_ = false;
@@ -56,8 +57,10 @@ void SceneTrees::place(const RenderScene& scene, bool movers) {
 }
 
 // Whether the trees are those of what is static now.
-bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion) {
-    if (staticVersion_ != staticVersion) from_ = builtFrom(scene);
+bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of) {
+    if (of_ != of) forget();  // built at once
+    of_ = of;
+    if (staticVersion_ != staticVersion) from_ = builtFrom(scene, of);
     staticVersion_ = staticVersion;
     const gi::TreeUpkeep::Task task = upkeep_.next(from_);
     if (task == gi::TreeUpkeep::Task::kBuild) {
@@ -68,15 +71,16 @@ bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion) {
 }
 
 gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
-                                       bool movers) {
-    if (!follow(scene, staticVersion)) return {};
-    const uint64_t placing = combineHash(movers ? scene.instancesVersion : 0, movers + 1);
-    if (placedOf_ != placing) place(scene, movers);
+                                       gi::TreesOf of) {
+    if (!follow(scene, staticVersion, of)) return {};
+    const uint64_t placing = of == gi::TreesOf::kAll ? scene.instancesVersion : 1;
+    if (placedOf_ != placing) place(scene);
     placedOf_ = placing;
     return {.nodes = scope.importBuffer("scene.tree_nodes", *nodes_, builds_),
             .triangles = scope.importBuffer("scene.tree_triangles", *triangles_, builds_),
             .places = scope.importBuffer("scene.tree_places", *places_, placings_),
-            .moverNodes = scope.importBuffer("scene.mover_nodes", *moverNodes_, placings_)};
+            .moverNodes = scope.importBuffer("scene.mover_nodes", *moverNodes_, placings_),
+            .staticVersion = builds_};
 }
 
 void SceneTrees::upload(Stage stage) {

@@ -13,18 +13,15 @@
 
 namespace ag::render {
 
-// What of a scene rays are to meet.
-enum class TracedScene { kNothing, kStatic, kAll };
-
 class SceneTrees {
   public:
     explicit SceneTrees(gpu::Device& device) : device_(device) {}
 
     // Of this frame. Blocking where a scene is new. Where what is static is moved none, until it has rested
-    // for some frames: then they are built anew. `staticVersion`: changes when it may have moved. `movers`:
-    // whether rays are to meet what moves, too.
+    // for some frames: then they are built anew. `staticVersion`: changes when it may have moved. `of`: all,
+    // if rays are to meet what moves, too.
     gi::TracedOccluders import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
-                               bool movers);
+                               gi::TreesOf of);
     using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
     void upload(Stage stage);
     // Another scene or other units follow.
@@ -36,13 +33,14 @@ class SceneTrees {
 
   private:
     void build(const RenderScene& scene);
-    void place(const RenderScene& scene, bool movers);
-    bool follow(const RenderScene& scene, uint64_t staticVersion);
+    void place(const RenderScene& scene);
+    bool follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of);
 
     gpu::Device& device_;
     gi::TreeUpkeep upkeep_;
-    uint64_t staticVersion_ = 0, from_ = 0;  // from_: a hash of static surfaces and movable meshes
-    uint64_t placedOf_ = 0;                  // a hash of RenderScene::instancesVersion
+    gi::TreesOf of_ = gi::TreesOf::kStatic;
+    uint64_t staticVersion_ = 0, from_ = 0;  // from_: a hash of what they are built of
+    uint64_t placedOf_ = 0;                  // RenderScene::instancesVersion, if that matters
     uint64_t builds_ = 0, placings_ = 0;     // versions of the buffers
     gi::OccluderTrees trees_;
     gi::MoverTree movers_;

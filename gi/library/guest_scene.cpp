@@ -33,6 +33,7 @@ void GuestScene::updateMaterials(uint32_t first, std::vector<GuestMaterial> mate
     std::ranges::copy(materials, from);
     ++drawnVersion_;
     ++setVersion_;  // points know of holes and albedo
+    ++staticVersion_;
 }
 
 uint32_t GuestScene::addMeshes(std::vector<GuestMesh> meshes) {
@@ -61,7 +62,7 @@ void GuestScene::setInstance(const GuestInstance& given) {
         ++meshes_[given.mesh].instances;
         ++setVersion_;
     }
-    if (!old.movable || !given.movable) ++staticMoves_;
+    staticVersion_ += !old.movable || !given.movable;
     old = given;
     old.moved = ++movedVersion_;
 }
@@ -74,12 +75,14 @@ void GuestScene::addInstance(const GuestInstance& given) {
     instances_.back().moved = ++movedVersion_;
     ++meshes_[given.mesh].instances;
     ++setVersion_;
+    staticVersion_ += !given.movable;
 }
 
 void GuestScene::removeInstance(uint64_t id) {
     const auto known = rowOf_.find(id);
     const size_t row = known->second;
     --meshes_[instances_[row].mesh].instances;
+    staticVersion_ += !instances_[row].movable;
     rowOf_.erase(known);
     if (row + 1 != instances_.size()) {
         instances_[row] = instances_.back();

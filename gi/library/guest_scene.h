@@ -7,7 +7,6 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/core/hash.h"
 #include "engine/core/render_probe.h"
 #include "gi/bounce_points.h"
 #include "gi/inputs.h"
@@ -109,7 +108,7 @@ class GuestScene {
     const GuestPoints& points();
     // Built anew if what is static changed: half a second for 250,000 triangles.
     const GuestTrees& trees();
-    uint64_t staticVersion() const { return combineHash(setVersion_, staticMoves_); }
+    uint64_t staticVersion() const { return staticVersion_; }  // what is static and where; never 0
     // In the world; m.
     struct DoubleBounds {
         glm::dvec3 min{1e300}, max{-1e300};
@@ -133,7 +132,7 @@ class GuestScene {
     std::vector<GuestLight> lights_;
     std::vector<GuestProbe> probes_;
     uint64_t setVersion_ = 1, movedVersion_ = 1, lightsVersion_ = 1, drawnVersion_ = 1;
-    uint64_t staticMoves_ = 0;
+    uint64_t staticVersion_ = 1;
     GuestPoints points_;
     GuestTrees trees_;
     DoubleBounds bounds_;

@@ -159,7 +159,7 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
 void SceneOnDevice::takeTrees(GuestScene& scene) {
     using enum gi::TreeUpkeep::Task;
     const auto task = upkeep_.next(scene.staticVersion());
-    treesVersion_ = task == kNone ? 0 : scene.staticVersion();
+    treesVersion_ = task == kNone ? 0 : combineHash(scene_, scene.staticVersion());
     if (task == kNone) return;
     const GuestTrees& trees = scene.trees();
     if (task == kBuild) {
@@ -253,7 +253,8 @@ gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
     if (treesVersion_ != 0)
         o.trees = {.nodes = scope.importBuffer("guest.tree_nodes", *treeNodes_, treesVersion_),
                    .triangles = scope.importBuffer("guest.tree_triangles", *treeTriangles_, treesVersion_),
-                   .places = scope.importBuffer("guest.tree_place", *treePlace_, treesPlaced_)};
+                   .places = scope.importBuffer("guest.tree_place", *treePlace_, treesPlaced_),
+                   .staticVersion = treesPlaced_};
     return o;
 }
 

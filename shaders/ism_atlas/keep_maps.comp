@@ -8,12 +8,12 @@
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push { IsmSplatPush p; } push;
 
-layout(set = 0, binding = 0) UINT_TEXELS(previousKeys);
+layout(set = 0, binding = 0) UINT_TEXELS(previous);
 layout(set = 0, binding = 1, scalar) readonly buffer States { IsmMapState items[]; } states;
-layout(set = 0, binding = 2, scalar) writeonly buffer Keys { uint items[]; } keys;
+layout(set = 0, binding = 2, scalar) writeonly buffer Kept { uint items[]; } kept;
 
 void main() {
     uint texel = gl_WorkGroupID.y * push.p.tileSize * push.p.tileSize + gl_GlobalInvocationID.x;
-    uint old = fetchTexel(previousKeys, int(texel)).x;
-    keys.items[texel] = states.items[gl_WorkGroupID.y].kept != 0 ? old : kIsmNoPoint;
+    uint old = fetchTexel(previous, int(texel)).x;
+    kept.items[texel] = states.items[gl_WorkGroupID.y].kept != 0 ? old : kIsmNoPoint;
 }

@@ -514,6 +514,31 @@ TEST(IsmAtlas, MovingBoxesLeaveTheStaticLayerAsItIs) {
     boxLeavesTheStaticLayer(true);
 }
 
+// Things that come and go are no reason to build trees anew: maps of what is static stay, traced. Static ones
+// are.
+TEST(IsmAtlas, ThingsThatComeLeaveTheTracedMaps) {
+    const auto b = boxAboveALamp(true, true);
+    for (int i = 0; i < 40; ++i)
+        b->frame();
+    const auto add = [&](bool movable) {
+        b->scene.instances.push_back(b->scene.instances.back());
+        b->scene.instances.back().movable = movable;
+        b->scene.instances.back().worldFromLocal[3] += glm::vec3(-0.5f, 0.1f, 0);
+        b->scene.allInstancesChanged = true;
+        ++b->scene.instancesVersion;
+        b->frame();
+    };
+    add(true);
+    const KeptMaps come = keptMaps(*b);
+    EXPECT_GT(come.kept, come.live * 8 / 10) << "but those of lights that moved meanwhile";
+    EXPECT_GT(come.live, 100);
+    add(false);
+    EXPECT_EQ(keptMaps(*b).kept, 0) << "splatted, until the tree is built anew";
+    for (int i = 0; i < 20; ++i)
+        b->frame();
+    EXPECT_GT(keptMaps(*b).kept, keptMaps(*b).live * 8 / 10);
+}
+
 // What a map holds where a box moved: the box, at its distance, and no longer where it was.
 TEST(IsmAtlas, MovingBoxesShowInTracedMaps) {
     const auto moved = boxAboveALamp(true, true), fresh = boxAboveALamp(true, true);
