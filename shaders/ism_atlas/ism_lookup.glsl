@@ -36,7 +36,9 @@ float ismHardVisibility(IsmTile tile, vec3 d) {
 // in the direction d + s (1 - rho) / rho.
 float ismSoftVisibility(IsmTile tile, vec3 d, vec2 u, vec2 v, int taps) {
     const vec2 kSearch[5] = vec2[](vec2(0.0), vec2(0.6, 0.6), vec2(-0.6, 0.6), vec2(-0.6, -0.6), vec2(0.6, -0.6));
-    const float kMostSpread = 4.0;
+    // Half the light's size to the side. If the blocker is close to the light, a larger offset misses it: a wall beside the light
+    // would leak.
+    const float kMostSpread = 0.5;
     float blockers = 0.0, share = 0.0;
     [[unroll]] for (int i = 0; i < 5; ++i) {
         vec4 plane = ismPlane(tile, d + vec3(u * kSearch[i].x + v * kSearch[i].y, 0.0));

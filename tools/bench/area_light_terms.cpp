@@ -82,7 +82,7 @@ float softMapVisibility(const AreaLightSet& set, size_t light, glm::vec3 place, 
     const glm::vec2 u(frame.of(l.shape.halfU)), v(frame.of(l.shape.halfV));
     const auto from = [&](glm::vec2 s) { return glm::vec3(u * s.x + v * s.y, 0); };
     constexpr glm::vec2 kSearch[] = {{0, 0}, {0.6f, 0.6f}, {-0.6f, 0.6f}, {-0.6f, -0.6f}, {0.6f, -0.6f}};
-    constexpr float kMostSpread = 4;
+    constexpr float kMostSpread = 0.5f;
     float blockers = 0, share = 0;
     for (const glm::vec2 s : kSearch) {
         const glm::vec4 plane = map.toward(map.d + from(s));
