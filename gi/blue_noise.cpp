@@ -11,6 +11,8 @@ constexpr size_t kBytes = 64 * 64 * 4;
 }  // namespace
 
 BufferHandle addBlueNoise(GraphScope scope) {
+    if (const BufferHandle known = scope.findBuffer("blue_noise.pixels"))
+        return known;  // another asked before
     const BufferHandle buffer =
         scope.buffer("blue_noise.pixels", {.sizeBytes = kBytes, .texelFormat = VK_FORMAT_R32_UINT});
     scope.upload("blue_noise.pixels", buffer, std::span(afterglow_blue_noise, kBytes));

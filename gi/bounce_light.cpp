@@ -15,11 +15,12 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     const Refresh refresh = chooseRefresh(in.world, in.surfaces.view, in.surfaces.size, s, h.refresh);
     const GraphScope lights = scope.held(!refresh.lights);
 
-    // Where light lands, as few area lights
+    // Where light lands, or begins, as few area lights
     f.viewPoints = addViewPoints(lights, in.surfaces);
-    f.laterLight = addLaterLight(lights, in.occluders, in.world.versions, s.laterBounces, h.laterBounces);
+    const uint64_t skyStep = stepOfSky(in, s.sky, h.skyOnPoints);
+    f.emitters = addSurfaceEmitters(lights, in.world, in.occluders, skyStep, s.laterBounces, h.laterBounces);
     addAreaLights(lights, in, s, h, f);
-    f.firstCount = std::min(f.vals.count, f.rsm.firstLater());
+    f.firstCount = std::min(f.vals.count, f.rsm.firstLater);
 
     // What each of them sees
     addVisibility(scope, in, s.ismAtlas, f);
@@ -35,8 +36,10 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
 
     // Light that goes on
     f.irradiance = f.bounce1;
-    addLaterIrradiance(scope, f.laterLight, {f.vals, f.isms}, f.firstCount, s.laterBounces);
-    if (f.bounce1.image && f.vals.count > f.firstCount)
+    const BufferHandle sky =
+        addSkyOnPoints(scope, f.emitters, {in.sky, in.occluders, in.world.versions}, s.sky, h.skyOnPoints);
+    addLaterIrradiance(scope, f.emitters, sky, {f.vals, f.isms}, f.firstCount, s.laterBounces);
+    if (f.vals.count > f.firstCount)
         f.irradiance = addLaterShading(scope, downsampled, f.bounce1, {f.vals, f.isms},
                                        {f.firstCount, s.laterBounces.spacing}, s.valShading);
 

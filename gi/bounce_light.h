@@ -6,6 +6,7 @@
 #include "gi/inputs.h"
 #include "gi/refresh.h"
 #include "gi/settings.h"
+#include "gi/sky.h"
 #include "gi/surface_points.h"
 #include "gi/val_fit.h"
 
@@ -15,6 +16,7 @@ struct BounceLightInputs {
     Surfaces surfaces;
     World world;
     Occluders occluders;
+    SkyOnDevice sky;
     // Draws what the lights of planRsm see (rsm.h).
     FunctionRef<void(GraphScope, RsmSet&)> drawRsm;
     std::span<const RenderProbe> probes;
@@ -29,6 +31,7 @@ struct BounceLightHistory {
     TexelRaysHistory texelRays;
     Settling stochasticRsm;
     Settling laterBounces;
+    Settling skyOnPoints;
     DenoiserHistory denoiser;
     ProbeReadings probes;
 };
@@ -40,12 +43,12 @@ struct BounceLight {
     ImageHandle gloss;      // what glossy materials reflect beyond irradiance: rgba16f, W/(m² sr)
 
     BufferHandle viewPoints;
-    LaterLight laterLight;
+    SurfaceEmitters emitters;
     RsmSet rsm;
     Importance importance;
     Clusters clusters;
     Vals vals;
-    uint32_t firstCount = 0;  // of the lights, those of the first bounce
+    uint32_t firstCount = 0;  // of the lights, those of the first bounce and of emissive surfaces
     SurfacePoints surfacePoints;
     IsmAtlas isms;
 };

@@ -1,6 +1,7 @@
 #include "gi/bounce_points.h"
 
 #include <bit>
+#include <numbers>
 
 namespace ag::gi {
 namespace {
@@ -34,6 +35,13 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
         if (deformed) points.back().edgesLocal[0].inward.x = s.curvatureLocal;
     }
     return points;
+}
+
+float emittedFlux(std::span<const io::BouncePoint> shining) {
+    double sum = 0;
+    for (const io::BouncePoint& p : shining)
+        sum += double(p.albedo.x + p.albedo.y + p.albedo.z) / 3 * double(p.area);
+    return float(sum * std::numbers::pi);
 }
 
 }  // namespace ag::gi

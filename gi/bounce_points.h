@@ -15,4 +15,7 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
                                                 const SurfaceSamples& samples, AlbedoAt albedoAt,
                                                 uint32_t count);
 
+// Of points that shine, W, mean of the channels.
+float emittedFlux(std::span<const io::BouncePoint> shining);
+
 }  // namespace ag::gi

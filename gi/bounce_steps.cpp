@@ -5,12 +5,16 @@
 
 namespace ag::gi {
 
+uint64_t stepOfSky(const BounceLightInputs& in, const SkySettings& s, const Settling& onPoints) {
+    return in.sky && s.enabled ? combineHash(in.sky.version, onPoints.step + 1) : 0;
+}
+
 void addRsms(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
              BounceLightHistory& h, BounceLight& f) {
-    f.rsm = planRsm(scope, in.world, s.rsm, s.valClustering.count, f.laterLight, h.clusterShares);
+    f.rsm = planRsm(scope, in.world, s.rsm, s.valClustering.count, f.emitters, h.clusterShares);
     if (f.rsm.empty()) return;
     in.drawRsm(scope, f.rsm);
-    addRsmTexels(scope, f.rsm, f.laterLight);
+    addRsmTexels(scope, f.rsm, f.emitters);
 }
 
 void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
@@ -19,7 +23,7 @@ void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLi
     f.importance = addImportance(scope, f.rsm, f.viewPoints, s.importance);
     f.clusters = addValClustering(scope, f.rsm, f.importance, s.valClustering, in.world.versions.camera,
                                   h.valClustering);
-    f.vals = addValFit(scope, f.rsm, f.laterLight, f.clusters,
+    f.vals = addValFit(scope, f.rsm, f.emitters, f.clusters,
                        s.ismAtlas.traced && in.occluders.trees ? &in.occluders : nullptr);
 }
 

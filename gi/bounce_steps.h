@@ -5,7 +5,9 @@
 
 namespace ag::gi {
 
-// RSMs, drawn by the host, with `f.laterLight` as one more; their texels.
+// Another number whenever the sky's light on the points may have changed; 0: there is no sky.
+uint64_t stepOfSky(const BounceLightInputs& in, const SkySettings& settings, const Settling& onPoints);
+// RSMs, drawn by the host, with `f.emitters` as further ones; their texels.
 void addRsms(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
              BounceLightHistory& h, BounceLight& f);
 // The same, their texels clustered by what the view asks for, and an area light for each cluster.

@@ -50,7 +50,9 @@ struct TracedOccluders {
     // out.
     BufferHandle places, moverNodes;
     uint64_t staticVersion = 0;  // changes with what is static in them and with where that stands
-    explicit operator bool() const { return bool(nodes); }
+    // They are of what was static some frames ago: good for rays whose light must not go out meanwhile.
+    bool stale = false;
+    explicit operator bool() const { return nodes && !stale; }
 };
 
 // Points on surfaces, carried by their instances: what visibility is made from, and where light bounces on.
@@ -60,8 +62,11 @@ struct Occluders {
     BufferHandle pointAreas;         // m² that a sample of each instance stands for: a texel buffer of float
     uint32_t sampleCount = 0;        // 0: no surface
     uint32_t staticSampleCount = 0;  // the first ones are on what is static
-    BufferHandle bouncePoints;       // io::BouncePoint: some of the samples
-    uint32_t bouncePointCount = 0;   // a square of a power of two, or 0
+    // io::BouncePoint: some of the samples, to reflect light, then some on emissive surfaces, to shine; the
+    // number of each is a square of a power of two, or 0.
+    BufferHandle bouncePoints;
+    uint32_t bouncePointCount = 0, emissivePointCount = 0;
+    float emissiveFlux = 0;  // W, mean of the channels: of the points that shine
     // Vertices of instances that joints bend, as they are now; none: there are no such.
     BufferHandle deformedPositions, deformedAttributes;
     TracedOccluders trees;       // none: no rays

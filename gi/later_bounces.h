@@ -6,8 +6,8 @@
 #pragma once
 
 #include "engine/core/setting_fields.h"
-#include "gi/inputs.h"
 #include "gi/settling.h"
+#include "gi/surface_emitters.h"
 #include "shaders/later_bounces/later_bounces_io.h"
 
 namespace ag::gi {
@@ -39,30 +39,18 @@ struct LaterBouncesSettings {
     bool operator==(const LaterBouncesSettings&) const = default;
 };
 
-// The points' emission as texels of an RSM, and where the light on them goes.
-struct LaterLight {
-    BufferHandle texels;       // io::RsmTexel, tile by tile; invalid: no later bounces
-    BufferHandle edges;        // io::SurfaceEdge, two a point: where its surface ends
-    HistoryBuffer irradiance;  // vec4: W/m²
-    uint32_t count = 0;
-    uint32_t side = 0;  // texels of the square map
-    float share = 0;
-};
-
-LaterLight addLaterLight(GraphScope scope, const Occluders& occluders, const Versions& versions,
-                         const LaterBouncesSettings& settings, Settling& settling);
-
 // What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
-// for later bounces.
-void addLaterIrradiance(GraphScope scope, const LaterLight& light, const ShadowedVals& lights,
-                        uint32_t firstLater, const LaterBouncesSettings& settings);
+// for later bounces. `sky`: what falls there from the sky (addSkyOnPoints), if anything does.
+void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, BufferHandle sky,
+                        const ShadowedVals& lights, uint32_t firstLater,
+                        const LaterBouncesSettings& settings);
 
 struct LaterShading {
     uint32_t firstLater = 0;  // of the area lights, the first that stands for later bounces
     uint32_t spacing = 1;     // pixels from one that is gathered to the next
 };
-// `bounce1`, of the pixels of `gbuffer`, and what the lights from `firstLater` on add to it. That is
-// smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
+// `bounce1`, of the pixels of `gbuffer`, or nothing, and what the lights from `firstLater` on add to it. That
+// is smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
 Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
                            const ShadowedVals& lights, const LaterShading& later,
                            const ValShadingSettings& shading);

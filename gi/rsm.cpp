@@ -21,7 +21,7 @@ BufferHandle uploadItems(GraphScope scope, const char* name, std::span<const T> 
 
 }  // namespace
 
-void addRsmTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) {
+void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters) {
     const PixelList creased = addPixelList(scope, kCreasedTexels, rsm.atlas.size);
     scope.compute("rsm.build_texels", "rsm/build_texels.comp")
         .sample("normalMap", rsm.normal)
@@ -29,8 +29,8 @@ void addRsmTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) 
         .sample("depthMap", rsm.depth)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
-        .read("later", later.texels ? later.texels : rsm.faces)  // none: not read
-        .constant("kHasSurfaces", bool(later.texels))
+        .read("points", emitters.texels ? emitters.texels : rsm.faces)  // none: not read
+        .constant("kHasPoints", bool(emitters.texels))
         .write("texels", rsm.texels)
         .write("tileMaps", rsm.tileMaps)
         .readWrite("listed", creased.pixels)
@@ -49,13 +49,16 @@ void addRsmTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later) 
 }
 
 RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-               const LaterLight& later, ClusterShares& shares) {
+               const SurfaceEmitters& emitters, ClusterShares& shares) {
     RsmSet rsm;
-    const RsmLayout layout = layoutRsm(world, settings, clusterBudget, shares, later.side, later.share);
+    const RsmLayout layout = layoutRsm(world, settings, clusterBudget, shares, emitters);
     if (layout.mapCount == 0 || world.bounds.empty()) return rsm;
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
-    rsm.lightRsmCount = layout.mapCount - (later.side > 0);
-    rsm.lightFaceCount = layout.faceCount - (later.side > 0);
+    rsm.lightRsmCount = layout.lightMapCount;
+    rsm.lightFaceCount = layout.lightFaceCount;
+    const bool reflects = emitters.reflecting.side > 0, shines = emitters.emissive.side > 0;
+    if (shines) rsm.firstEmissive = layout.maps[layout.lightMapCount].firstCluster;
+    if (reflects) rsm.firstLater = layout.maps[layout.mapCount - 1].firstCluster;
     rsm.mapInfo = layout.maps;
     rsm.faceInfo = layout.faces;
     rsm.lightIds = layout.lightIds;

@@ -9,7 +9,7 @@
 
 #include "engine/core/setting_fields.h"
 #include "gi/inputs.h"
-#include "gi/later_bounces.h"
+#include "gi/surface_emitters.h"
 #include "shaders/rsm/rsm_io.h"
 
 namespace ag::gi {
@@ -43,11 +43,9 @@ struct RsmSet {
     std::array<io::RsmMap, io::kMaxRsmMaps> mapInfo{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faceInfo{};
     std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights
-    uint32_t lightRsmCount = 0, lightFaceCount = 0;    // the first ones; one of surfaces may follow
-    // Of the clusters, the first that is of surfaces.
-    uint32_t firstLater() const {
-        return lightRsmCount < atlas.mapCount ? mapInfo[lightRsmCount].firstCluster : ~0u;
-    }
+    uint32_t lightRsmCount = 0, lightFaceCount = 0;    // the first ones; those of surfaces may follow
+    // Of the clusters, the first of emissive surfaces, and the first of those that reflect; ~0: none.
+    uint32_t firstEmissive = ~0u, firstLater = ~0u;
     bool empty() const { return atlas.mapCount == 0; }
 };
 
@@ -67,11 +65,11 @@ struct ClusterShares {
 // The maps, not drawn yet: whoever has the surfaces draws the faces of lights (faceInfo: clip matrices,
 // rectangles of the atlas) into normal, albedo and depth, all cleared to zero, and adds to inputsVersion what
 // that depends on. `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each.
-// `later`: one more map.
+// `emitters`: further maps.
 RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-               const LaterLight& later, ClusterShares& shares);
+               const SurfaceEmitters& emitters, ClusterShares& shares);
 
-// Texels of the maps that were drawn, and of `later`.
-void addRsmTexels(GraphScope scope, const RsmSet& rsm, const LaterLight& later);
+// Texels of the maps that were drawn, and of `emitters`.
+void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters);
 
 }  // namespace ag::gi

@@ -17,6 +17,7 @@ constexpr uint32_t kShareStep = 8;     // clusters: small changes of flux move n
 constexpr float kFluxBand = 1.5f;      // within which a light's share stays
 constexpr uint32_t kDarkFrames = 120;  // after which a light that went out gives up its share
 constexpr uint32_t kNoMap = ~0u;
+constexpr uint32_t kReflectingMapId = ~0u, kEmissiveMapId = ~1u;  // of RsmMap::lightIdLow
 constexpr uint64_t kMostTexels = 6 * 512 * 512;  // of all lights together: a point light's largest map
 
 uint32_t facesOf(const RsmLight& light) {
@@ -152,23 +153,36 @@ void shareClusters(RsmLayout& layout, Sharers sharers, uint32_t budget) {
     }
 }
 
-// Returns the weight that gives it its share.
-float addSurfaceMap(RsmLayout& layout, std::span<const Sharer> lights, uint32_t side, float share) {
+float fluxOf(std::span<const Sharer> sharers) {
     float total = 0;
-    for (const Sharer& light : lights)
-        total += light.flux;
-    io::RsmMap& map = layout.maps[layout.mapCount];
-    map = {.kind = io::kMapOfSurfaces,
-           .direction = {0, -1, 0},
-           .intensity = glm::vec3(std::max(total, 1e-20f)),  // a texel's part of it is much
-           .tanHalf = 0.5f,
-           .firstFace = layout.faceCount,
-           .faceCount = 1,
-           .lightIdLow = ~0u};
-    layout.faces[layout.faceCount++] = {
-        .worldFromClip = glm::mat4(1), .clipFromWorld = glm::mat4(1), .size = side, .map = layout.mapCount};
-    layout.largestFace = std::max(layout.largestFace, side);
-    return total * share / std::max(1 - share, 0.01f);
+    for (const Sharer& s : sharers)
+        total += s.flux;
+    return total;
+}
+
+// A small sign in a sunlit room is seen beside light that is as weak as its own: its share falls as the cube
+// root of its part of the power.
+float emissiveWeight(float flux, float lights) {
+    const float share = std::cbrt(flux / (flux + lights));
+    return lights > 0 ? lights * share / std::max(1 - share, 1e-3f) : flux;
+}
+
+// `power`: W, of all that lights the scene.
+void addPointMap(RsmLayout& layout, const PointMap& points, uint32_t id, float power) {
+    layout.maps[layout.mapCount] = {
+        .kind = io::kMapOfSurfaces,
+        .direction = {0, -1, 0},
+        .intensity = glm::vec3(std::max(power, 1e-20f)),  // a texel's part is much
+        .tanHalf = 0.5f,
+        .firstFace = layout.faceCount,
+        .faceCount = 1,
+        .lightIdLow = id,
+        .firstPoint = points.firstPoint};
+    layout.faces[layout.faceCount++] = {.worldFromClip = glm::mat4(1),
+                                        .clipFromWorld = glm::mat4(1),
+                                        .size = points.side,
+                                        .map = layout.mapCount++};
+    layout.largestFace = std::max(layout.largestFace, points.side);
 }
 
 }  // namespace
@@ -207,7 +221,7 @@ void addLightRsm(RsmLayout& layout, const RsmLight& light, const Bounds& bounds,
 }  // namespace
 
 RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-                    ClusterShares& shares, uint32_t surfaceSide, float surfaceShare) {
+                    ClusterShares& shares, const SurfaceEmitters& emitters) {
     RsmLayout layout;
     const ClusterShares before = std::exchange(shares, {});
     std::array<Sharer, io::kMaxRsmMaps> sharers{};
@@ -224,12 +238,19 @@ RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t cl
         layout.lightIds[layout.mapCount] = light.id;
         addLightRsm(layout, light, world.bounds, settings, halvings);
     }
-    if (layout.mapCount == 0) return layout;
+    layout.lightMapCount = layout.mapCount, layout.lightFaceCount = layout.faceCount;
     uint32_t sharing = shares.count;
-    if (surfaceSide > 0) {
-        const float flux = addSurfaceMap(layout, {sharers.data(), sharing}, surfaceSide, surfaceShare);
-        sharers[sharing++] = {flux, layout.mapCount++};
+    if (emitters.emissive.side > 0) {
+        const float lights = fluxOf({sharers.data(), sharing});
+        sharers[sharing++] = {emissiveWeight(emitters.emissiveFlux, lights), layout.mapCount};
+        addPointMap(layout, emitters.emissive, kEmissiveMapId, lights + emitters.emissiveFlux);
     }
+    if (emitters.reflecting.side > 0) {
+        const float power = fluxOf({sharers.data(), sharing}), share = emitters.reflectingShare;
+        sharers[sharing++] = {power * share / std::max(1 - share, 0.01f), layout.mapCount};
+        addPointMap(layout, emitters.reflecting, kReflectingMapId, power);
+    }
+    if (layout.mapCount == 0) return layout;
     placeFaces(layout);
     shareClusters(layout, {sharers.data(), sharing}, clusterBudget);
     return layout;

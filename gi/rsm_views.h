@@ -10,14 +10,16 @@ struct RsmLayout {
     std::array<io::RsmFace, io::kMaxRsmFaces> faces{};
     std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights
     uint32_t mapCount = 0, faceCount = 0;
+    uint32_t lightMapCount = 0, lightFaceCount = 0;  // the first ones
     glm::uvec2 atlasSize{0};
     uint32_t largestFace = 0;
 };
 
 // At most kMaxBounceLights lights; faces are powers of two and aligned to their size.
-// `surfaceSide`: texels along the map of surfaces, 0: none; it gets `surfaceShare` of the clusters.
+// After the lights' maps come that of emissive surfaces and that of surfaces that reflect, where there are
+// such.
 RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-                    ClusterShares& shares, uint32_t surfaceSide = 0, float surfaceShare = 0);
+                    ClusterShares& shares, const SurfaceEmitters& emitters = {});
 
 // Emitted flux of a light in W, for sharing budgets (mean of the channels; sun: onto the scene's bounds).
 float emittedFlux(const RsmLight& light, const Bounds& sceneBounds);

@@ -60,6 +60,7 @@ void registerSettings(Settings& settings, BounceLightSettings& s) {
     registerFields(settings, "stochastic_rsm", s.stochasticRsm);
     registerFields(settings, "denoiser", s.denoiser);
     registerFields(settings, "probes", s.probes);
+    registerFields(settings, "sky", s.sky);
     registerFields(settings, "refresh", s.refresh);
 }
 

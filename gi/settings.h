@@ -10,6 +10,7 @@
 #include "gi/probes.h"
 #include "gi/refresh_settings.h"
 #include "gi/rsm.h"
+#include "gi/sky.h"
 #include "gi/stochastic_rsm.h"
 #include "gi/texel_rays.h"
 #include "gi/val_clustering.h"
@@ -29,6 +30,7 @@ struct BounceLightSettings {
     StochasticRsmSettings stochasticRsm;
     DenoiserSettings denoiser;
     ProbeSettings probes;
+    SkySettings sky;
     RefreshSettings refresh;
 
     bool operator==(const BounceLightSettings&) const = default;

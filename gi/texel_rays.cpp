@@ -6,6 +6,7 @@
 #include "gi/blue_noise.h"
 #include "gi/pixel_rays.h"
 #include "shaders/bvh/bvh_io.h"
+#include "shaders/ray_filter/ray_filter_io.h"
 #include "shaders/texel_rays/texel_rays_io.h"
 
 namespace ag::gi {
@@ -212,7 +213,7 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
         .dispatchThreads(size.x, size.y);
     uint32_t round = 0;
     for (; round < std::min(s.rounds, kMostRounds); ++round)
-        t.scope.compute(kFilterNames[round], "texel_rays/filter.comp")
+        t.scope.compute(kFilterNames[round], "ray_filter/filter.comp")
             .sample("rest", turns[round % 2])
             .sample("surface", m.surface.current)
             .read("cameras", m.cameras)
@@ -234,7 +235,8 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
 Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const TexelRaysInputs& in,
                         const ValShadingSettings& shading, const TexelRaysSettings& s,
                         TexelRaysHistory& history) {
-    if (!s.enabled || !areaLights.image || !in.occluders.trees.moverNodes) return areaLights;
+    if (!s.enabled || !areaLights.image || !in.occluders.trees || !in.occluders.trees.moverNodes)
+        return areaLights;
     const uint64_t seen =
         combineHash(in.rsm.inputsVersion, combineHash(in.versions.camera, in.versions.instances));
     const uint32_t step = history.settling.advance(seen, s.settleFrames);

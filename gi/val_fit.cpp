@@ -37,7 +37,7 @@ Vals laterVals(Vals vals, uint32_t first) {
     return vals;
 }
 
-Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters,
+Vals addValFit(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters, const Clusters& clusters,
                const Occluders* traced) {
     if (clusters.count == 0) return {};
     Vals v{.count = paddedCount(clusters.count)};
@@ -51,7 +51,7 @@ Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, con
         .read("texels", rsm.texels)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
-        .read("edges", later.edges ? later.edges : rsm.texels)
+        .read("edges", emitters.edges ? emitters.edges : rsm.texels)
         .readPrevious("previousVals", vals)
         .write("vals", v.vals)
         .write("shapes", v.shapes)

@@ -24,7 +24,7 @@ Vals laterVals(Vals vals, uint32_t first);
 
 // `traced`: occluders that have trees, if the lights may look at them: then none looks out from within a
 // solid.
-Vals addValFit(GraphScope scope, const RsmSet& rsm, const LaterLight& later, const Clusters& clusters,
+Vals addValFit(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters, const Clusters& clusters,
                const Occluders* traced);
 
 }  // namespace ag::gi

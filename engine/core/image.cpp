@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <stb/stb_image.h>
 #include <tinyexr.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 
 #include "engine/core/number.h"
 #include "engine/core/safe_file.h"
@@ -255,6 +257,28 @@ Result<Image> loadExr(const std::string& path) {
     return image;
 }
 
+// Radiance's run-length encoded picture (Ward 1991).
+Result<Image> loadHdr(const std::string& path) {
+    const auto bytes = readFile(path, kMostImageBytes);
+    if (!bytes) return bytes.error();
+    const auto refuse = [&](const char* why) {
+        return Error{fmt::format("{} is not a readable HDR image: {}", path, why)};
+    };
+    if (bytes->size() > size_t(std::numeric_limits<int>::max())) return refuse("it is too large");
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes->data());
+    const int length = int(bytes->size());
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_is_hdr_from_memory(data, length)) return refuse("its first bytes are others");
+    if (!stbi_info_from_memory(data, length, &width, &height, &channels) || !reasonable(width, height))
+        return refuse("its size is larger than the limit or none");
+    float* const texels = stbi_loadf_from_memory(data, length, &width, &height, &channels, 3);
+    if (!texels) return refuse("its pixels are broken");
+    Image image(width, height);
+    std::memcpy(image.pixels.data(), texels, image.pixels.size() * sizeof(glm::vec3));
+    stbi_image_free(texels);
+    return image;
+}
+
 std::string extensionOf(const std::string& path) {
     return std::filesystem::path(path).extension().string();
 }
@@ -279,7 +303,8 @@ Result<Image> loadImage(const std::string& path) {
     const std::string extension = extensionOf(path);
     if (extension == ".exr") return loadExr(path);
     if (extension == ".pfm") return loadPfm(path);
-    return Error{path + " is neither .exr nor .pfm"};
+    if (extension == ".hdr") return loadHdr(path);
+    return Error{path + " is neither .exr, .hdr nor .pfm"};
 }
 
 }  // namespace ag

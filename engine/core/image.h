@@ -24,6 +24,6 @@ struct Image {
 // By extension: .exr and .pfm hold linear floats; .png takes display values in [0, 1]. A file that cannot be
 // written whole is not left behind.
 Status saveImage(const Image& image, const std::string& path);
-Result<Image> loadImage(const std::string& path);  // .exr or .pfm
+Result<Image> loadImage(const std::string& path);  // .exr, .hdr or .pfm
 
 }  // namespace ag

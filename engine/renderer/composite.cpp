@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "gi/pixel_rays.h"
+
 namespace ag::render {
 
-RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const gi::Irradiance& direct,
-                           const gi::BounceLight& bounce, const CompositeSettings& settings) {
+RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light,
+                           const CompositeSettings& settings) {
     const gi::Surfaces& surfaces = gbuffer.surfaces;
     RenderOutputs out;
     out.radiance =
@@ -17,15 +19,20 @@ RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const gi::I
     const auto orAlbedo = [&](ImageHandle image) { return image ? image : surfaces.albedo; };
     scope.fullscreen("composite.combine", "composite/combine.frag")
         .sample("albedoMap", surfaces.albedo)
-        .sample("directMap", orAlbedo(direct.image))
-        .sample("indirectMap", orAlbedo(bounce.irradiance.image))
+        .sample("directMap", orAlbedo(light.direct.image))
+        .sample("skyMap", orAlbedo(light.sky.image))
+        .sample("skyPicture", orAlbedo(light.scene.skyPicture), Sampler::kLinearRepeat)
+        .sample("indirectMap", orAlbedo(light.bounce.irradiance.image))
         .sample("emissiveMap", orAlbedo(gbuffer.emissive))
-        .sample("specularMap", orAlbedo(bounce.gloss))
+        .sample("specularMap", orAlbedo(light.bounce.gloss))
         .sample("depthMap", surfaces.depth)
-        .constant("kDirect", bool(direct.image))
-        .constant("kIndirect", bool(bounce.irradiance.image))
+        .constant("kDirect", bool(light.direct.image))
+        .constant("kIndirect", bool(light.bounce.irradiance.image))
+        .constant("kSky", bool(light.sky.image))
+        .constant("kSkyPicture", bool(light.scene.skyPicture))
         .constant("kEmissive", bool(gbuffer.emissive))
-        .constant("kSpecular", bool(bounce.gloss))
+        .constant("kSpecular", bool(light.bounce.gloss))
+        .push(gi::pixelRays(surfaces.view, surfaces.size))
         .colorClear(out.radiance, glm::vec4(0));
 
     struct Push {

@@ -28,7 +28,13 @@ struct RenderOutputs {
     ImageHandle display;   // rgba8, sRGB-encoded
 };
 
-RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const gi::Irradiance& direct,
-                           const gi::BounceLight& bounce, const CompositeSettings& settings);
+struct CompositeLight {
+    const gi::Irradiance &direct, &sky;
+    const gi::BounceLight& bounce;
+    const SceneView& scene;  // whose sky is seen where no surface is
+};
+
+RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light,
+                           const CompositeSettings& settings);
 
 }  // namespace ag::render

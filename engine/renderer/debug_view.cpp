@@ -1,5 +1,6 @@
 #include "engine/renderer/debug_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -17,7 +18,9 @@ struct Row {
 constexpr std::array<Row, size_t(Layer::kCount)> kLayers = {
     {{{"final", "display values, 0 to 1", "the picture: radiance, exposed and tonemapped"}, Show::kDisplay},
      {{"radiance", "W/(m² sr)", "light towards the camera"}, Show::kLight},
-     {{"direct", "W/m²", "irradiance straight from lights, before albedo", true}, Show::kLight},
+     {{"direct", "W/m²", "irradiance straight from suns and lamps, before albedo", true}, Show::kLight},
+     {{"emissive", "W/m²", "irradiance straight from emissive surfaces, before albedo", true}, Show::kLight},
+     {{"sky", "W/m²", "irradiance straight from the sky, before albedo", true}, Show::kLight},
      {{"indirect", "W/m²", "irradiance of all bounces, before albedo", true}, Show::kLight},
      {{"bounce1", "W/m²", "irradiance of the first bounce, before albedo", true}, Show::kLight},
      {{"bounce2", "W/m²", "irradiance of all bounces after the first, before albedo", true}, Show::kLight},
@@ -136,6 +139,47 @@ ImageHandle addImportanceView(GraphScope scope, const RenderFrame& f) {
     return out;
 }
 
+bool hasEmissiveLights(const RenderFrame& f) {
+    return f.bounce.bounce1.image && f.bounce.rsm.firstEmissive != ~0u;
+}
+
+constexpr gi::ValShadingNames kTermShading = {
+    {"debug_view.classify", "debug_view.lists", "debug_view.counts"},
+    "debug_view.far",
+    "debug_view.near",
+    "debug_view.far_irradiance",
+    "debug_view.irradiance",
+    "debug_view.far_toward",
+    "debug_view.toward"};
+constexpr gi::ValShadingNames kLaterTermShading = {
+    {"debug_view.classify_later", "debug_view.lists_later", "debug_view.counts_later"},
+    "debug_view.far_later",
+    "debug_view.near_later",
+    "debug_view.far_irradiance_later",
+    "debug_view.irradiance_later",
+    "debug_view.far_toward_later",
+    "debug_view.toward_later"};
+
+// What some of the area lights send to each pixel, where emissive surfaces are gathered with the first
+// bounce.
+ImageHandle addTerm(GraphScope scope, const RenderFrame& f, uint32_t begin, uint32_t end,
+                    const gi::ValShadingNames& names = kTermShading) {
+    if (begin >= std::min(end, f.bounce.vals.count)) return {};
+    const gi::ShadowedVals lights{gi::laterVals(gi::firstVals(f.bounce.vals, end), begin), f.bounce.isms};
+    return gi::addValShading(scope, f.gbuffer.surfaces, lights, gi::ValShadingSettings{}, names).image;
+}
+
+ImageHandle addFirstBounceTerm(GraphScope scope, const RenderFrame& f) {
+    return addTerm(scope, f, 0, f.bounce.rsm.firstEmissive);
+}
+
+ImageHandle addBouncesTerm(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
+    const ImageHandle first = addFirstBounceTerm(scope, f),
+                      later = addTerm(scope, f, f.bounce.firstCount, ~0u, kLaterTermShading);
+    return addCopy(scope, scene, first ? first : later, first ? later : ImageHandle{},
+                   first && later ? Copy::kSum : Copy::kLight);
+}
+
 }  // namespace
 
 const LayerInfo& layerInfo(Layer layer) {
@@ -143,6 +187,7 @@ const LayerInfo& layerInfo(Layer layer) {
 }
 
 std::optional<Layer> layerFromName(std::string_view name) {
+    if (name == "bounces") return Layer::kIndirect;  // its name as a term
     for (size_t i = 0; i < kLayers.size(); ++i)
         if (kLayers[i].info.name == name) return Layer(i);
     return std::nullopt;
@@ -156,6 +201,10 @@ bool hasLayer(const RenderFrame& f, Layer layer) {
     switch (layer) {
         case Layer::kDirect:
             return bool(f.direct.image);
+        case Layer::kEmissive:
+            return hasEmissiveLights(f);
+        case Layer::kSky:
+            return bool(f.sky.image);
         case Layer::kIndirect:
             return bool(f.bounce.irradiance.image);
         case Layer::kBounce1:
@@ -193,8 +242,16 @@ ImageHandle addLayer(GraphScope scope, const SceneView& scene, const RenderFrame
         case Layer::kDirect:
             return addCopy(scope, scene, direct, {}, Copy::kLight);
         case Layer::kIndirect:
+            if (hasEmissiveLights(f)) return addBouncesTerm(scope, scene, f);
             return addCopy(scope, scene, bounce, {}, Copy::kLight);
+        case Layer::kEmissive:
+            return addCopy(scope, scene, addTerm(scope, f, f.bounce.rsm.firstEmissive, f.bounce.firstCount),
+                           {}, Copy::kLight);
+        case Layer::kSky:
+            return addCopy(scope, scene, f.sky.image, {}, Copy::kLight);
         case Layer::kBounce1:
+            if (hasEmissiveLights(f))
+                return addCopy(scope, scene, addFirstBounceTerm(scope, f), {}, Copy::kLight);
             return addCopy(scope, scene, f.bounce.bounce1.image, {}, Copy::kLight);
         case Layer::kBounce2:
             return addCopy(scope, scene, f.bounce.irradiance.image, f.bounce.bounce1.image,

@@ -13,6 +13,8 @@ enum class Layer : uint32_t {
     kFinal,
     kRadiance,
     kDirect,
+    kEmissive,
+    kSky,
     kIndirect,
     kBounce1,
     kBounce2,

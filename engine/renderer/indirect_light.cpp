@@ -35,6 +35,8 @@ void listMoved(const SceneView& scene, std::vector<gi::MovedThing>& moved) {
             moved.push_back(ballRound(row, scene.draws->boundsOf(row)));
 }
 
+}  // namespace
+
 gi::Occluders occludersOf(const SceneView& scene) {
     return {.instances = scene.instances,
             .samples = scene.surfaceSamples,
@@ -43,12 +45,16 @@ gi::Occluders occludersOf(const SceneView& scene) {
             .staticSampleCount = scene.staticSampleCount,
             .bouncePoints = scene.bouncePoints,
             .bouncePointCount = scene.bouncePointCount,
+            .emissivePointCount = scene.emissivePointCount,
+            .emissiveFlux = scene.emissiveFlux,
             .deformedPositions = scene.skin.deformedPositions,
             .deformedAttributes = scene.skin.deformedAttributes,
             .trees = scene.trees,
             .staticVersion = scene.staticVersion,
             .extent = scene.extent};
 }
+
+namespace {
 
 gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::BounceLightInputs& in,
                           const RenderSettings& s, gi::BounceLightHistory& h) {
@@ -86,6 +92,15 @@ bool needsMotion(const RenderSettings& s) {
     return castsTexelRays(s) || (s.bounce.denoiser.enabled && s.bounce.denoiser.motion);
 }
 
+gi::Versions versionsOf(const SceneView& scene) {
+    const RenderScene& s = *scene.scene;
+    return {.scene = scene.loadedVersion,
+            .instances = s.instancesVersion,
+            .lights = s.lightsVersion,
+            .camera = s.cameraVersion,
+            .origin = s.originVersion};
+}
+
 gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,
                   std::vector<gi::MovedThing>& moved) {
     const RenderScene& s = *scene.scene;
@@ -96,11 +111,7 @@ gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,
     const bool empty = s.instances.empty();
     return {.lights = lights,
             .bounds = empty ? Bounds{} : s.bounds,
-            .versions = {.scene = scene.loadedVersion,
-                         .instances = s.instancesVersion,
-                         .lights = s.lightsVersion,
-                         .camera = s.cameraVersion,
-                         .origin = s.originVersion},
+            .versions = versionsOf(scene),
             .moved = moved,
             .extent = scene.extent};
 }
@@ -112,6 +123,7 @@ gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const
     const gi::BounceLightInputs in{.surfaces = surfaces,
                                    .world = worldOf(scene, h.lights, h.moved),
                                    .occluders = occludersOf(scene),
+                                   .sky = scene.sky,
                                    .drawRsm = draw,
                                    .probes = scene.scene->probes,
                                    .lightUnit = scene.units.light};

@@ -12,6 +12,8 @@ gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const
                                  const RenderSettings& settings, RenderHistory& history);
 
 // What gi/ knows of the scene; valid as long as the two lists are left alone.
+gi::Occluders occludersOf(const SceneView& scene);
+gi::Versions versionsOf(const SceneView& scene);
 gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,
                   std::vector<gi::MovedThing>& moved);
 

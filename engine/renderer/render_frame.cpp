@@ -32,8 +32,13 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     if (s.lightClusters.strongFirst)
         addPunctualRelevance(scope, f.bounce.viewPoints, f.punctual.lists, h.punctualRelevance);
 
+    // Light of the sky
+    const gi::Occluders occluders = occludersOf(scene);
+    f.sky = gi::addSkyLight(scope, surfaces, s.bounce.spacing, {scene.sky, occluders, versionsOf(scene)},
+                            s.bounce.sky, h.sky);
+
     // To the eye
-    f.outputs = addComposite(scope, f.gbuffer, f.direct, f.bounce, s.composite);
+    f.outputs = addComposite(scope, f.gbuffer, {f.direct, f.sky, f.bounce, scene}, s.composite);
     return f;
 }
 

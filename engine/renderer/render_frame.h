@@ -15,6 +15,7 @@ namespace ag::render {
 struct RenderHistory {
     Technique technique = Technique::kNone;
     gi::BounceLightHistory bounce;
+    gi::SkyHistory sky;
     SunShadowHistory sunShadows;
     LightClusterHistory lightClusters;
     PunctualShadowHistory punctualShadows;
@@ -31,7 +32,8 @@ struct RenderFrame {
     gi::BounceLight bounce;
     ShadowMaps shadows;
     PunctualLights punctual;
-    gi::Irradiance direct;
+    gi::Irradiance direct;  // of suns and lamps
+    gi::Irradiance sky;     // straight from it
     RenderOutputs outputs;
 };
 

@@ -199,10 +199,10 @@ bool castsTexelRays(const RenderSettings& s) {
     return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
 }
 
-std::optional<gi::TreesOf> tracedBy(const RenderSettings& s) {
+std::optional<gi::TreesOf> tracedBy(const RenderSettings& s, bool sky) {
     constexpr std::array kWithMaps = {Technique::kAreaLights, Technique::kStochastic, Technique::kIsm,
                                       Technique::kRsmc, Technique::kAcrsm};
-    if (castsTexelRays(s)) return gi::TreesOf::kAll;
+    if (castsTexelRays(s) || (sky && s.bounce.sky.enabled)) return gi::TreesOf::kAll;
     const bool maps = s.bounce.ismAtlas.enabled && s.bounce.ismAtlas.traced;
     if (maps && std::ranges::count(kWithMaps, s.technique) > 0) return gi::TreesOf::kStatic;
     return {};

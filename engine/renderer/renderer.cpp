@@ -92,7 +92,7 @@ void Renderer::startAnew() {
 }
 
 const RenderScene& Renderer::inOwnUnits(const RenderScene& scene) {
-    const RenderUnits units = chooseUnits(scene, scene_.strongestEmission(), units_);
+    const RenderUnits units = chooseUnits(scene, scene_.strongestEmission(scene), units_);
     if (units != units_) {
         units_ = units;
         extent_ = 0;
@@ -119,7 +119,7 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     graph_.beginFrame(options);
     scene_.beginFrame(scene, jobs_);
     if (castsTexelRays(settings)) checkTexelRays(device_.info());
-    SceneView view = scene_.import(graph_, scene, size, tracedBy(settings));
+    SceneView view = scene_.import(graph_, scene, size, tracedBy(settings, bool(given.sky)));
     view.units = units_;
     view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     RenderSettings asked = settings;

@@ -16,6 +16,7 @@ namespace {
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint32_t kSurfaceSamples = 1u << 17;  // over the whole scene
 constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounces on
+constexpr uint32_t kEmissivePoints = 1u << 12;  // on emissive surfaces
 
 io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
     const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
@@ -88,7 +89,7 @@ void transferBarrier(const gpu::Functions& vk, VkCommandBuffer commands, Transfe
 
 }  // namespace
 
-SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device), trees_(device) {}
+SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device), trees_(device), sky_(device) {}
 SceneGpu::~SceneGpu() {
     device_.waitIdle();
 }
@@ -109,6 +110,7 @@ void SceneGpu::load(const GeometryArrays& geometry) {
 
 void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
     loadMaterials(geometry, units);
+    lightUnit_ = units.light;
     instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
     trees_.forget();
 }
@@ -185,14 +187,19 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
     staticSampleCount_ = chosen.staticCount;
     for (auto* old : {&samples_, &pointAreas_, &bouncePoints_})
         gpu::retire(device_, std::move(*old));
-    bouncePointCount_ = 0;
+    bouncePointCount_ = emissivePointCount_ = 0;
+    emissiveFlux_ = 0;
     if (sampleCount_ == 0) return;
     samples_ = gpu::loadBuffer(device_, {.name = "scene.surface_samples", .texelFormat = kVec4Texels},
                                chosen.samples);
     pointAreas_ = gpu::loadBuffer(device_, {.name = "scene.point_areas", .texelFormat = VK_FORMAT_R32_SFLOAT},
                                   chosen.pointAreas);
-    const auto points = chooseBouncePoints(scene, chosen, kBouncePoints);
+    auto points = chooseBouncePoints(scene, chosen, kBouncePoints);
     bouncePointCount_ = uint32_t(points.size());
+    const auto shining = chooseEmissivePoints(scene, kEmissivePoints, lightUnit_);
+    emissivePointCount_ = uint32_t(shining.size());
+    emissiveFlux_ = gi::emittedFlux(shining);
+    points.insert(points.end(), shining.begin(), shining.end());
     bouncePoints_ = gpu::loadBuffer(device_, {.name = "scene.bounce_points"}, points);
 }
 
@@ -260,12 +267,15 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
         view.surfaceSampleCount = sampleCount_;
         view.bouncePoints = scope.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
         view.bouncePointCount = bouncePointCount_;
+        view.emissivePointCount = emissivePointCount_;
+        view.emissiveFlux = emissiveFlux_;
         view.staticSampleCount = staticSampleCount_;
         view.staticVersion = combineHash(combineHash(sampledSet_, staticVersion_), scene.originVersion);
     }
     if (traced)
         view.trees =
             trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion), *traced);
+    view.sky = sky_.import(scope, scene.sky, lightUnit_, view.skyPicture);
     view.camera = gi::addCamera(scope, "scene.camera", scene.camera, size);
     return view;
 }
@@ -364,7 +374,7 @@ uint64_t SceneGpu::deviceBytes() const {
                                instances_.get(), previousInstances_.get(), commands_.get(), drawnRows_.get(),
                                samples_.get(), pointAreas_.get(), bouncePoints_.get()})
         if (buffer) bytes += buffer->sizeBytes();
-    return bytes + skin_.deviceBytes() + trees_.deviceBytes();
+    return bytes + skin_.deviceBytes() + trees_.deviceBytes() + sky_.deviceBytes();
 }
 
 }  // namespace ag::render

@@ -3,6 +3,7 @@
 // frame.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "engine/renderer/render_units.h"
 #include "engine/renderer/scene_trees.h"
 #include "engine/renderer/skinning.h"
+#include "engine/renderer/sky_gpu.h"
 #include "engine/scene/render_scene.h"
 #include "shaders/scene/scene_io.h"
 
@@ -57,10 +59,13 @@ struct SceneView {
     BufferHandle pointAreas;      // m² that a sample of each instance stands for: a texel buffer of float
     uint32_t surfaceSampleCount = 0;  // 0: no surface
     uint32_t staticSampleCount = 0;   // the first ones are on what is static
-    BufferHandle bouncePoints;        // io::BouncePoint: some of the samples
-    uint32_t bouncePointCount = 0;    // a square of a power of two, or 0
-    uint64_t staticVersion = 0;       // changes when an instance that is not movable may have moved
-    gi::TracedOccluders trees;        // where asked for
+    BufferHandle bouncePoints;        // see gi::Occluders
+    uint32_t bouncePointCount = 0, emissivePointCount = 0;
+    float emissiveFlux = 0;
+    uint64_t staticVersion = 0;  // changes when an instance that is not movable may have moved
+    gi::TracedOccluders trees;   // where asked for
+    gi::SkyOnDevice sky;         // none: black
+    ImageHandle skyPicture;      // rgba16f, equirectangular: what is seen of it
 };
 
 class SceneGpu {
@@ -74,7 +79,10 @@ class SceneGpu {
     void load(const GeometryArrays& geometry);
     // Of the scene loaded: what follows comes in other units. Nothing may be under way.
     void useUnits(const GeometryArrays& geometry, RenderUnits units);
-    float strongestEmission() const { return strongestEmission_; }  // of its materials, W/(m² sr)
+    // Of its materials and its sky, W/(m² sr).
+    float strongestEmission(const RenderScene& scene) {
+        return std::max(strongestEmission_, sky_.meanRadiance(scene.sky));
+    }
 
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
@@ -113,6 +121,7 @@ class SceneGpu {
     DrawLists draws_;
     SkinGpu skin_;
     SceneTrees trees_;
+    SkyGpu sky_;
     uint64_t geometryVersion_ = 0, loads_ = 0;
     float strongestEmission_ = 0;
     uint64_t materialsVersion_ = 0;
@@ -121,7 +130,8 @@ class SceneGpu {
         previousInstances_, commands_, drawnRows_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
     std::unique_ptr<gpu::Buffer> samples_, pointAreas_, bouncePoints_;
-    uint32_t bouncePointCount_ = 0;
+    uint32_t bouncePointCount_ = 0, emissivePointCount_ = 0;
+    float emissiveFlux_ = 0, lightUnit_ = 1;
     uint32_t sampleCount_ = 0;
     uint32_t staticSampleCount_ = 0;
     uint64_t staticVersion_ = 0, notedVersion_ = 0;           // notedVersion_: of the instances it is about

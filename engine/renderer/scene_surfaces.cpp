@@ -1,9 +1,11 @@
 #include "engine/renderer/scene_surfaces.h"
 
+#include <algorithm>
 #include <glm/gtc/color_space.hpp>
 
 #include "common/brdf.h"
 #include "engine/scene/deform.h"
+#include "engine/scene/static_scene.h"
 
 namespace ag::render {
 namespace {
@@ -33,25 +35,45 @@ float metallicAt(const GeometryArrays& g, const Material& m, size_t texel) {
            255;
 }
 
-// Mean of the diffuse albedo over a window of the texture, an eighth of its width: a point stands for more
-// than a texel.
-glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv) {
-    if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0)
-        return io::diffuseAlbedo(glm::vec3(m.baseColor), m.metallic);
-    const int side = int(textureClassSize(m.textureClass)), step = side / 64;
+// The mean over a window of the material's textures of what `at` has in a texel: a point stands for more than
+// one. `windows`: such windows along a texture's side.
+template <class F>
+glm::vec3 meanAbout(const Material& m, glm::vec2 vertexUv, int windows, F&& at) {
+    const int side = int(textureClassSize(m.textureClass)), step = std::max(side / (8 * windows), 1);
     const glm::ivec2 middle(glm::fract(m.uvTransform * glm::vec3(vertexUv, 1)) * float(side));
     glm::vec3 sum(0);
     for (int y = -4; y < 4; ++y)
         for (int x = -4; x < 4; ++x) {
-            const glm::ivec2 at = (middle + glm::ivec2(x, y) * step + side) % side;
-            const size_t texel = size_t(at.y) * size_t(side) + size_t(at.x);
-            glm::vec3 base(m.baseColor);
-            if (m.baseColorLayer >= 0)
-                base *=
-                    linearOf(&g.textures[size_t(m.textureClass)].srgb[size_t(m.baseColorLayer)][texel * 4]);
-            sum += io::diffuseAlbedo(base, metallicAt(g, m, texel)) / 64.0f;
+            const glm::ivec2 texel = (middle + glm::ivec2(x, y) * step + side) % side;
+            sum += at(size_t(texel.y) * size_t(side) + size_t(texel.x)) / 64.0f;
         }
     return sum;
+}
+
+glm::vec3 colorOf(const GeometryArrays& g, const Material& m, int32_t layer, size_t texel) {
+    return layer < 0 ? glm::vec3(1)
+                     : linearOf(&g.textures[size_t(m.textureClass)].srgb[size_t(layer)][texel * 4]);
+}
+
+glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv) {
+    if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0)
+        return io::diffuseAlbedo(glm::vec3(m.baseColor), m.metallic);
+    return meanAbout(m, vertexUv, 8, [&](size_t texel) {
+        const glm::vec3 base = glm::vec3(m.baseColor) * colorOf(g, m, m.baseColorLayer, texel);
+        return io::diffuseAlbedo(base, metallicAt(g, m, texel));
+    });
+}
+
+// Signs have finer texture than what reflects.
+glm::vec3 emissionAbout(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv) {
+    if (m.emissiveLayer < 0) return m.emissive;
+    return m.emissive *
+           meanAbout(m, vertexUv, 32, [&](size_t texel) { return colorOf(g, m, m.emissiveLayer, texel); });
+}
+
+const Material& materialOf(const RenderScene& scene, uint32_t instance) {
+    const GeometryArrays& g = *scene.geometry;
+    return g.materials[g.primitives[scene.instances[instance].primitive].material];
 }
 
 std::vector<gi::SampledMesh> meshesOf(const GeometryArrays& g) {
@@ -112,9 +134,38 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
     const GeometryArrays& g = *scene.geometry;
     const DeformedVertices deformed = deformSkinnedMeshes(scene);
     const auto albedo = [&](uint32_t instance, glm::vec2 uv) {
-        return albedoAbout(g, g.materials[g.primitives[scene.instances[instance].primitive].material], uv);
+        return albedoAbout(g, materialOf(scene, instance), uv);
     };
     return chooseBouncePoints(instancesOf(scene, deformed), samples, albedo, count);
+}
+
+std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint32_t count, float lightUnit) {
+    if (!hasEmissive(scene)) return {};
+    const GeometryArrays& g = *scene.geometry;
+    const DeformedVertices deformed = deformSkinnedMeshes(scene);
+    std::vector<gi::SampledMesh> meshes = meshesOf(g);
+    for (size_t i = 0; i < meshes.size(); ++i)
+        meshes[i].blocksLight &= g.materials[g.primitives[i].material].emissive != glm::vec3(0);
+    const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
+    const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
+        return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
+    };
+    const auto samples =
+        gi::sampleSurfaces(gi::SampledScene{meshes, instances, scene.bounds, cutOut}, 4 * count);
+    if (samples.samples.empty()) return {};
+    const auto radiance = [&](uint32_t instance, glm::vec2 uv) {
+        return emissionAbout(g, materialOf(scene, instance), uv) / lightUnit;
+    };
+    auto points = chooseBouncePoints(instances, samples, radiance, count);
+    // Of a surface that shines to both sides, one point to each in turn. Those that joints bend have their
+    // normals from the device: they shine to the front.
+    for (size_t i = 0; i < points.size(); ++i) {
+        io::BouncePoint& p = points[i];
+        if (instances[p.instance].deformed || !materialOf(scene, p.instance).doubleSided) continue;
+        p.area *= 2;
+        if (i % 2) p.normalLocal = -p.normalLocal;
+    }
+    return points;
 }
 
 }  // namespace ag::render

@@ -11,6 +11,8 @@ namespace ag::render {
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
                                                 uint32_t count);
+// On emissive surfaces; their radiance is over `lightUnit`. Empty: nothing shines.
+std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint32_t count, float lightUnit);
 gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of = gi::TreesOf::kAll);
 gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers);
 

@@ -72,15 +72,17 @@ bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::Tr
 
 gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
                                        gi::TreesOf of) {
-    if (!follow(scene, staticVersion, of)) return {};
+    const bool follows = follow(scene, staticVersion, of);
+    if (!nodes_) return {};
     const uint64_t placing = of == gi::TreesOf::kAll ? scene.instancesVersion : 1;
-    if (placedOf_ != placing) place(scene);
-    placedOf_ = placing;
+    if (follows && placedOf_ != placing) place(scene);
+    if (follows) placedOf_ = placing;
     return {.nodes = scope.importBuffer("scene.tree_nodes", *nodes_, builds_),
             .triangles = scope.importBuffer("scene.tree_triangles", *triangles_, builds_),
             .places = scope.importBuffer("scene.tree_places", *places_, placings_),
             .moverNodes = scope.importBuffer("scene.mover_nodes", *moverNodes_, placings_),
-            .staticVersion = builds_};
+            .staticVersion = builds_,
+            .stale = !follows};
 }
 
 void SceneTrees::upload(Stage stage) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "engine/core/light_kind.h"
 #include "engine/core/render_camera.h"
 #include "engine/core/render_probe.h"
+#include "engine/scene/sky.h"
 
 namespace ag {
 
@@ -134,6 +136,7 @@ struct RenderScene {
     std::vector<glm::mat3x4>
         joints;  // rows of 3x4 matrices: a skinned mesh's frame from its mesh as modelled
     std::vector<RenderLight> lights;
+    std::shared_ptr<const Sky> sky;  // null: black
     std::vector<RenderProbe> probes;
     RenderCamera camera;
     Bounds bounds;  // of all instances

@@ -107,6 +107,7 @@ struct SceneAsset {
     std::vector<SceneNode> nodes;  // parents before children
     std::vector<SceneMesh> meshes;
     std::vector<SceneLight> lights;
+    std::shared_ptr<const Sky> sky;  // null: black
     std::vector<SceneCamera> cameras;
     std::vector<SceneSkin> skins;
     std::vector<SceneAnimation> animations;

@@ -170,6 +170,7 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
             scene.bounds.add(boundsOf(boundsLocal(scene, scene.instances.back()), world));
         }
     }
+    scene.sky = asset.sky;
     chooseBounceLights(scene.lights);
     return scene;
 }
@@ -196,6 +197,13 @@ void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size) {
                     .verticalFov = pose.verticalFov,
                     .near = pose.near};
     ++scene.cameraVersion;
+}
+
+bool hasEmissive(const RenderScene& scene) {
+    const GeometryArrays& g = *scene.geometry;
+    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const RenderInstance& i) {
+        return g.materials[g.primitives[i.primitive].material].emissive != glm::vec3(0);
+    });
 }
 
 CameraPose poseOf(const RenderScene& scene) {

@@ -33,6 +33,7 @@ CameraPose framingCamera(const Bounds& bounds);
 // result.
 RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld = glm::dvec3(0));
 void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size);
+bool hasEmissive(const RenderScene& scene);
 CameraPose poseOf(const RenderScene& scene);  // of its camera, in the world
 
 }  // namespace ag

@@ -183,8 +183,13 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
             rsms_->add(at, scene, *surfaces_, occluders.instances, rsm);
     };
     const float unit = surfaces_->units().light;
-    const gi::BounceLight light = gi::addBounceLight(
-        scope, {surfaces, world, occluders, draw, surfaces_->probes(), unit}, settings_, history);
+    const gi::BounceLightInputs in{.surfaces = surfaces,
+                                   .world = world,
+                                   .occluders = occluders,
+                                   .drawRsm = draw,
+                                   .probes = surfaces_->probes(),
+                                   .lightUnit = unit};
+    const gi::BounceLight light = gi::addBounceLight(scope, in, settings_, history);
 
     // To the host
     const Borrowed written{VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL};

@@ -1,4 +1,4 @@
-// Points on all surfaces that stand for them in every bounce after the first.
+// Points on surfaces: those that stand for all of them in every bounce after the first, and those that shine.
 #ifndef AG_LATER_BOUNCES_IO_H
 #define AG_LATER_BOUNCES_IO_H
 
@@ -16,7 +16,7 @@ struct BouncePoint {  // moves with its instance
     uint instance;
     vec3 normalLocal;  // unit
     float area;        // m² it stands for; 0: none
-    vec3 albedo;       // diffuse, the mean of what it stands for
+    vec3 albedo;  // diffuse, the mean of what it stands for; of one that shines: its radiance, W/(m² sr)
     SurfaceEdge edgesLocal[2];
 };
 
@@ -24,7 +24,9 @@ const float kMostAlbedo = 0.95;  // in the loop of bounces, which would not end 
 
 struct EmitPush {
     uint count;
-    uint known;  // 1: there is irradiance of the frame before
+    uint reflecting;  // of them the first so many reflect, the others shine
+    uint firstPoint;  // the first one's place among all points
+    uint known;       // 1: there is irradiance of the frame before
 };
 
 const uint kRunPoints = 64;  // one after another, which share lists of near and far lights

@@ -9,7 +9,7 @@
 #include "rsm/rsm.glsl"
 
 layout(local_size_x = 256) in;  // one tile
-layout(constant_id = 0) const bool kHasSurfaces = false;  // a map of points on them
+layout(constant_id = 0) const bool kHasPoints = false;  // a map of points on them
 layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
@@ -19,7 +19,7 @@ layout(set = 0, binding = 3, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]
 layout(set = 0, binding = 4, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 5, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 6, scalar) writeonly buffer TileMaps { uint items[]; } tileMaps;
-layout(set = 0, binding = 7) VEC4_TEXELS(later);
+layout(set = 0, binding = 7) VEC4_TEXELS(points);
 #define PIXEL_LIST_BINDING 8
 #include "common/pixel_list.glsl"
 
@@ -89,8 +89,9 @@ bool atCrease(RsmFace face, uvec2 coord, vec3 normal) {
 }
 
 RsmTexel pointTexel(RsmFace face, uint index) {
-    int at = int(rsmIndexInFace(index, face, push.atlas.size.x)) * 3;
-    vec4 a = fetchTexel(later, at), b = fetchTexel(later, at + 1), c = fetchTexel(later, at + 2);
+    uint point = maps.items[face.map].firstPoint + rsmIndexInFace(index, face, push.atlas.size.x);
+    int at = int(point) * 3;
+    vec4 a = fetchTexel(points, at), b = fetchTexel(points, at + 1), c = fetchTexel(points, at + 2);
     return RsmTexel(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w);
 }
 
@@ -105,7 +106,7 @@ void main() {
         texel = makeTexel(coord, found);
         if (texel.weight > 0.0 && atCrease(face, coord, texel.normal)) listPixel(ivec2(coord));
     }
-    if (kHasSurfaces && ofMap && ofSurfaces) texel = pointTexel(face, index);
+    if (kHasPoints && ofMap && ofSurfaces) texel = pointTexel(face, index);
     texels.items[index] = texel;
     if (gl_LocalInvocationID.x == 0) tileMaps.items[tile] = ofMap ? face.map : 0xffffffffu;
 }

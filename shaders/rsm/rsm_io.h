@@ -9,9 +9,9 @@ namespace ag::io {
 #endif
 
 const uint kMaxBounceLights = 8;
-const uint kMaxRsmMaps = kMaxBounceLights + 1;  // and one of surfaces, for later bounces
-const uint kMaxRsmFaces = 49;
-const uint kMapOfSurfaces = 3;  // kind of a map whose texels are points on all surfaces: none projects to it
+const uint kMaxRsmMaps = kMaxBounceLights + 2;  // and those of surfaces that shine and of all that reflect
+const uint kMaxRsmFaces = 50;
+const uint kMapOfSurfaces = 3;  // kind of a map whose texels are points on surfaces: none projects to it
 const uint kRsmTileSize = 16;   // texels; faces start and end on tile borders
 
 struct RsmFace {  // 9 vec4
@@ -22,7 +22,7 @@ struct RsmFace {  // 9 vec4
     uint map;      // which RsmMap it belongs to
 };
 
-struct RsmMap {     // all faces of one bounce light
+struct RsmMap {     // 6 vec4: all faces of one bounce light
     vec3 position;  // m
     uint kind;      // kLightDirectional, kLightPoint, kLightSpot, kMapOfSurfaces
     vec3 direction;
@@ -37,6 +37,8 @@ struct RsmMap {     // all faces of one bounce light
     uint clusterCount;
     uint lightIdLow;       // stable identity, to carry clusters over
     uint candidateRadius;  // tiles: clusters this near to a texel's tile are candidates for it
+    uint firstPoint;       // kMapOfSurfaces: the first texel's among all points
+    uint unused[3];
 };
 
 struct RsmTexel {         // 3 vec4; a texel is a small emitter (method: RSM)

@@ -35,11 +35,6 @@ struct RayAccumulatePush {
     float mostLength;  // frames that a mean stands for
 };
 
-struct RayFilterPush {
-    int stride;       // pixels from tap to tap
-    float tolerance;  // standard deviations by which the light of taps may differ
-};
-
 #ifdef __cplusplus
 }  // namespace ag::io
 #endif

@@ -35,7 +35,7 @@ void pointCorners(RsmSurface s, uint point, out vec3 corners[4]) {
 void texelCorners(uint texel, uint mapIndex, uint atlasWidth, out vec3 corners[4]) {
     TexelView v = viewTexel(texel, mapIndex, atlasWidth);
     if (v.map.kind == kMapOfSurfaces) {
-        pointCorners(v.s, rsmIndexInFace(texel, v.face, atlasWidth), corners);
+        pointCorners(v.s, v.map.firstPoint + rsmIndexInFace(texel, v.face, atlasWidth), corners);
         return;
     }
     Reach r = reachOf(v);

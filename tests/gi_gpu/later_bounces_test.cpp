@@ -20,8 +20,8 @@ std::unique_ptr<Bench> laterBench(const char* scene, uint32_t param) {
 
 // Mean over all surfaces by area, W/m².
 double meanOnSurfaces(Bench& b) {
-    const std::vector<io::RsmTexel> points = b.read<io::RsmTexel>(b.last.bounce.laterLight.texels);
-    const std::vector<glm::vec4> light = b.read<glm::vec4>(b.last.bounce.laterLight.irradiance.current);
+    const std::vector<io::RsmTexel> points = b.read<io::RsmTexel>(b.last.bounce.emitters.texels);
+    const std::vector<glm::vec4> light = b.read<glm::vec4>(b.last.bounce.emitters.irradiance.current);
     double sum = 0, area = 0;
     for (size_t i = 0; i < points.size(); ++i) {
         sum += double(light[i].x) * double(points[i].area);
@@ -81,7 +81,7 @@ TEST(LaterBounces, FurnaceConvergesToTheGeometricSeries) {
 TEST(LaterBounces, AreOfTheSurfacesOwnColourAndArea) {
     const auto b = laterBench("furnace", 50);
     b->frame();
-    const std::vector<io::RsmTexel> points = b->read<io::RsmTexel>(b->last.bounce.laterLight.texels);
+    const std::vector<io::RsmTexel> points = b->read<io::RsmTexel>(b->last.bounce.emitters.texels);
     double area = 0;
     for (const io::RsmTexel& p : points) {
         area += double(p.area);
@@ -133,7 +133,7 @@ TEST(LaterBounces, SameFrameTwiceSameBits) {
         const auto b = laterBench("cornell", 0);
         for (int i = 0; i < 12; ++i)
             b->frame();
-        const std::vector<glm::vec4> light = b->read<glm::vec4>(b->last.bounce.laterLight.irradiance.current);
+        const std::vector<glm::vec4> light = b->read<glm::vec4>(b->last.bounce.emitters.irradiance.current);
         if (run == 0) first = light;
         EXPECT_TRUE(first == light);
     }

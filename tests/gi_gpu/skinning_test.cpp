@@ -160,7 +160,7 @@ TEST(Skinning, LaterBouncesFollow) {
         glm::vec3 normal;
         float rest[5];
     };
-    const auto texels = b.named<Texel>("later_bounces.texels");
+    const auto texels = b.named<Texel>("surface_emitters.texels");
     const auto points = b.named<io::BouncePoint>("scene.bounce_points");
     size_t checked = 0;
     for (size_t i = 0; i < points.size(); ++i) {

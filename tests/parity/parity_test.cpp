@@ -77,6 +77,38 @@ TEST(Parity, PosedSkinnedMeshes) {
     EXPECT_LT(off, 60) << "pixels that see another surface: only along silhouettes";
 }
 
+// Light that no lamp sends: straight from signs and from the sky, and what of it bounces. What bounces
+// differs from clustering to clustering: the mean of three.
+TEST(Parity, EmissiveSurfacesAndSky) {
+    struct Term {
+        const char* scene;
+        Layer layer;
+        Image reference::Reference::*truth;
+        double tolerance;
+    };
+    for (const Term& term : {Term{"neon", Layer::kEmissive, &reference::Reference::emissive, 0.03},
+                             Term{"neon", Layer::kIndirect, &reference::Reference::indirect, 0.15},
+                             Term{"courtyard", Layer::kSky, &reference::Reference::sky, 0.02},
+                             Term{"showroom", Layer::kSky, &reference::Reference::sky, 0.02},
+                             Term{"showroom", Layer::kEmissive, &reference::Reference::emissive, 0.03}}) {
+        Parity p(term.scene);
+        const bool bounces = term.layer == Layer::kIndirect;
+        const reference::Reference truth =
+            p.trace({.paths = {.bounces = bounces ? 8u : 0}, .samplesPerPixel = 256});
+        double ratio = 0;
+        const uint32_t seeds = bounces ? 3 : 1;
+        for (uint32_t seed = 1; seed <= seeds; ++seed) {
+            RenderSettings settings;
+            settings.bounce.laterBounces.enabled = bounces;
+            settings.bounce.valClustering.seed = seed;
+            ratio += differ(truth.*term.truth, p.render(term.layer, settings, 80)).meanRatio / seeds;
+        }
+        const std::string name(layerInfo(term.layer).name);
+        std::printf("%s, %s: %.4f of the truth\n", term.scene, name.c_str(), ratio);
+        EXPECT_NEAR(ratio, 1, term.tolerance) << term.scene << ' ' << name;
+    }
+}
+
 TEST(Parity, GBuffer) {
     Parity p("cornell");
     const reference::Reference truth = p.trace({.paths = {.bounces = 0}});

@@ -153,7 +153,7 @@ TEST(Reference, CornerAgainstQuadrature) {
 }
 
 // A convex body in light that is the same from everywhere: E = pi L, and rho L is what leaves it.
-TEST(Reference, SphereInAConstantEnvironment) {
+TEST(Reference, SphereUnderAConstantSky) {
     Traced t(sphere(0.6f), {48, 48});
     t.scene.lights.clear();
     CameraPose outside;
@@ -162,16 +162,16 @@ TEST(Reference, SphereInAConstantEnvironment) {
     setCamera(t.scene, outside, t.size);
     for (VertexAttributes& a : t.asset.geometry.attributes)
         a.normal = -a.normal;
-    const Reference r =
-        t.run({.paths = {.bounces = 0, .environment = glm::vec3(0.5f, 1, 2)}, .samplesPerPixel = 4096});
+    t.scene.sky = std::make_shared<const Sky>(constantSky(glm::vec3(0.5f, 1, 2)));
+    const Reference r = t.run({.paths = {.bounces = 0}, .samplesPerPixel = 4096});
     const double pi = std::numbers::pi;
     const auto share = [](double got, double truth) { return got / truth; };
     for (const glm::ivec2 at : {glm::ivec2(24, 24), glm::ivec2(30, 12), glm::ivec2(10, 30)}) {
-        EXPECT_NEAR(share(double(r.bounces[0].at(at.x, at.y).x), pi * 0.5), 1, 5e-3);
-        EXPECT_NEAR(share(double(r.bounces[0].at(at.x, at.y).z), pi * 2), 1, 5e-3);
+        EXPECT_NEAR(share(double(r.sky.at(at.x, at.y).x), pi * 0.5), 1, 5e-3);
+        EXPECT_NEAR(share(double(r.sky.at(at.x, at.y).z), pi * 2), 1, 5e-3);
         EXPECT_NEAR(share(double(r.radiance.at(at.x, at.y).y), 0.6), 1, 5e-3);
     }
-    EXPECT_NEAR(double(r.radiance.at(0, 0).z), 2, 1e-5) << "the environment itself is seen";
+    EXPECT_NEAR(double(r.radiance.at(0, 0).z), 2, 1e-5) << "the sky itself is seen";
 }
 
 // The GGX specular lobe by sampling against the same brdf by quadrature over the hemisphere.
@@ -188,8 +188,8 @@ TEST(Reference, GlossyPlaneUnderASkyByQuadrature) {
             m.metallic = metallic;
             m.specular = 1;
             t.scene.lights.clear();
-            const Reference r = t.run({.paths = {.bounces = 0, .glossy = true, .environment = glm::vec3(1)},
-                                       .samplesPerPixel = 16384});
+            t.scene.sky = std::make_shared<const Sky>(constantSky(glm::vec3(1)));
+            const Reference r = t.run({.paths = {.bounces = 0, .glossy = true}, .samplesPerPixel = 16384});
             const glm::vec3 n(0, 1, 0), v = glm::normalize(glm::vec3(0, 2, 3));
             double truth = 0;
             constexpr int kSteps = 1000;
@@ -214,9 +214,80 @@ TEST(Reference, EmissiveWallsLightTheRoom) {
     b.room("room", {-1, -1, -1}, {1, 1, 1}, {glow, glow, glow, glow, glow, glow});
     b.camera("camera", {0.2f, 0.1f, 0.3f}, {-1, 0, 0}, 60);
     Traced t(b.finish(), {16, 12});
-    const Reference r = t.run({.paths = {.bounces = 1, .emission = true}, .samplesPerPixel = 64});
-    EXPECT_NEAR(meanOf(r.bounces[0]), 3 * std::numbers::pi, 0.01);
-    EXPECT_NEAR(meanOf(r.bounces[1]), 0.4 * 3 * std::numbers::pi, 0.01);
+    const Reference r = t.run({.paths = {.bounces = 1}, .samplesPerPixel = 256});
+    EXPECT_NEAR(meanOf(r.emissive), 3 * std::numbers::pi, 0.05);
+    EXPECT_NEAR(meanOf(r.indirect), 0.4 * 3 * std::numbers::pi, 0.05);
+    EXPECT_EQ(meanOf(r.bounces[0]), 0) << "no sun or lamp";
+    const Reference dark = t.run({.paths = {.bounces = 1, .emission = false}, .samplesPerPixel = 2});
+    EXPECT_EQ(meanOf(dark.irradiance), 0);
+    EXPECT_EQ(dark.radiance.at(8, 6).x, 3) << "they are seen all the same";
+}
+
+// A small square that shines, high over a floor: the form factor of its polygon. And one of several that is
+// bright among dim ones, whose faces look away, or which is hidden behind another.
+TEST(Reference, AnEmissiveSquareByItsFormFactor) {
+    scenegen::SceneBuilder b("square");
+    const uint32_t black = b.material("black", glm::vec3(0));
+    b.quad("floor", {-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, black);
+    b.quad("square", {-0.25f, 1, -0.25f}, {0.5f, 0, 0}, {0, 0, 0.5f},
+           b.emissive("glow", glm::vec3(0), {6, 3, 0}));
+    b.quad("looks up", {1, 0.5f, 1}, {0, 0, 0.5f}, {0.5f, 0, 0},
+           b.emissive("up", glm::vec3(0), glm::vec3(90)));
+    b.camera("camera", {0, 0.9f, 1.8f}, {0, 0, 0}, 50);
+    Traced t(b.finish(), {32, 24});
+    const Reference r = t.run({.paths = {.bounces = 0}, .samplesPerPixel = 1024});
+    double got = 0, truth = 0;
+    for (int y = 12; y < 24; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const glm::vec4 h =
+                t.scene.camera.worldFromClip *
+                glm::vec4((glm::vec2(x, y) + 0.5f) / glm::vec2(t.size) * 2.0f - 1.0f, 0.5f, 1);
+            const glm::vec3 d = glm::vec3(h) / h.w - t.scene.camera.position;
+            const glm::vec3 place = t.scene.camera.position - d * (t.scene.camera.position.y / d.y);
+            if (std::abs(place.x) > 1.9f || std::abs(place.z) > 1.9f || !(d.y < 0)) continue;
+            double e = 0;
+            constexpr int kSteps = 40;
+            for (int i = 0; i < kSteps; ++i)
+                for (int j = 0; j < kSteps; ++j) {
+                    const glm::dvec3 to((i + 0.5) / kSteps * 0.5 - 0.25 - double(place.x), 1,
+                                        (j + 0.5) / kSteps * 0.5 - 0.25 - double(place.z));
+                    e += 6 * 0.25 / (kSteps * kSteps) / (glm::dot(to, to) * glm::dot(to, to));
+                }
+            const double here = double(r.emissive.at(x, y).x);
+            EXPECT_NEAR(here / e, 1, 0.08) << x << ' ' << y;
+            got += here, truth += e;
+        }
+    EXPECT_GT(truth, 100);
+    EXPECT_NEAR(got / truth, 1, 0.005);
+}
+
+// A sky that shines from one side alone, on a floor: by quadrature; and the analytic one, which is uneven.
+TEST(Reference, AnUnevenSkyByQuadrature) {
+    scenegen::SceneBuilder b("floor");
+    b.quad("floor", {-9, 0, -9}, {0, 0, 18}, {18, 0, 0}, b.material("gray", glm::vec3(0.5f)));
+    b.camera("camera", {0, 2, 3}, {0, 0, 0}, 10);
+    Traced t(b.finish(), {9, 9});
+    Sky half{Image(64, 32)};
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            half.radiance.at(x, y) = glm::vec3(2, 1, float(x) / 16);
+    const glm::vec3 sun = glm::normalize(glm::vec3(0.6f, -0.5f, 0.2f));
+    for (const Sky& sky : {half, analyticSky(sun, 4)}) {
+        t.scene.sky = std::make_shared<const Sky>(sky);
+        const Reference r = t.run({.paths = {.bounces = 0}, .samplesPerPixel = 4096});
+        glm::dvec3 truth(0);
+        constexpr int kSteps = 1024;
+        for (int i = 0; i < kSteps; ++i)
+            for (int j = 0; j < kSteps; ++j) {
+                const double c2 = (i + 0.5) / kSteps, phi = 2 * std::numbers::pi * (j + 0.5) / kSteps;
+                const glm::vec3 d(float(std::sqrt(1 - c2) * std::cos(phi)), float(std::sqrt(c2)),
+                                  float(std::sqrt(1 - c2) * std::sin(phi)));
+                truth += glm::dvec3(skyRadiance(sky, d));
+            }
+        truth *= std::numbers::pi / (double(kSteps) * kSteps);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(double(r.sky.at(4, 4)[c]) / truth[c], 1, 0.01) << c;
+    }
 }
 
 // A lamp behind a curtain lights the floor by what the curtain's back reflects, if it has one.

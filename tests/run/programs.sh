@@ -10,6 +10,15 @@ expect 2 "does not exist" "$bin/afterglow" render /no/such.glb -o "$work/a.png"
 expect 2 "16..1024" "$bin/afterglow" render cornell -o "$work/a.png" --set val_clustering.count=3
 expect 2 "a size is WxH" "$bin/afterglow" render cornell -o "$work/a.png" --size 10
 expect 2 "--sun takes" "$bin/afterglow" render cornell -o "$work/a.png" --sun 1,2
+expect 2 "--sky takes a colour" "$bin/afterglow" render cornell -o "$work/a.png" --sky 1,2
+expect 2 "turbidity 2 to 10" "$bin/afterglow" render cornell -o "$work/a.png" --sky 0,-1,0,99
+expect 2 "--sky takes COLOUR" "$bin/afterglow" render cornell -o "$work/a.png" --sky nan
+expect 2 "the file does not exist" "$bin/afterglow" render cornell -o "$work/a.png" --sky "$work/none.hdr"
+printf 'PF\n2 2\n-1.0\n%048d' 0 >"$work/square.pfm"
+expect 2 "is not twice as wide as high" "$bin/afterglow" render cornell -o "$work/a.png" --sky "$work/square.pfm"
+printf '#?RADIANCE\n' >"$work/broken.hdr"
+expect 2 "is not a readable HDR image" "$bin/afterglow" render cornell -o "$work/a.png" --sky "$work/broken.hdr"
+rm "$work/square.pfm" "$work/broken.hdr"
 expect 2 "no camera 'nose'" "$bin/afterglow" render cornell -o "$work/a.png" --camera nose
 expect 2 "negative intensity" "$bin/afterglow" render cornell -o "$work/a.png" --point 0,0,0,-3
 expect 2 "--walk takes DX,DY,DZ" "$bin/afterglow" render cornell -o "$work/a.png" --times --walk 1,2
@@ -71,7 +80,7 @@ printf 'PF\n1 1\n-1.0\n\x00\x00\xc0\x7f\x00\x00\x00\x00\x00\x00\x00\x00' >"$work
 expect 1 "not finite" "$bin/afterglow" compare "$work/nan.pfm" "$work/nan.pfm"
 echo "hello" >"$work/text.exr"
 expect 2 "not a readable EXR" "$bin/afterglow" compare "$work/text.exr" "$work/a.pfm"
-expect 2 "neither .exr nor .pfm" "$bin/afterglow" compare "$0" "$work/a.pfm"
+expect 2 "neither .exr, .hdr nor .pfm" "$bin/afterglow" compare "$0" "$work/a.pfm"
 expect 2 "cannot write" "$bin/afterglow" compare "$work/a.pfm" "$work/a.pfm" --heatmap "$work/none/heat.png"
 
 # Lamps hung in a scene: the same ones for the renderer and the reference, and none where there is no room.

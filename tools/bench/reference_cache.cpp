@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised when the tracer's results change.
-constexpr uint64_t kTracerVersion = 4;
+constexpr uint64_t kTracerVersion = 5;
 
 template <class T>
 uint64_t hashArray(const std::vector<T>& items, uint64_t seed) {
@@ -55,7 +55,7 @@ uint64_t hashSettings(const reference::ReferenceSettings& s, uint64_t h) {
                              uint64_t(s.paths.litPoints), uint64_t(s.method), uint64_t(s.samplesPerPixel),
                              uint64_t(s.seed), uint64_t(s.emitterMap), kTracerVersion})
         h = combineHash(h, v);
-    return hashValue(s.maxError, hashValue(s.paths.environment, h));
+    return hashValue(s.maxError, h);
 }
 
 uint64_t sceneHash(const RenderScene& scene) {
@@ -78,6 +78,8 @@ uint64_t sceneHash(const RenderScene& scene) {
         h = combineHash(combineHash(h, f.firstVertex), f.poseVersion);
     for (const RenderLight& l : scene.lights)
         h = hashLight(l, h);
+    if (scene.sky)
+        h = hashArray(scene.sky->radiance.pixels, combineHash(h, uint32_t(scene.sky->radiance.width)));
     return hashValue(scene.camera.clipFromWorld, h);
 }
 

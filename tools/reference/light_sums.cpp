@@ -6,8 +6,10 @@ namespace ag::reference {
 
 MeasuredLayer::MeasuredLayer(std::string_view name) {
     if (name == "irradiance" || name == "direct") kind_ = Kind::kIrradiance;
-    if (name == "indirect") kind_ = Kind::kIndirect;
+    if (name == "emissive") kind_ = Kind::kEmissive;
+    if (name == "sky") kind_ = Kind::kSky;
     if (name.starts_with("bounce")) kind_ = Kind::kBounce, bounce_ = uint32_t(name.back() - '0');
+    if (name == "indirect" || name == "bounces") kind_ = Kind::kIndirect;
 }
 
 glm::vec3 MeasuredLayer::ofPaths(const PixelSums& sums) const {
@@ -15,7 +17,11 @@ glm::vec3 MeasuredLayer::ofPaths(const PixelSums& sums) const {
         case Kind::kRadiance:
             return sums.radiance;
         case Kind::kIrradiance:
-            return sums.bounces[0] + sums.indirect;
+            return sums.emissive + sums.sky + sums.indirect;
+        case Kind::kEmissive:
+            return sums.emissive;
+        case Kind::kSky:
+            return sums.sky;
         case Kind::kIndirect:
             return sums.indirect;
         case Kind::kBounce:
@@ -31,7 +37,9 @@ glm::vec3 MeasuredLayer::ofDirect(const Lit& lit) const {
 
 LightSums::LightSums(glm::uvec2 size, uint32_t bounceCount, MeasuredLayer layer)
     : bounces(std::min(bounceCount, kBouncesApart) + 1, Image(int(size.x), int(size.y))),
-      indirect(int(size.x), int(size.y)),
+      emissive(int(size.x), int(size.y)),
+      sky(emissive),
+      indirect(emissive),
       radiance(indirect),
       directIrradiance(indirect),
       directRadiance(indirect),

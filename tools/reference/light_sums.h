@@ -13,11 +13,18 @@ namespace ag::reference {
 // Of the paths of one pixel. Irradiance on the shading normal, before albedo, W/m²; radiance towards the
 // camera, W/(m² sr).
 struct PixelSums {
-    glm::dvec3 bounces[kBouncesApart + 1] = {};
-    glm::dvec3 indirect{0}, radiance{0};
+    glm::dvec3 bounces[kBouncesApart + 1] = {};  // [n]: light of suns and lamps after n bounces; [0] stays 0
+    glm::dvec3 emissive{0}, sky{0};              // straight from there
+    glm::dvec3 indirect{0}, radiance{0};         // all bounced light; all
     void add(uint32_t bounce, glm::vec3 irradiance, glm::vec3 reflected) {
         if (bounce <= kBouncesApart) bounces[bounce] += glm::dvec3(irradiance);
         if (bounce > 0) indirect += glm::dvec3(irradiance);
+        radiance += glm::dvec3(reflected);
+    }
+    // Light of emissive surfaces or of the sky; `straight`: which of both.
+    void addFrom(glm::dvec3 PixelSums::*straight, uint32_t bounce, glm::vec3 irradiance,
+                 glm::vec3 reflected) {
+        (bounce == 0 ? this->*straight : indirect) += glm::dvec3(irradiance);
         radiance += glm::dvec3(reflected);
     }
 };
@@ -31,7 +38,7 @@ class MeasuredLayer {
     glm::vec3 ofDirect(const Lit& lit) const;
 
   private:
-    enum class Kind { kRadiance, kIrradiance, kIndirect, kBounce } kind_ = Kind::kRadiance;
+    enum class Kind { kRadiance, kIrradiance, kIndirect, kBounce, kEmissive, kSky } kind_ = Kind::kRadiance;
     uint32_t bounce_ = 0;
 };
 
@@ -54,9 +61,10 @@ struct PixelCount {
 struct LightSums {
     LightSums(glm::uvec2 size, uint32_t bounces, MeasuredLayer measured = {});
 
-    std::vector<Image> bounces;  // [n]: exactly n bounces; [0]: emission and environment
-    Image indirect;              // all from the first on
-    Image radiance;              // towards the camera, without direct light
+    std::vector<Image> bounces;  // as PixelSums'
+    Image emissive, sky;
+    Image indirect;
+    Image radiance;  // towards the camera, without direct light of suns and lamps
     Image directIrradiance, directRadiance;
     std::vector<PixelCount> counts;
     MeasuredLayer measured;

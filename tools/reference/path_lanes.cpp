@@ -43,11 +43,14 @@ void traceThrough(const RayScene& scene, PathStart start, bool glossy, PixelSums
 PathLanes::PathLanes(const RayScene& scene, const PathSettings& settings, const LitPoints* lit)
     : scene_(scene),
       settings_(settings),
-      lit_(lit && !lit->empty() && !lit->points().empty() ? lit : nullptr) {}
+      lit_(lit && !lit->empty() && !lit->points().empty() ? lit : nullptr),
+      emission_(settings.emission && scene.sources().anyEmissive()),
+      sky_(scene.sources().anySky()) {}
 
 void PathLanes::begin(uint32_t lane, const PathStart& start) {
     Lane& l = lanes_[lane];
-    l.at = start.surface, l.toViewer = start.toViewer, l.uv = start.uv, l.random = start.random;
+    l.at = start.surface, l.toViewer = start.toViewer, l.uv = start.uv, l.source = start.source;
+    l.random = start.random;
     l.irradianceWeight = l.radianceWeight = glm::vec3(1);
     alive_ |= 1u << lane;
 }
@@ -59,10 +62,10 @@ void PathLanes::beginTile(const Surface* surface, float spread, uint32_t tile, u
 }
 
 void PathLanes::trace(PixelSums& sums, std::vector<LitPointWorth>& worths) {
-    const bool looksForSources = settings_.emission || settings_.environment != glm::vec3(0);
-    const uint32_t last = settings_.bounces + (looksForSources ? 1 : 0);
+    const uint32_t last = settings_.bounces + (emission_ || sky_ ? 1 : 0);
     for (uint32_t bounce = 1; bounce <= last && alive_; ++bounce) {
         if (lit_ && bounce <= settings_.bounces) connect(bounce, sums, worths);
+        meetSources(bounce, sums);
         Surface* met = met_[bounce % 2];
         step(bounce, met, sums);
         if (bounce <= settings_.bounces) receive(bounce, met, sums);
@@ -161,7 +164,64 @@ bool PathLanes::goesOn(uint32_t bounce, Lane& l, glm::vec3& reflected) const {
     return true;
 }
 
-// On to the next surfaces, with what emission and environment bring on the way.
+// What shines by itself, chosen by how bright it is, where it sees the path's last surface. Directions drawn
+// from that surface find it, too; the balance heuristic weighs both.
+void PathLanes::meetSources(uint32_t bounce, PixelSums& sums) {
+    const auto meet = [&](glm::dvec3 PixelSums::*straight, auto&& draw) {
+        RayLanes rays;
+        SourceSample samples[RayLanes::kCount];
+        forEachLane(alive_, [&](uint32_t i) {
+            const Lane& l = lanes_[i];
+            const glm::vec3 from = leaveSurface(scene_, *l.at);
+            const SourceSample& s = samples[i] = draw(from, l.source);
+            if (!(s.density > 0) || s.radiance == glm::vec3(0)) return;
+            if (glm::dot(l.at->normal, s.direction) > 0 && glm::dot(l.at->geometricNormal, s.direction) > 0)
+                rays.set(i, from, s.direction, s.distance - 2 * scene_.offset());
+        });
+        rays_ += uint64_t(std::popcount(rays.active));
+        forEachLane(scene_.visible(rays), [&](uint32_t i) {
+            const Lane& l = lanes_[i];
+            const SourceSample& s = samples[i];
+            const float other = densityOf(*l.at, l.toViewer, s.direction, settings_.glossy);
+            const glm::vec3 arrives =
+                s.radiance * (glm::dot(l.at->normal, s.direction) / (s.density + other));
+            const glm::vec3 reflected = arrives * brdf(*l.at, l.toViewer, s.direction, settings_.glossy);
+            sums.addFrom(straight, bounce - 1, l.irradianceWeight * (bounce == 1 ? arrives : reflected),
+                         l.radianceWeight * reflected);
+        });
+    };
+    forEachLane(bounce > 1 && (emission_ || sky_) ? alive_ : 0, [&](uint32_t i) {
+        for (int c = 0; c < 3; ++c)
+            lanes_[i].source[c] = lanes_[i].random.next();
+    });
+    const LightSources& sources = scene_.sources();
+    if (emission_)
+        meet(&PixelSums::emissive,
+             [&](glm::vec3 from, glm::vec3 even) { return sources.drawEmissive(from, even); });
+    if (sky_) meet(&PixelSums::sky, [&](glm::vec3, glm::vec3 even) { return sources.drawSky(even); });
+}
+
+// What shines by itself, where the paths met it.
+void PathLanes::findSources(uint32_t bounce, uint32_t escaped, Surface* met, PixelSums& sums) const {
+    const LightSources& sources = scene_.sources();
+    const auto add = [&](uint32_t i, glm::dvec3 PixelSums::*straight, glm::vec3 radiance, float other) {
+        const Lane& l = lanes_[i];
+        const glm::vec3 counts = radiance * (l.density / (l.density + other));
+        sums.addFrom(straight, bounce - 1, l.irradianceWeight * counts, l.radianceWeight * counts);
+    };
+    forEachLane(sky_ ? escaped : 0, [&](uint32_t i) {
+        const glm::vec3 along = lanes_[i].direction;
+        add(i, &PixelSums::sky, scene_.skyAlong(along), sources.skyDensity(along));
+    });
+    forEachLane(emission_ ? alive_ : 0, [&](uint32_t i) {
+        scene_.resolve(met[i]);
+        if (met[i].emissive == glm::vec3(0)) return;
+        add(i, &PixelSums::emissive, met[i].emissive,
+            sources.emissiveDensity(met[i], leaveSurface(scene_, *lanes_[i].at), lanes_[i].direction));
+    });
+}
+
+// On to the next surfaces, with what shines there.
 void PathLanes::step(uint32_t bounce, Surface* met, PixelSums& sums) {
     RayLanes rays;
     forEachLane(alive_, [&](uint32_t i) {
@@ -179,18 +239,8 @@ void PathLanes::step(uint32_t bounce, Surface* met, PixelSums& sums) {
     });
     rays_ += uint64_t(std::popcount(rays.active));
     alive_ = scene_.intersect(rays, met);
-    forEachLane(rays.active & ~alive_, [&](uint32_t i) {
-        const Lane& l = lanes_[i];
-        sums.add(bounce - 1, l.irradianceWeight * settings_.environment,
-                 l.radianceWeight * settings_.environment);
-    });
-    forEachLane(alive_, [&](uint32_t i) {
-        Lane& l = lanes_[i];
-        l.toViewer = -l.direction;
-        if (!settings_.emission) return;
-        scene_.resolve(met[i]);
-        sums.add(bounce - 1, l.irradianceWeight * met[i].emissive, l.radianceWeight * met[i].emissive);
-    });
+    forEachLane(alive_, [&](uint32_t i) { lanes_[i].toViewer = -lanes_[i].direction; });
+    findSources(bounce, rays.active & ~alive_, met, sums);
 }
 
 // Direct light of the surfaces just met.

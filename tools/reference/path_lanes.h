@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/reference/direct_light.h"
+#include "tools/reference/light_sources.h"
 #include "tools/reference/light_sums.h"
 #include "tools/reference/lit_points.h"
 #include "tools/reference/random.h"
@@ -12,8 +13,9 @@ namespace ag::reference {
 struct PathStart {
     const Surface* surface = nullptr;
     glm::vec3 toViewer{0};
-    glm::vec2 uv{0};  // in [0, 1)², chooses the first direction
-    Random random;    // for all other choices
+    glm::vec2 uv{0};      // in [0, 1)², chooses the first direction
+    glm::vec3 source{0};  // in [0, 1)³, chooses what shines on the first surface
+    Random random;        // for all other choices
 };
 
 // What techniques without visibility of indirect light aim at: every surface along the ray counts, as if the
@@ -41,6 +43,7 @@ class PathLanes {
         glm::vec3 toViewer{0}, direction{0};
         glm::vec3 irradianceWeight{1}, radianceWeight{1};
         glm::vec2 uv{0};
+        glm::vec3 source{0};
         float density = 0;  // of the direction, 1/sr
         Random random;
     };
@@ -59,12 +62,15 @@ class PathLanes {
     bool chooseBridge(uint32_t bounce, Lane& l, glm::vec3 from, Bridge& chosen, float& weight) const;
     void connect(uint32_t bounce, PixelSums& sums, std::vector<LitPointWorth>& worths);
     bool goesOn(uint32_t bounce, Lane& l, glm::vec3& reflected) const;
+    void meetSources(uint32_t bounce, PixelSums& sums);
     void step(uint32_t bounce, Surface* met, PixelSums& sums);
+    void findSources(uint32_t bounce, uint32_t escaped, Surface* met, PixelSums& sums) const;
     void receive(uint32_t bounce, Surface* met, PixelSums& sums);
 
     const RayScene& scene_;
     const PathSettings& settings_;
     const LitPoints* lit_;
+    const bool emission_, sky_;  // there is such light
     TilePoints tile_, all_;
     Lane lanes_[RayLanes::kCount];
     Surface met_[2][RayLanes::kCount];  // by odd and even bounces

@@ -11,9 +11,8 @@ namespace ag::reference {
 struct PathSettings {
     uint32_t bounces = 1;  // most; 0: direct light alone
     bool glossy = false;   // metallic-roughness with its GGX specular lobe; else the diffuse part as Lambert
-    bool unshadowed = false;   // bounced light passes through surfaces; one bounce, no emission
-    bool emission = false;     // emissive surfaces light others, too
-    glm::vec3 environment{0};  // radiance from where rays meet nothing, W/(m² sr)
+    bool unshadowed = false;  // bounced light passes through surfaces; one bounce, of suns and lamps alone
+    bool emission = true;     // emissive surfaces light others, too
     PixelFilter filter = PixelFilter::kCenter;
     bool litPoints = true;  // bounced light is looked for from the lights, too
 };

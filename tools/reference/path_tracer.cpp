@@ -56,6 +56,14 @@ glm::vec2 evenPoint(uint32_t index, glm::uvec2 shift) {
     return glm::vec2(fixed >> 8u) / 16777216.0f;
 }
 
+// The same in space.
+glm::vec3 evenPlace(uint32_t index, glm::uvec2 shift) {
+    const glm::uvec3 fixed =
+        index * glm::uvec3(0xd1b54a33u, 0xabc98389u, 0x8cb92ba7u) +
+        glm::uvec3(io::hashUint(shift.x + 2), io::hashUint(shift.y + 2), shift.x ^ shift.y);
+    return glm::vec3(fixed >> 8u) / 16777216.0f;
+}
+
 // The same in four dimensions: the place in the pixel and the first direction must be independent.
 struct EvenPair {
     glm::vec2 place, direction;
@@ -135,12 +143,15 @@ class PixelTracer {
         return {.surface = &hits_.surfaces[i],
                 .toViewer = -hits_.directions[i],
                 .uv = evenPoint(path, shift()),
+                .source = evenPlace(path, shift()),
                 .random = randomOf(path)};
     }
 
     static void addPacket(const PixelSums& packet, size_t i, uint32_t paths, LightSums& sums) {
         for (size_t b = 0; b < sums.bounces.size(); ++b)
             sums.bounces[b].pixels[i] += glm::vec3(packet.bounces[b]);
+        sums.emissive.pixels[i] += glm::vec3(packet.emissive);
+        sums.sky.pixels[i] += glm::vec3(packet.sky);
         sums.indirect.pixels[i] += glm::vec3(packet.indirect);
         sums.radiance.pixels[i] += glm::vec3(packet.radiance);
         sums.counts[i].paths.add(paths, sums.measured.ofPaths(packet) / float(paths));
@@ -176,7 +187,7 @@ class PixelTracer {
         const size_t i = size_t(at.y) * hits_.size.x + at.x;
         glm::vec3 measured(0);
         for (uint32_t s = 0; s < count; ++s) {
-            lit[s].radiance += seen >> s & 1 ? seen_[s].emissive : settings_.environment;
+            lit[s].radiance += seen >> s & 1 ? seen_[s].emissive : scene_.skyAlong(-toViewer[s]);
             sums.directIrradiance.pixels[i] += lit[s].irradiance;
             sums.directRadiance.pixels[i] += lit[s].radiance;
             measured += sums.measured.ofDirect(lit[s]);
@@ -200,6 +211,7 @@ class PixelTracer {
             paths_.begin(s, {.surface = &seen_[s],
                              .toViewer = toViewer[s],
                              .uv = evenPair(first + s, shift()).direction,
+                             .source = evenPlace(first + s, shift()),
                              .random = randomOf(first + s)});
         });
         paths_.trace(packet, worths_);

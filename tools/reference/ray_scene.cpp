@@ -10,6 +10,7 @@
 #include "common/brdf.h"
 #include "common/tonemap.h"
 #include "engine/core/program.h"
+#include "tools/reference/light_sources.h"
 
 namespace ag::reference {
 namespace {
@@ -97,6 +98,7 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformSk
         lights_.push_back({light, std::cos(light.innerConeAngle), std::cos(light.outerConeAngle)});
     const glm::vec3 far = glm::max(glm::abs(scene.bounds.min), glm::abs(scene.bounds.max));
     offset_ = std::max(2e-5f * glm::length(scene.bounds.max - scene.bounds.min), 4e-7f * glm::length(far));
+    sources_ = std::make_unique<LightSources>(*this);
 }
 
 RayScene::~RayScene() {
@@ -109,6 +111,49 @@ glm::vec2 RayScene::uvAt(const Part& part, uint32_t triangle, float u, float v) 
     const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
     const VertexAttributes* a = part.vertices.attributes;
     return a[i[0]].uv * (1 - u - v) + a[i[1]].uv * u + a[i[2]].uv * v;
+}
+
+const Material& RayScene::materialOf(uint32_t part) const {
+    return scene_.geometry->materials[parts_[part]->primitive->material];
+}
+
+std::array<glm::vec3, 3> RayScene::cornersOf(const Part& part, uint32_t triangle) const {
+    const uint32_t* i = &scene_.geometry->indices[part.primitive->firstIndex + 3 * triangle];
+    std::array<glm::vec3, 3> corners;
+    for (size_t c = 0; c < 3; ++c)
+        corners[c] = part.instance->worldFromLocal * glm::vec4(part.vertices.positions[i[c]], 1);
+    return corners;
+}
+
+glm::vec3 RayScene::frontNormal(uint32_t part, uint32_t triangle) const {
+    if (parts_[part]->doubleSided) return glm::vec3(0);
+    const auto c = cornersOf(*parts_[part], triangle);
+    const glm::vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]) * (parts_[part]->mirrored ? -1.0f : 1.0f);
+    const float length = glm::length(n);
+    return length > 0 ? n / length : glm::vec3(0);
+}
+
+float RayScene::triangleArea(uint32_t part, uint32_t triangle) const {
+    const auto c = cornersOf(*parts_[part], triangle);
+    return 0.5f * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+}
+
+glm::vec3 RayScene::emissionAt(uint32_t part, uint32_t triangle, float u, float v) const {
+    const Material& m = materialOf(part);
+    if (m.textureClass == TextureClass::kNone || m.emissiveLayer < 0) return m.emissive;
+    const glm::vec2 uv = uvAt(*parts_[part], triangle, u, v);
+    return m.emissive * glm::vec3(sampleTexture(*scene_.geometry, m, m.emissiveLayer, uv, true));
+}
+
+Surface RayScene::placeOn(uint32_t part, uint32_t triangle, float u, float v, glm::vec3 from) const {
+    const auto c = cornersOf(*parts_[part], triangle);
+    Surface s;
+    const glm::vec3 position = c[0] * (1 - u - v) + c[1] * u + c[2] * v;
+    const float distance = glm::distance(position, from);
+    const glm::vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+    takeHit(from, (position - from) / std::max(distance, 1e-20f), distance, normal, part, s);
+    s.triangle = triangle, s.u = u, s.v = v;
+    return s;
 }
 
 bool RayScene::masked(const Part& part, uint32_t triangle, float u, float v) const {

@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,8 @@ struct RayLanes {
     }
 };
 
+class LightSources;
+
 class RayScene {
   public:
     // The scene and its geometry must outlive this. Alpha-masked holes let rays through; blended surfaces are
@@ -67,10 +70,24 @@ class RayScene {
     uint32_t intersect(const RayLanes& rays, Surface* surfaces) const;
     uint32_t visible(const RayLanes& rays) const;
 
+    // Of the triangles: parts are instances that rays meet. `from`: the side it is seen from.
+    uint32_t partCount() const { return uint32_t(parts_.size()); }
+    uint32_t triangleCount(uint32_t part) const { return parts_[part]->primitive->indexCount / 3; }
+    const Material& materialOf(uint32_t part) const;
+    // Unit; zero where it has two sides or no area.
+    glm::vec3 frontNormal(uint32_t part, uint32_t triangle) const;
+    float triangleArea(uint32_t part, uint32_t triangle) const;  // m²
+    glm::vec3 emissionAt(uint32_t part, uint32_t triangle, float u, float v) const;
+    Surface placeOn(uint32_t part, uint32_t triangle, float u, float v, glm::vec3 from) const;
+
     const RenderScene& scene() const { return scene_; }
     const std::vector<PreparedLight>& lights() const { return lights_; }
+    const LightSources& sources() const { return *sources_; }
     // How far to step off a surface, m: a small part of the scene's size and of the position's precision.
     float offset() const { return offset_; }
+    glm::vec3 skyAlong(glm::vec3 direction) const {  // radiance of the sky, W/(m² sr)
+        return scene_.sky ? skyRadiance(*scene_.sky, direction) : glm::vec3(0);
+    }
     RTCScene embree() const { return rtc_; }
 
   private:
@@ -83,6 +100,7 @@ class RayScene {
     };
     void takeHit(glm::vec3 origin, glm::vec3 direction, float distance, glm::vec3 normal, uint32_t part,
                  Surface& s) const;
+    std::array<glm::vec3, 3> cornersOf(const Part& part, uint32_t triangle) const;
     glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
     glm::vec3 shadingNormal(const Part& part, uint32_t triangle, float u, float v,
                             glm::vec3 geometricNormal) const;
@@ -95,6 +113,7 @@ class RayScene {
     RTCScene rtc_ = nullptr;
     std::vector<std::unique_ptr<Part>> parts_;  // by geometry id
     std::vector<PreparedLight> lights_;
+    std::unique_ptr<LightSources> sources_;
     float offset_ = 1e-4f;
 };
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "common/sampling.h"
+#include "tools/reference/light_sources.h"
 #include "tools/reference/vpl_tracer.h"
 
 namespace ag::reference {
@@ -37,9 +38,10 @@ Image halfway(const Image& a, const Image& b) {
     return out;
 }
 
-Reference assemble(const FirstHits& hits, const LightSums& sums, const PathSettings& settings,
-                   glm::vec3 forward) {
+Reference assemble(const RayScene& scene, const FirstHits& hits, const LightSums& sums,
+                   const PathSettings& settings) {
     Reference r;
+    const glm::vec3 forward = scene.scene().camera.forward;
     const bool centers = settings.filter == PixelFilter::kCenter;
     const auto ofPaths = [&](const Image& image) { return meansOf(image, sums.counts, &PixelCount::paths); };
     const auto ofPlaces = [&](const Image& image) {
@@ -47,16 +49,18 @@ Reference assemble(const FirstHits& hits, const LightSums& sums, const PathSetti
     };
     for (const Image& bounce : sums.bounces)
         r.bounces.push_back(ofPaths(bounce));
-    r.bounces[0] = plus(r.bounces[0], centers ? hits.irradiance : ofPlaces(sums.directIrradiance));
+    r.bounces[0] = centers ? hits.irradiance : ofPlaces(sums.directIrradiance);
+    r.emissive = ofPaths(sums.emissive);
+    r.sky = ofPaths(sums.sky);
     r.indirect = ofPaths(sums.indirect);
-    r.irradiance = plus(r.bounces[0], r.indirect);
+    r.irradiance = plus(plus(r.bounces[0], r.indirect), plus(r.emissive, r.sky));
     r.radiance = plus(ofPaths(sums.radiance), centers ? hits.radiance : ofPlaces(sums.directRadiance));
     for (Image* image : {&r.albedo, &r.normal, &r.depth})
         *image = Image(int(hits.size.x), int(hits.size.y));
     for (size_t i = 0; i < hits.surfaces.size(); ++i) {
         const Surface& s = hits.surfaces[i];
         if (s.distance <= 0) {
-            if (centers) r.radiance.pixels[i] += settings.environment;
+            if (centers) r.radiance.pixels[i] += scene.skyAlong(hits.directions[i]);
             continue;
         }
         if (centers) r.radiance.pixels[i] += s.emissive;
@@ -71,6 +75,8 @@ Reference meanOf(const Reference& a, const Reference& b, std::string_view layer)
     Reference out = a;
     for (size_t i = 0; i < a.bounces.size(); ++i)
         out.bounces[i] = halfway(a.bounces[i], b.bounces[i]);
+    out.emissive = halfway(a.emissive, b.emissive);
+    out.sky = halfway(a.sky, b.sky);
     out.indirect = halfway(a.indirect, b.indirect);
     out.irradiance = halfway(a.irradiance, b.irradiance);
     out.radiance = halfway(a.radiance, b.radiance);
@@ -95,7 +101,9 @@ glm::uvec2 spreadOffset(uint32_t index) {
 const Image* layerOf(const Reference& r, std::string_view name) {
     if (name == "radiance") return &r.radiance;
     if (name == "irradiance") return &r.irradiance;
-    if (name == "indirect") return &r.indirect;
+    if (name == "emissive") return &r.emissive;
+    if (name == "sky") return &r.sky;
+    if (name == "indirect" || name == "bounces") return &r.indirect;
     if (name == "albedo") return &r.albedo;
     if (name == "normal") return &r.normal;
     if (name == "depth") return &r.depth;
@@ -109,7 +117,7 @@ Status checkLayer(std::string_view name, uint32_t bounces) {
     Reference shape;
     shape.bounces.resize(kBouncesApart + 1);
     if (!layerOf(shape, name)) return Error{fmt::format("the reference has no layer '{}'", name)};
-    if (name.starts_with("bounce") && uint32_t(name[6] - '0') > bounces)
+    if (name.starts_with("bounce") && name != "bounces" && uint32_t(name[6] - '0') > bounces)
         return Error{fmt::format("layer {} needs --bounces {} or more", name, name[6])};
     return Ok{};
 }
@@ -172,10 +180,9 @@ class Half {
 };
 
 // Samples a pixel of each half; one is enough where there is nothing to draw.
-uint32_t samplesOfHalf(const ReferenceSettings& s) {
+uint32_t samplesOfHalf(const RayScene& scene, const ReferenceSettings& s) {
     const PathSettings& p = s.paths;
-    const bool draws =
-        p.bounces > 0 || p.emission || p.environment != glm::vec3(0) || p.filter != PixelFilter::kCenter;
+    const bool draws = p.bounces > 0 || !scene.sources().empty() || p.filter != PixelFilter::kCenter;
     return draws ? std::max(s.samplesPerPixel / 2, 1u) : 0;
 }
 
@@ -215,12 +222,11 @@ Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceS
     LitPoints* lit = points ? &*points : nullptr;
     if (lit) teach(scene, hits, settings, runner, *lit, rays);
     Half halves[2] = {{scene, hits, settings, 0}, {scene, hits, settings, 1}};
-    const glm::vec3 forward = scene.scene().camera.forward;
     const auto result = [&] {
-        return meanOf(assemble(hits, halves[0].sums(), paths, forward),
-                      assemble(hits, halves[1].sums(), paths, forward), settings.layer);
+        return meanOf(assemble(scene, hits, halves[0].sums(), paths),
+                      assemble(scene, hits, halves[1].sums(), paths), settings.layer);
     };
-    const double target = samplesOfHalf(settings);
+    const double target = samplesOfHalf(scene, settings);
     double done = 0, nextCheck = 8, nextLesson = RayLanes::kCount, nextPlan = kSamplesToPlanBy;
     while (done < target) {
         const auto count = uint32_t(std::min(std::ceil(target - done), double(RayLanes::kCount)));
@@ -275,6 +281,8 @@ void fillFromReached(glm::uvec2 size, uint32_t cells, LightSums& sums) {
             const size_t to = size_t(y) * size.x + x, from = nearest({x, y});
             for (size_t b = 0; b < sums.bounces.size(); ++b)
                 sums.bounces[b].pixels[to] = reached.bounces[b].pixels[from];
+            sums.emissive.pixels[to] = reached.emissive.pixels[from];
+            sums.sky.pixels[to] = reached.sky.pixels[from];
             sums.indirect.pixels[to] = reached.indirect.pixels[from];
             sums.radiance.pixels[to] = reached.radiance.pixels[from];
             sums.counts[to] = reached.counts[from];
@@ -306,7 +314,7 @@ void traceOverTime(const RayScene& scene, glm::uvec2 size, const PathSettings& s
             tracePass();
         LightSums filled = sums;
         fillFromReached(size, std::min(passes, kCells), filled);
-        Reference picture = assemble(hits, filled, settings, scene.scene().camera.forward);
+        Reference picture = assemble(scene, hits, filled, settings);
         picture.samples = (passes + kCells - 1) / kCells;
         picture.rays = rays + sums.rays;
         seen(spent, picture);

@@ -23,16 +23,18 @@ struct ReferenceSettings {
 };
 
 struct Reference {
-    // Irradiance in W/m² before albedo, [n] by exactly n bounces; radiance in W/(m² sr); depth in m along the
-    // camera's axis.
+    // Irradiance in W/m² before albedo, [n] of suns and lamps by exactly n bounces, `indirect` all that
+    // bounced; radiance in W/(m² sr); depth in m along the camera's axis.
     std::vector<Image> bounces;
+    Image emissive, sky;  // straight from emissive surfaces and from the sky
     Image indirect, irradiance, radiance, albedo, normal, depth;
     double noise = 0;      // relative RMSE of the layer that was asked for, from two seeds
     uint32_t samples = 0;  // taken a pixel
     uint64_t rays = 0;
 };
 
-// radiance, irradiance, direct, bounce1 … bounce8, indirect, albedo, normal, depth. Null: no such layer.
+// radiance, irradiance, direct, emissive, sky, bounce1 … bounce8, indirect (or bounces), albedo, normal,
+// depth. Null: no such layer.
 const Image* layerOf(const Reference& reference, std::string_view name);
 // Fails with a sentence when a layer's name is unknown or has more bounces than are traced.
 Status checkLayer(std::string_view name, uint32_t bounces);

@@ -64,6 +64,8 @@ PixelSums pathSumsAt(const LightSums& sums, size_t i) {
     PixelSums pixel;
     for (size_t b = 0; b < sums.bounces.size(); ++b)
         pixel.bounces[b] = sums.bounces[b].pixels[i];
+    pixel.emissive = sums.emissive.pixels[i];
+    pixel.sky = sums.sky.pixels[i];
     pixel.indirect = sums.indirect.pixels[i];
     pixel.radiance = sums.radiance.pixels[i];
     return pixel;

@@ -44,6 +44,7 @@ class SceneBuilder {
                   SpotCone cone, float range = 0);
     uint32_t point(const std::string& name, glm::vec3 position, glm::vec3 intensity, float range = 0);
     uint32_t sun(const std::string& name, glm::vec3 direction, glm::vec3 irradiance);
+    void sky(Sky sky) { asset_.sky = std::make_shared<const Sky>(std::move(sky)); }
     uint32_t camera(const std::string& name, glm::vec3 position, glm::vec3 target, float verticalFovDegrees);
 
     SceneNode& node(uint32_t index) { return asset_.nodes[index]; }

@@ -12,6 +12,7 @@
 #include "tools/scenegen/figures.h"
 #include "tools/scenegen/gallery.h"
 #include "tools/scenegen/openings.h"
+#include "tools/scenegen/shining.h"
 
 namespace ag::scenegen {
 namespace {
@@ -258,7 +259,7 @@ struct Entry {
 
 // Percent below a hundred, so that light in a closed box comes to an end; things within what an import
 // allows.
-constexpr std::array<Entry, 15> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 18> kScenes = {{{"cornell", cornell},
                                             {"corner", corner},
                                             {"occluder", occluder},
                                             {"corridor", corridor},
@@ -272,7 +273,10 @@ constexpr std::array<Entry, 15> kScenes = {{{"cornell", cornell},
                                             {"window", window, 1},
                                             {"shell", shell, 1},
                                             {"ledges", ledges},
-                                            {"nave", nave}}};
+                                            {"nave", nave},
+                                            {"neon", neon},
+                                            {"courtyard", courtyard},
+                                            {"showroom", showroom}}};
 constexpr auto kNames = [] {
     std::array<std::string_view, kScenes.size()> names;
     for (size_t i = 0; i < names.size(); ++i)

@@ -39,7 +39,7 @@ std::string layerTable() {
 }
 
 render::LayerInfo referenceLayerInfo(std::string_view name) {
-    if (name.starts_with("bounce"))
+    if (name.starts_with("bounce") && name != "bounces")
         return {name, "W/m²", "irradiance of exactly that many bounces, before albedo", true};
     const auto layer = render::layerFromName(name);
     return layer ? render::layerInfo(*layer) : render::LayerInfo{name, "", ""};
@@ -48,7 +48,7 @@ render::LayerInfo referenceLayerInfo(std::string_view name) {
 std::string referenceLayerTable() {
     std::string out = "Layers:\n";
     for (const std::string_view name :
-         {"radiance", "direct", "indirect", "irradiance", "albedo", "normal", "depth"})
+         {"radiance", "direct", "emissive", "sky", "indirect", "irradiance", "albedo", "normal", "depth"})
         out += tableLine(referenceLayerInfo(name));
     render::LayerInfo bounces = referenceLayerInfo("bounce1");
     bounces.name = "bounce1 to 8";

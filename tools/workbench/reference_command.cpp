@@ -36,10 +36,10 @@ Status checkOptions(const ReferenceOptions& o, const LayerName& layer) {
         return Error{
             fmt::format("layer {} is no irradiance that ':radiance' could be taken of", layer.layer)};
     const bool emitters = o.settings.method == reference::Method::kEmitters;
-    if (emitters && (paths.bounces != 1 || paths.glossy || paths.emission))
+    if (emitters && (paths.bounces != 1 || paths.glossy))
         return Error{"--method vpl traces exactly one bounce between Lambert surfaces"};
-    if (paths.unshadowed && (emitters || paths.bounces != 1 || paths.emission))
-        return Error{"--unshadowed traces exactly one bounce by paths, without emission"};
+    if (paths.unshadowed && (emitters || paths.bounces != 1))
+        return Error{"--unshadowed traces exactly one bounce by paths"};
     if (!o.filter.empty() && !reference::filterFromName(o.filter))
         return Error{fmt::format("a filter is center, box or blackman-harris, not '{}'", o.filter)};
     return checkWritable(o.output);
@@ -119,7 +119,9 @@ void addReferenceCommand(CLI::App& program, int& exitCode) {
     reference::ReferenceSettings& r = o->settings;
     command
         ->add_option("--layer", r.layer,
-                     "radiance, irradiance, direct, bounce1 to bounce8, indirect, albedo, normal or depth")
+                     "radiance, irradiance, direct, emissive, sky, bounce1 to bounce8, indirect (or "
+                     "bounces), albedo, normal "
+                     "or depth")
         ->capture_default_str();
     command->add_option("--bounces", r.paths.bounces, "most bounces of a path")
         ->check(numberFrom(0, 1000))
@@ -143,7 +145,7 @@ void addReferenceCommand(CLI::App& program, int& exitCode) {
                       "look for bounced light from the camera alone: another estimate of the same");
     command->add_option("--filter", o->filter,
                         "of pixels: center, box or blackman-harris; box for radiance, else center");
-    command->add_flag("--emission", r.paths.emission, "emissive surfaces light others");
+    command->add_flag("!--no-emission", r.paths.emission, "emissive surfaces are seen but light nothing");
     command->add_flag("--bare-speed", o->bareSpeed, "print also what bare Embree calls reach here");
     command->callback([o, &exitCode] { exitCode = runReference(*o); });
 }

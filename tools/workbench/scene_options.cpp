@@ -83,6 +83,29 @@ Status addSpots(const SceneOptions& options, RenderScene& scene) {
     return Ok{};
 }
 
+// Directions that light travels point downwards, so that three numbers are either a colour or a direction.
+Result<Sky> parseSky(const std::string& text) {
+    const auto n = parseNumbers(text, 1, 4);
+    if (!n) {
+        auto picture = loadImage(text);
+        if (!picture)
+            return Error{fmt::format("--sky takes COLOUR, FILE.exr, FILE.hdr or DX,DY,DZ[,TURBIDITY]: {}",
+                                     picture.error().message)};
+        if (const char* wrong = whyNoSky(*picture)) return Error{fmt::format("--sky: {} {}", text, wrong)};
+        return Sky{.radiance = std::move(*picture)};
+    }
+    if (n->size() == 1 && (*n)[0] >= 0) return constantSky(glm::vec3(float((*n)[0])));
+    if (n->size() == 3 && (*n)[0] >= 0 && (*n)[1] >= 0 && (*n)[2] >= 0)
+        return constantSky(glm::vec3(vec3At(*n, 0)));
+    const double turbidity = n->size() == 4 ? (*n)[3] : 3;
+    if (n->size() < 3 || !((*n)[1] < 0) || turbidity < kLeastTurbidity || turbidity > kMostTurbidity)
+        return Error{fmt::format(
+            "--sky takes a colour of 1 or 3 numbers from 0 on, or DX,DY,DZ[,TURBIDITY]: the way the "
+            "sun's light travels, downwards, turbidity {} to {}; not '{}'",
+            kLeastTurbidity, kMostTurbidity, text)};
+    return analyticSky(glm::vec3(glm::normalize(vec3At(*n, 0))), float(turbidity));
+}
+
 Status choosePose(const SceneOptions& options, SceneAsset& asset) {
     if (options.clip.empty()) return Ok{};
     const auto n = parseNumbers(options.clip, 2, 2);
@@ -134,6 +157,10 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
         ->allow_extra_args(false);
     command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")
         ->allow_extra_args(false);
+    command.add_option(
+        "--sky", o.sky,
+        "COLOUR (radiance of a constant sky, 1 or 3 numbers), FILE.exr or FILE.hdr (equirectangular), or "
+        "DX,DY,DZ[,TURBIDITY] (clear sky of a sun whose light travels so; its disc is --sun)");
     command.add_option("--lamps", o.hungLamps, "hang so many points of light in the scene's free space")
         ->check(numberFrom(0, kMostHungLamps));
     command.add_flag("--no-scene-lights", o.noSceneLights, "drop the file's own lights");
@@ -177,17 +204,23 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     const auto camera = chooseCamera(options, *loaded.asset);
     if (!camera) return camera.error();
     loaded.scene = staticScene(*loaded.asset, camera->position);
-    if (options.noSceneLights) loaded.scene.lights.clear();
+    if (options.noSceneLights) loaded.scene.lights.clear(), loaded.scene.sky = nullptr;
     for (const Status& added :
          {addSuns(options, loaded.scene), addPoints(options, loaded.scene), addSpots(options, loaded.scene)})
         if (!added) return added.error();
+    if (!options.sky.empty()) {
+        auto sky = parseSky(options.sky);
+        if (!sky) return sky.error();
+        loaded.scene.sky = std::make_shared<const Sky>(std::move(*sky));
+    }
     for (RenderLight& light : loaded.scene.lights)
         if (const char* wrong = mendLight(light))
             return Error{fmt::format("a light of {} {}", options.scene, wrong)};
     if (const uint32_t hung = hangLamps(loaded.scene, options.hungLamps); hung < options.hungLamps)
         spdlog::warn("{} has free space for {} of {} punctual lights", options.scene, hung,
                      options.hungLamps);
-    if (loaded.scene.lights.empty() && !options.noSceneLights) {
+    const bool dark = loaded.scene.lights.empty() && !loaded.scene.sky && !hasEmissive(loaded.scene);
+    if (dark && !options.noSceneLights) {
         spdlog::warn("{} has no light: a sun is added", options.scene);
         loaded.scene.lights.push_back({.kind = LightKind::kDirectional,
                                        .direction = glm::normalize(glm::vec3(0.25f, -1, 0.35f)),

@@ -22,6 +22,7 @@ struct SceneOptions {
     std::vector<std::string> suns;    // DX,DY,DZ[,E]
     std::vector<std::string> points;  // X,Y,Z,I
     std::vector<std::string> spots;   // X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG
+    std::string sky;                  // COLOUR, FILE or DX,DY,DZ[,TURBIDITY]
     uint32_t hungLamps = 0;           // points of light in free space
     bool noSceneLights = false;
 };

@@ -188,9 +188,9 @@ typedef struct AgiInstance {
 
 /* New ids are added, known ones moved. Cost: when an id or a mesh is new, points on all surfaces are chosen
  * anew by the next agiPrepare or agiRecord (some 100 ms for a large scene); a move costs a row of 64 bytes.
- * What is not movable is kept as a tree for rays, about 80 bytes a triangle in host memory and in each view: built in the first frame
- * and when such instances have come, gone or moved and then rested for 16 frames, half a second for 250,000
- * triangles; until then shadow maps are made from points. */
+ * What is not movable is kept as a tree for rays, about 80 bytes a triangle in host memory and in each view:
+ * built in the first frame and when such instances have come, gone or moved and then rested for 16 frames,
+ * half a second for 250,000 triangles; until then shadow maps are made from points. */
 AGI_API AgiResult agiSetInstances(AgiScene scene, uint32_t count, const AgiInstance* instances);
 /* Ids that are not there are an error. */
 AGI_API AgiResult agiRemoveInstances(AgiScene scene, uint32_t count, const uint64_t* ids);

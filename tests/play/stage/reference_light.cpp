@@ -83,8 +83,10 @@ gi::ProbeReading referenceLight(const LitFlower& lit, bool unshadowed) {
     reference::addPaths(rays, hits, {.bounces = 1, .unshadowed = unshadowed}, {.seed = 3, .count = kSamples},
                         runner, sums);
     gi::ProbeReading mean;
-    for (const glm::vec3& e : sums.bounces[1].pixels)
-        mean.bounced += e / float(kSamples * kDirections);
+    // Flames shine through area lights, as bounced light does.
+    for (const auto* light : {&sums.bounces[1], &sums.emissive})
+        for (const glm::vec3& e : light->pixels)
+            mean.bounced += e / float(kSamples * kDirections);
     for (const reference::PreparedLight& light : rays.lights())
         mean.direct += directFrom(rays, light, lit.probe.position);
     return mean;

@@ -1,4 +1,5 @@
-// What the points reflect of the light that fell on them a frame ago: emitters like an RSM's texels.
+// What points on surfaces reflect of the light that fell on them a frame ago, and what others shine with by themselves:
+// emitters like an RSM's texels.
 #define AG_SCENE_INSTANCES
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
@@ -33,13 +34,15 @@ void followSkinnedMesh(inout BouncePoint p) {
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.p.count) return;
-    BouncePoint p = points.items[i];
+    BouncePoint p = points.items[push.p.firstPoint + i];
     InstanceTransform t = fetchInstance(int(p.instance));
 #ifdef AG_SKINNED
     if (t.skinnedMesh != kNoSkinnedMesh) followSkinnedMesh(p);
 #endif
-    vec3 e = push.p.known == 1 ? fetchTexel(irradiance, int(i)).rgb : vec3(0.0);
-    vec3 flux = min(p.albedo, vec3(kMostAlbedo)) * e * p.area;
+    bool reflects = i < push.p.reflecting;
+    vec3 e = reflects && push.p.known == 1 ? fetchTexel(irradiance, int(i)).rgb : vec3(0.0);
+    vec3 radiosity = reflects ? min(p.albedo, vec3(kMostAlbedo)) * e : p.albedo * kPi;
+    vec3 flux = radiosity * p.area;
     texels.items[i] = RsmTexel(transformPoint(t, p.positionLocal), p.area, normalize(transformNormal(t, p.normalLocal)),
                                (flux.x + flux.y + flux.z) / 3.0, flux, 1.0);
     for (int k = 0; k < 2; ++k) edges.items[i * 2 + k] = placeEdge(t, p.edgesLocal[k]);

@@ -1,4 +1,4 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "later_bounces/emit.glsl"
+#include "surface_emitters/emit.glsl"

@@ -5,7 +5,7 @@
 // One round of an edge-avoiding à-trous filter (Dammertz et al. 2010) that knows its variance (Schied et al. 2017): over pixels
 // on the same surface whose light differs by no more than noise.
 #include "common/pixel_rays.h"
-#include "texel_rays/texel_rays_io.h"
+#include "ray_filter/ray_filter_io.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { RayFilterPush p; } push;

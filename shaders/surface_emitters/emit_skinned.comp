@@ -3,4 +3,4 @@
 #extension GL_EXT_scalar_block_layout : require
 // For scenes with skinned meshes.
 #define AG_SKINNED
-#include "later_bounces/emit.glsl"
+#include "surface_emitters/emit.glsl"

@@ -1,0 +1,90 @@
+#include "engine/renderer/sky_gpu.h"
+
+#include <algorithm>
+#include <glm/gtc/packing.hpp>
+
+#include "engine/core/hash.h"
+#include "engine/gpu/transfer.h"
+
+namespace ag::render {
+namespace {
+
+constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr float kMostHalf = 65504;
+
+// Its texels one by one where they are finer than the table's, else places between them.
+void addPicture(const Sky& sky, float lightUnit, gi::AddRadiance add) {
+    constexpr glm::ivec2 kLeast{512, 256};
+    const glm::ivec2 own(sky.radiance.width, sky.radiance.height);
+    const bool fine = own.x >= kLeast.x && own.y >= kLeast.y;
+    const glm::ivec2 size = fine ? own : kLeast;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const glm::vec3 direction = skyDirection((glm::vec2(x, y) + 0.5f) / glm::vec2(size));
+            const glm::vec3 radiance = fine ? sky.radiance.at(x, y) : skyRadiance(sky, direction);
+            add(direction, radiance / lightUnit, skyTexelAngle(size, y));
+        }
+}
+
+}  // namespace
+
+gi::SkyTable skyTable(const Sky& sky, float lightUnit) {
+    const auto add = [&](gi::AddRadiance to) { addPicture(sky, lightUnit, to); };
+    return gi::makeSkyTable(add);
+}
+
+// A sun in its picture is small, and not what surfaces get.
+float SkyGpu::meanRadiance(const std::shared_ptr<const Sky>& sky) {
+    if (!sky) return 0;
+    if (sky_ == sky) return mean_;
+    double sum = 0;
+    for (const glm::vec3& p : sky->radiance.pixels)
+        sum += double(std::max({p.x, p.y, p.z}));
+    mean_ = float(sum / double(sky->radiance.pixels.size()));
+    sky_ = sky;
+    version_ = 0;
+    return mean_;
+}
+
+void SkyGpu::load(float lightUnit) {
+    const gi::SkyTable table = skyTable(*sky_, lightUnit);
+    for (auto* old : {&texels_, &cells_, &upTo_})
+        gpu::retire(device_, std::move(*old));
+    texels_ =
+        gpu::loadBuffer(device_, {.name = "scene.sky_texels", .texelFormat = kVec4Texels}, table.texels);
+    cells_ = gpu::loadBuffer(device_, {.name = "scene.sky_cells"}, table.cells);
+    upTo_ = gpu::loadBuffer(device_, {.name = "scene.sky_up_to"}, table.upTo);
+    std::vector<uint64_t> halves;
+    const Image& radiance = sky_->radiance;
+    for (const glm::vec3& p : radiance.pixels)
+        halves.push_back(glm::packHalf4x16(glm::vec4(glm::min(p / lightUnit, glm::vec3(kMostHalf)), 1)));
+    device_.waitIdle();  // the picture before may be in use
+    picture_ = std::make_unique<gpu::Image>(
+        device_, gpu::ImageDesc{.name = "scene.sky_picture",
+                                .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                .size = {uint32_t(radiance.width), uint32_t(radiance.height)}});
+    gpu::uploadImage(device_, *picture_, 0, std::as_bytes(std::span(halves)), false);
+    lightUnit_ = lightUnit;
+    version_ = hashBytes(std::as_bytes(std::span(radiance.pixels)), hashValue(lightUnit));
+}
+
+gi::SkyOnDevice SkyGpu::import(GraphScope scope, const std::shared_ptr<const Sky>& sky, float lightUnit,
+                               ImageHandle& picture) {
+    if (!sky) return {};
+    meanRadiance(sky);  // it may be another one
+    if (version_ == 0 || lightUnit_ != lightUnit) load(lightUnit);
+    picture = scope.importImage("scene.sky_picture", *picture_, version_);
+    return {.texels = scope.importBuffer("scene.sky_texels", *texels_, version_),
+            .cells = scope.importBuffer("scene.sky_cells", *cells_, version_),
+            .upTo = scope.importBuffer("scene.sky_up_to", *upTo_, version_),
+            .version = version_};
+}
+
+uint64_t SkyGpu::deviceBytes() const {
+    uint64_t bytes = picture_ ? uint64_t(picture_->desc().size.x) * picture_->desc().size.y * 8 : 0;
+    for (const auto* buffer : {texels_.get(), cells_.get(), upTo_.get()})
+        if (buffer) bytes += buffer->sizeBytes();
+    return bytes;
+}
+
+}  // namespace ag::render

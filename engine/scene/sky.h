@@ -1,0 +1,35 @@
+// The light of the sky: radiance from every direction in which nothing stands, as an equirectangular picture.
+#pragma once
+
+#include "engine/core/image.h"
+
+namespace ag {
+
+struct Sky {
+    // W/(m² sr). Rows from the zenith (+Y) to the nadir; columns go round from -X by -Z, +X and +Z. One
+    // texel: the same from everywhere.
+    Image radiance;
+};
+
+// The place in the picture that a unit direction looks at, both coordinates in [0, 1], and back.
+glm::vec2 skyPlace(glm::vec3 direction);
+glm::vec3 skyDirection(glm::vec2 place);
+
+// Bilinear.
+glm::vec3 skyRadiance(const Sky& sky, glm::vec3 direction);
+
+// Solid angle in sr of a texel in row `row` of a picture of that size.
+float skyTexelAngle(glm::ivec2 size, int row);
+
+Sky constantSky(glm::vec3 radiance);
+// A clear sky (Preetham, Shirley and Smits 1999, A Practical Analytic Model for Daylight) without the sun's
+// disc, 1 W being 683 lm. `sunDirection`: the way the sun's light travels, unit, downwards; `turbidity`: from
+// 2, clear, to 10, hazy. Below the horizon lies ground of albedo 0.2 that the sky lights.
+Sky analyticSky(glm::vec3 sunDirection, float turbidity);
+
+constexpr float kLeastTurbidity = 2, kMostTurbidity = 10;
+
+// nullptr if a picture can be a sky, else what is wrong with it.
+const char* whyNoSky(const Image& picture);
+
+}  // namespace ag

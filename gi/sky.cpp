@@ -1,0 +1,239 @@
+#include "gi/sky.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/core/hash.h"
+#include "gi/blue_noise.h"
+#include "gi/pixel_rays.h"
+#include "gi/upsampling.h"
+#include "shaders/bvh/bvh_io.h"
+#include "shaders/ray_filter/ray_filter_io.h"
+
+namespace ag::gi {
+namespace {
+
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr float kPi = 3.14159265f;
+constexpr float kTexelAngle = 4 * kPi / float(io::kSkySide * io::kSkySide);  // sr
+constexpr float kEvenly = 0.05f;                                             // of the draws within a cell
+constexpr float kKept = 0.9f;             // of what blocks learned, from frame to frame
+constexpr float kReaches = 4;             // in the scene's extent: no surface is farther
+constexpr uint32_t kFramesOfChange = 48;  // means are kept short so long
+constexpr float kMostPointRays = 65536;
+constexpr uint32_t kMostRounds = 4;
+// Names are literals, because the graph keeps views of them.
+constexpr std::array<std::string_view, kMostRounds> kFilterNames = {"sky.filter0", "sky.filter1",
+                                                                    "sky.filter2", "sky.filter3"};
+constexpr DownsamplingNames kSkyDownsampling = {"sky.downsample_depth", "sky.downsample_normal",
+                                                "sky.downsample_camera", "sky.downsample_motion"};
+constexpr UpsamplingNames kSkyUpsampling = {
+    "sky.upsample",
+    "sky.upsample_far",
+    "sky.irradiance",
+    {"sky.lacking", "sky.none_lacking", "sky.lacking_groups", "sky.no_lacking_groups"},
+    {"sky.alone", "sky.none_alone", "sky.alone_groups", "sky.no_alone_groups"},
+    ""};
+
+float mean(glm::vec3 v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
+uint32_t texelOf(glm::vec3 d) {
+    const float turn = std::atan2(d.z, d.x) / (2 * kPi) + 0.5f, down = 0.5f - 0.5f * d.y;
+    const glm::uvec2 at =
+        glm::min(glm::uvec2(glm::clamp(glm::vec2(turn, down), 0.0f, 1.0f) * float(io::kSkySide)),
+                 glm::uvec2(io::kSkySide - 1));
+    const glm::uvec2 cell = at / io::kSkyCell, in = at % io::kSkyCell;
+    return (cell.y * (io::kSkySide / io::kSkyCell) + cell.x) * io::kSkyCellTexels + in.y * io::kSkyCell +
+           in.x;
+}
+
+// Frames are spread evenly: multiples of inverse powers of the root of x^4 = x + 1 (Roberts 2018).
+glm::vec3 shiftOf(uint32_t step) {
+    return glm::vec3(
+        glm::fract(double(step) * glm::dvec3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)));
+}
+
+// Rays of one kind read the same trees.
+void readTrees(PassBuilder& pass, const TracedOccluders& trees) {
+    pass.read("treeNodes", trees.nodes)
+        .read("treeTriangles", trees.triangles)
+        .read("treePlaces", trees.places)
+        .read("moverNodes", trees.moverNodes);
+}
+
+ImageHandle addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uint32_t step) {
+    const glm::uvec2 along = (gbuffer.size + io::kSkyBlock - 1u) / io::kSkyBlock;
+    const uint32_t blocks = along.x * along.y;
+    const uint64_t entries = uint64_t(blocks) * io::kSkyCells;
+    const HistoryBuffer seen = scope.historyBuffer("sky.seen", {.sizeBytes = entries * sizeof(glm::vec2)});
+    const BufferHandle upTo = scope.buffer("sky.up_to", {.sizeBytes = entries * sizeof(float)});
+    scope.compute("sky.choose", "sky/choose.comp")
+        .sample("normalMap", gbuffer.normal)
+        .sample("depthMap", gbuffer.depth)
+        .read("cells", in.sky.cells)
+        .readPrevious("seen", seen)
+        .readWrite("upTo", upTo)
+        .push(io::SkyChoosePush{seen.valid})
+        .step(step)
+        .dispatchGroups(blocks);
+    const ImageHandle sent = scope.image("sky.sent", {.format = kFloat4, .size = gbuffer.size});
+    const BufferHandle noise = addBlueNoise(scope);
+    PassBuilder cast = scope.compute("sky.cast", "sky/cast.comp");
+    cast.sample("normalMap", gbuffer.normal)
+        .sample("depthMap", gbuffer.depth)
+        .read("camera", gbuffer.camera)
+        .read("skyTexels", in.sky.texels)
+        .read("upTo", upTo)
+        .readPrevious("before", seen)
+        .write("seen", seen.current)
+        .write("sent", sent)
+        .read("noise", noise)
+        .push(io::SkyCastPush{.step = step,
+                              .shift = shiftOf(step),
+                              .offset = io::kBvhOffset * in.occluders.extent,
+                              .reach = kReaches * in.occluders.extent,
+                              .known = seen.valid,
+                              .keep = kKept})
+        .step(step)
+        .dispatchGroups(blocks);
+    readTrees(cast, in.occluders.trees);
+    return sent;
+}
+
+struct Means {
+    ImageHandle rest, surface;
+    BufferHandle cameras;
+};
+
+Means addMeans(GraphScope scope, const Surfaces& gbuffer, ImageHandle sent, const SkyInputs& in,
+               uint32_t step, const SkySettings& s, SkyHistory& history) {
+    const ImageInfo info{.format = kFloat4, .size = gbuffer.size};
+    const bool known = history.originVersion == in.versions.origin;
+    const RenderCamera before = known ? history.camera : gbuffer.view;
+    history.camera = gbuffer.view;
+    history.originVersion = in.versions.origin;
+    const uint64_t light = combineHash(in.sky.version, in.versions.instances);
+    history.sinceChange = history.lightVersion == light ? history.sinceChange + 1 : 0;
+    history.lightVersion = light;
+    const bool moving = history.sinceChange < kFramesOfChange;
+    const HistoryImage mean = scope.historyImage("sky.mean", info),
+                       square = scope.historyImage("sky.square",
+                                                   {.format = VK_FORMAT_R32_SFLOAT, .size = gbuffer.size}),
+                       surface = scope.historyImage(
+                           "sky.surface", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
+    const Means means{
+        .rest = scope.image("sky.rest", info),
+        .surface = surface.current,
+        .cameras = addReprojectionCameras(scope, "sky.cameras", gbuffer.view, before, gbuffer.size)};
+    scope.compute("sky.accumulate", "sky/accumulate.comp")
+        .sample("normalMap", gbuffer.normal)
+        .sample("depthMap", gbuffer.depth)
+        .sample("sent", sent)
+        .samplePrevious("previousMean", mean, Sampler::kNearestClamp)
+        .samplePrevious("previousSquare", square, Sampler::kNearestClamp)
+        .samplePrevious("previousSurface", surface, Sampler::kNearestClamp)
+        .read("cameras", means.cameras)
+        .write("meanOf", mean.current)
+        .write("squareOf", square.current)
+        .write("surface", surface.current)
+        .write("rest", means.rest)
+        .sample("motionMap", gbuffer.motion ? gbuffer.motion : gbuffer.normal)
+        .constant("kMotion", bool(gbuffer.motion))
+        .push(io::SkyMeanPush{.near = gbuffer.view.near,
+                              .valid = known && mean.valid,
+                              .mostLength = float(moving ? s.movingLength : s.mostLength),
+                              .moving = moving})
+        .step(step)
+        .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
+    return means;
+}
+
+}  // namespace
+
+SkyTable makeSkyTable(FunctionRef<void(AddRadiance)> add) {
+    constexpr uint32_t kTexels = io::kSkySide * io::kSkySide;
+    std::vector<glm::dvec4> sums(kTexels, glm::dvec4(0));
+    add([&](glm::vec3 direction, glm::vec3 radiance, float solidAngle) {
+        sums[texelOf(direction)] += glm::dvec4(glm::dvec3(radiance), 1) * double(solidAngle);
+    });
+    SkyTable table;
+    table.texels.resize(kTexels);
+    float total = 0;
+    for (uint32_t cell = 0; cell < io::kSkyCells; ++cell) {
+        io::SkyTexel* const texels = &table.texels[size_t(cell) * io::kSkyCellTexels];
+        float power = 0, upTo = 0;
+        for (uint32_t t = 0; t < io::kSkyCellTexels; ++t) {
+            const glm::dvec4& sum = sums[size_t(cell) * io::kSkyCellTexels + t];
+            // Energy is kept exactly: what was given over the texel's own angle.
+            texels[t].radiance = glm::vec3(glm::dvec3(sum)) / kTexelAngle;
+            power += mean(texels[t].radiance) * kTexelAngle;
+        }
+        for (uint32_t t = 0; t < io::kSkyCellTexels; ++t) {
+            const float share = power > 0 ? mean(texels[t].radiance) * kTexelAngle / power : 0;
+            upTo +=
+                power > 0 ? kEvenly / io::kSkyCellTexels + (1 - kEvenly) * share : 1.0f / io::kSkyCellTexels;
+            texels[t].upTo = upTo;
+        }
+        texels[io::kSkyCellTexels - 1].upTo = 1;
+        table.cells.push_back(power);
+        table.upTo.push_back(total += power);
+    }
+    return table;
+}
+
+Irradiance addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,
+                       const SkySettings& s, SkyHistory& history) {
+    if (!s.enabled || !in.sky || !in.occluders.trees.moverNodes) return {};
+    const uint64_t seen = combineHash(in.sky.version, combineHash(in.versions.camera, in.versions.instances));
+    const uint32_t step = history.settling.advance(seen, s.settleFrames);
+    const Surfaces gbuffer = addDownsampled(scope, surfaces, spacing, kSkyDownsampling);
+    const ImageHandle sent = addRays(scope, gbuffer, in, step);
+    const Means means = addMeans(scope, gbuffer, sent, in, step, s, history);
+    const ImageInfo info{.format = kFloat4, .size = gbuffer.size};
+    const std::array<ImageHandle, 2> turns = {scope.image("sky.even", info), scope.image("sky.odd", info)};
+    ImageHandle from = means.rest;
+    for (uint32_t round = 0; round < std::min(s.rounds, kMostRounds); ++round) {
+        scope.compute(kFilterNames[round], "ray_filter/filter.comp")
+            .sample("rest", from)
+            .sample("surface", means.surface)
+            .read("cameras", means.cameras)
+            .write("result", turns[round % 2])
+            .push(io::RayFilterPush{int(1u << round), s.tolerance})
+            .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
+        from = turns[round % 2];
+    }
+    return addUpsampling(scope, surfaces, gbuffer, Irradiance{from}, kSkyUpsampling);
+}
+
+BufferHandle addSkyOnPoints(GraphScope scope, const SurfaceEmitters& emitters, const SkyInputs& in,
+                            const SkySettings& s, Settling& settling) {
+    const uint32_t count = emitters.reflecting.count();
+    if (!s.enabled || !in.sky || count == 0 || !in.occluders.trees.moverNodes) return {};
+    const uint64_t seen = combineHash(in.sky.version, in.versions.instances);
+    const uint32_t step = settling.advance(seen, s.settleFrames);
+    const bool moving = settling.sinceChange < kFramesOfChange;
+    const HistoryBuffer irradiance = scope.historyBuffer(
+        "sky.on_points", {.sizeBytes = count * sizeof(glm::vec4), .texelFormat = kFloat4});
+    PassBuilder pass = scope.compute("sky.points", "sky/points.comp");
+    pass.read("texels", emitters.texels)
+        .read("skyTexels", in.sky.texels)
+        .read("upTo", in.sky.upTo)
+        .readPrevious("before", irradiance)
+        .write("irradiance", irradiance.current)
+        .push(io::SkyPointsPush{.count = count,
+                                .rays = s.pointRays,
+                                .step = step,
+                                .offset = io::kBvhOffset * in.occluders.extent,
+                                .reach = kReaches * in.occluders.extent,
+                                .valid = irradiance.valid,
+                                .mostLength = moving ? float(s.movingLength * s.pointRays) : kMostPointRays})
+        .step(step)
+        .dispatchThreads(count);
+    readTrees(pass, in.occluders.trees);
+    return irradiance.current;
+}
+
+}  // namespace ag::gi
