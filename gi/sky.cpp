@@ -26,6 +26,18 @@ constexpr uint32_t kMostRounds = 4;
 // Names are literals, because the graph keeps views of them.
 constexpr std::array<std::string_view, kMostRounds> kFilterNames = {"sky.filter0", "sky.filter1",
                                                                     "sky.filter2", "sky.filter3"};
+constexpr std::array<std::string_view, kMostRounds> kGlossFilterNames = {
+    "sky.gloss_filter0", "sky.gloss_filter1", "sky.gloss_filter2", "sky.gloss_filter3"};
+// Of irradiance, and of what specular lobes reflect.
+struct MeanNames {
+    std::string_view pass, mean, square, surface, rest, cameras, even, odd;
+    const std::array<std::string_view, kMostRounds>& filters;
+};
+constexpr MeanNames kIrradianceMeans = {"sky.accumulate", "sky.mean", "sky.square", "sky.surface", "sky.rest",
+                                        "sky.cameras",    "sky.even", "sky.odd",    kFilterNames};
+constexpr MeanNames kGlossMeans = {"sky.accumulate_gloss", "sky.gloss_mean", "sky.gloss_square",
+                                   "sky.gloss_surface",    "sky.gloss_rest", "sky.gloss_cameras",
+                                   "sky.gloss_even",       "sky.gloss_odd",  kGlossFilterNames};
 constexpr DownsamplingNames kSkyDownsampling = {"sky.downsample_depth", "sky.downsample_normal",
                                                 "sky.downsample_camera", "sky.downsample_motion"};
 constexpr UpsamplingNames kSkyUpsampling = {
@@ -35,6 +47,15 @@ constexpr UpsamplingNames kSkyUpsampling = {
     {"sky.lacking", "sky.none_lacking", "sky.lacking_groups", "sky.no_lacking_groups"},
     {"sky.alone", "sky.none_alone", "sky.alone_groups", "sky.no_alone_groups"},
     ""};
+constexpr UpsamplingNames kGlossUpsampling = {
+    "sky.upsample_gloss",
+    "sky.upsample_gloss_far",
+    "sky.gloss",
+    {"sky.gloss_lacking", "sky.none_gloss_lacking", "sky.gloss_lacking_groups",
+     "sky.no_gloss_lacking_groups"},
+    {"sky.gloss_alone", "sky.none_gloss_alone", "sky.gloss_alone_groups", "sky.no_gloss_alone_groups"},
+    ""};
+constexpr float kWalkingLength = 8;  // frames that reflections stand for while the camera moves
 
 float mean(glm::vec3 v) {
     return (v.x + v.y + v.z) / 3;
@@ -64,7 +85,11 @@ void readTrees(PassBuilder& pass, const TracedOccluders& trees) {
         .read("moverNodes", trees.moverNodes);
 }
 
-ImageHandle addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uint32_t step) {
+struct Sent {
+    ImageHandle irradiance, gloss;
+};
+
+Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uint32_t step) {
     const glm::uvec2 along = (gbuffer.size + io::kSkyBlock - 1u) / io::kSkyBlock;
     const uint32_t blocks = along.x * along.y;
     const uint64_t entries = uint64_t(blocks) * io::kSkyCells;
@@ -79,7 +104,9 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& 
         .push(io::SkyChoosePush{seen.valid})
         .step(step)
         .dispatchGroups(blocks);
-    const ImageHandle sent = scope.image("sky.sent", {.format = kFloat4, .size = gbuffer.size});
+    Sent sent{.irradiance = scope.image("sky.sent", {.format = kFloat4, .size = gbuffer.size}), .gloss = {}};
+    if (gbuffer.reflectance)
+        sent.gloss = scope.image("sky.sent_gloss", {.format = kFloat4, .size = gbuffer.size});
     const BufferHandle noise = addBlueNoise(scope);
     PassBuilder cast = scope.compute("sky.cast", "sky/cast.comp");
     cast.sample("normalMap", gbuffer.normal)
@@ -89,7 +116,10 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& 
         .read("upTo", upTo)
         .readPrevious("before", seen)
         .write("seen", seen.current)
-        .write("sent", sent)
+        .write("sent", sent.irradiance)
+        .write("shone", sent.gloss ? sent.gloss : sent.irradiance)
+        .sample("reflectanceMap", sent.gloss ? gbuffer.reflectance : gbuffer.normal)
+        .constant("kGlossy", bool(sent.gloss))
         .read("noise", noise)
         .push(io::SkyCastPush{.step = step,
                               .shift = shiftOf(step),
@@ -103,52 +133,69 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& 
     return sent;
 }
 
-struct Means {
-    ImageHandle rest, surface;
-    BufferHandle cameras;
+struct Followed {  // from the frame before
+    RenderCamera camera;
+    bool known;
 };
 
-Means addMeans(GraphScope scope, const Surfaces& gbuffer, ImageHandle sent, const SkyInputs& in,
-               uint32_t step, const SkySettings& s, SkyHistory& history) {
+// Averaged over frames and filtered over the screen.
+ImageHandle addMeans(GraphScope scope, const Surfaces& gbuffer, ImageHandle sent, const Followed& before,
+                     io::SkyMeanPush push, uint32_t step, const SkySettings& s, const MeanNames& names) {
     const ImageInfo info{.format = kFloat4, .size = gbuffer.size};
-    const bool known = history.originVersion == in.versions.origin;
-    const RenderCamera before = known ? history.camera : gbuffer.view;
-    history.camera = gbuffer.view;
-    history.originVersion = in.versions.origin;
-    const uint64_t light = combineHash(in.sky.version, in.versions.instances);
-    history.sinceChange = history.lightVersion == light ? history.sinceChange + 1 : 0;
-    history.lightVersion = light;
-    const bool moving = history.sinceChange < kFramesOfChange;
-    const HistoryImage mean = scope.historyImage("sky.mean", info),
-                       square = scope.historyImage("sky.square",
+    const HistoryImage mean = scope.historyImage(names.mean, info),
+                       square = scope.historyImage(names.square,
                                                    {.format = VK_FORMAT_R32_SFLOAT, .size = gbuffer.size}),
                        surface = scope.historyImage(
-                           "sky.surface", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
-    const Means means{
-        .rest = scope.image("sky.rest", info),
-        .surface = surface.current,
-        .cameras = addReprojectionCameras(scope, "sky.cameras", gbuffer.view, before, gbuffer.size)};
-    scope.compute("sky.accumulate", "sky/accumulate.comp")
+                           names.surface, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
+    const ImageHandle rest = scope.image(names.rest, info);
+    const BufferHandle cameras =
+        addReprojectionCameras(scope, names.cameras, gbuffer.view, before.camera, gbuffer.size);
+    push.near = gbuffer.view.near;
+    push.valid = before.known && mean.valid;
+    scope.compute(names.pass, "sky/accumulate.comp")
         .sample("normalMap", gbuffer.normal)
         .sample("depthMap", gbuffer.depth)
         .sample("sent", sent)
         .samplePrevious("previousMean", mean, Sampler::kNearestClamp)
         .samplePrevious("previousSquare", square, Sampler::kNearestClamp)
         .samplePrevious("previousSurface", surface, Sampler::kNearestClamp)
-        .read("cameras", means.cameras)
+        .read("cameras", cameras)
         .write("meanOf", mean.current)
         .write("squareOf", square.current)
         .write("surface", surface.current)
-        .write("rest", means.rest)
+        .write("rest", rest)
         .sample("motionMap", gbuffer.motion ? gbuffer.motion : gbuffer.normal)
         .constant("kMotion", bool(gbuffer.motion))
-        .push(io::SkyMeanPush{.near = gbuffer.view.near,
-                              .valid = known && mean.valid,
-                              .mostLength = float(moving ? s.movingLength : s.mostLength),
-                              .moving = moving})
+        .push(push)
         .step(step)
         .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
-    return means;
+    const std::array<ImageHandle, 2> turns = {scope.image(names.even, info), scope.image(names.odd, info)};
+    ImageHandle from = rest;
+    for (uint32_t round = 0; round < std::min(s.rounds, kMostRounds); ++round) {
+        scope.compute(names.filters[round], "ray_filter/filter.comp")
+            .sample("rest", from)
+            .sample("surface", surface.current)
+            .read("cameras", cameras)
+            .write("result", turns[round % 2])
+            .push(io::RayFilterPush{int(1u << round), s.tolerance})
+            .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
+        from = turns[round % 2];
+    }
+    return from;
+}
+
+// Where the camera was; and notes how long ago what is seen of the sky may have changed.
+Followed followFrames(const Surfaces& gbuffer, const SkyInputs& in, SkyHistory& history) {
+    const bool known = history.originVersion == in.versions.origin;
+    const Followed before{known ? history.camera : gbuffer.view, known};
+    history.camera = gbuffer.view;
+    history.originVersion = in.versions.origin;
+    const uint64_t light = combineHash(in.sky.version, in.versions.instances);
+    history.sinceChange = history.lightVersion == light ? history.sinceChange + 1 : 0;
+    history.lightVersion = light;
+    history.sinceStep = history.cameraVersion == in.versions.camera ? history.sinceStep + 1 : 0;
+    history.cameraVersion = in.versions.camera;
+    return before;
 }
 
 }  // namespace
@@ -184,28 +231,29 @@ SkyTable makeSkyTable(FunctionRef<void(AddRadiance)> add) {
     return table;
 }
 
-Irradiance addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,
-                       const SkySettings& s, SkyHistory& history) {
+SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,
+                     const SkySettings& s, SkyHistory& history) {
     if (!s.enabled || !in.sky || !in.occluders.trees.moverNodes) return {};
     const uint64_t seen = combineHash(in.sky.version, combineHash(in.versions.camera, in.versions.instances));
     const uint32_t step = history.settling.advance(seen, s.settleFrames);
-    const Surfaces gbuffer = addDownsampled(scope, surfaces, spacing, kSkyDownsampling);
-    const ImageHandle sent = addRays(scope, gbuffer, in, step);
-    const Means means = addMeans(scope, gbuffer, sent, in, step, s, history);
-    const ImageInfo info{.format = kFloat4, .size = gbuffer.size};
-    const std::array<ImageHandle, 2> turns = {scope.image("sky.even", info), scope.image("sky.odd", info)};
-    ImageHandle from = means.rest;
-    for (uint32_t round = 0; round < std::min(s.rounds, kMostRounds); ++round) {
-        scope.compute(kFilterNames[round], "ray_filter/filter.comp")
-            .sample("rest", from)
-            .sample("surface", means.surface)
-            .read("cameras", means.cameras)
-            .write("result", turns[round % 2])
-            .push(io::RayFilterPush{int(1u << round), s.tolerance})
-            .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
-        from = turns[round % 2];
-    }
-    return addUpsampling(scope, surfaces, gbuffer, Irradiance{from}, kSkyUpsampling);
+    Surfaces gbuffer = addDownsampled(scope, surfaces, spacing, kSkyDownsampling);
+    gbuffer.reflectance = {};
+    if (s.glossy && surfaces.reflectance)
+        gbuffer.reflectance = spacing == 1 ? surfaces.reflectance
+                                           : addDownsampledImage(scope, "sky.downsample_reflectance",
+                                                                 surfaces.reflectance, spacing);
+    const Sent sent = addRays(scope, gbuffer, in, step);
+    const Followed before = followFrames(gbuffer, in, history);
+    const bool moving = history.sinceChange < kFramesOfChange, walking = history.sinceStep == 0;
+    io::SkyMeanPush push{.mostLength = float(moving ? s.movingLength : s.mostLength), .moving = moving};
+    const ImageHandle mean =
+        addMeans(scope, gbuffer, sent.irradiance, before, push, step, s, kIrradianceMeans);
+    SkyLight light{addUpsampling(scope, surfaces, gbuffer, Irradiance{mean}, kSkyUpsampling).image, {}};
+    if (!sent.gloss) return light;
+    if (walking) push.mostLength = std::min(push.mostLength, kWalkingLength);
+    const ImageHandle gloss = addMeans(scope, gbuffer, sent.gloss, before, push, step, s, kGlossMeans);
+    light.gloss = addUpsampling(scope, surfaces, gbuffer, Irradiance{gloss}, kGlossUpsampling).image;
+    return light;
 }
 
 BufferHandle addSkyOnPoints(GraphScope scope, const SurfaceEmitters& emitters, const SkyInputs& in,

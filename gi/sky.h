@@ -22,6 +22,7 @@ struct SkySettings {
     uint32_t settleFrames = 256;  // rays are cast so long after anything last changed
     uint32_t rounds = 3;          // of the filter, each twice as wide
     float tolerance = 3;          // standard deviations by which the light of taps may differ
+    bool glossy = true;           // specular lobes reflect it
     uint32_t pointRays = 8;       // of each point that light bounces on from, a frame
 
     static constexpr auto fields() {
@@ -36,6 +37,7 @@ struct SkySettings {
             SettingField{"rounds", &SkySettings::rounds, 0, 4, "rounds", "of the filter, each twice as wide"},
             SettingField{"tolerance", &SkySettings::tolerance, 0.1, 1000, "deviations",
                          "by which the light of the filter's taps may differ"},
+            SettingField{"glossy", &SkySettings::glossy, 0, 0, "", "materials reflect it by their roughness"},
             SettingField{"point_rays", &SkySettings::pointRays, 1, 64, "rays",
                          "a frame of each point that light bounces on from"}};
     }
@@ -66,9 +68,8 @@ struct SkyOnDevice {
 struct SkyHistory {
     Settling settling;
     RenderCamera camera;
-    uint64_t originVersion = 0;
-    uint64_t lightVersion = 0;
-    uint32_t sinceChange = 0;  // frames
+    uint64_t originVersion = 0, lightVersion = 0, cameraVersion = 0;
+    uint32_t sinceChange = 0, sinceStep = 0;  // frames: of the light's last change, and of the camera's
 };
 
 struct SkyInputs {
@@ -77,10 +78,14 @@ struct SkyInputs {
     const Versions& versions;
 };
 
-// On each pixel of `surfaces`, gathered at every spacing-th. Invalid: no sky, or nothing to cast rays into
-// yet.
-Irradiance addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,
-                       const SkySettings& settings, SkyHistory& history);
+struct SkyLight {
+    ImageHandle image;  // irradiance, W/m²; invalid: no sky, or nothing to cast rays into yet
+    ImageHandle gloss;  // what specular lobes reflect of it, W/(m² sr); invalid: no material has one
+};
+
+// On each pixel of `surfaces`, gathered at every spacing-th.
+SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,
+                     const SkySettings& settings, SkyHistory& history);
 
 // On the points that reflect; vec4: W/m², rays that it is the mean of. Invalid: none.
 BufferHandle addSkyOnPoints(GraphScope scope, const SurfaceEmitters& emitters, const SkyInputs& in,

@@ -133,7 +133,7 @@ Shown howShown(const Picture& picture) {
     if (name == "reference") return Shown::kRadiance;
     if (name == "gbuffer.depth" || name == "view.ism") return Shown::kDistance;
     if (picture.format == "d32f" || picture.format == "r32f") return Shown::kScalar;
-    if (endsWith(name, ".normal") || endsWith(name, ".surface")) return Shown::kDirection;
+    if (endsWith(name, ".normal") || endsWith(name, "surface")) return Shown::kDirection;
     if (endsWith(name, ".motion")) return Shown::kMotion;
     if (endsWith(name, ".albedo")) return Shown::kReflectance;
     const bool drawn = name == "view.clusters" || name == "view.vals" || name == "view.light_clusters" ||

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/setting_fields.h"
+#include "engine/renderer/direct_lighting.h"
 #include "engine/renderer/gbuffer.h"
 #include "gi/bounce_light.h"
 
@@ -29,7 +30,8 @@ struct RenderOutputs {
 };
 
 struct CompositeLight {
-    const gi::Irradiance &direct, &sky;
+    const DirectLight& direct;
+    const gi::SkyLight& sky;
     const gi::BounceLight& bounce;
     const SceneView& scene;  // whose sky is seen where no surface is
 };

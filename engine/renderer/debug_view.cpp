@@ -42,7 +42,7 @@ ImageHandle layerImage(GraphScope scope, glm::uvec2 size) {
 }
 
 ImageHandle addCopy(GraphScope scope, const SceneView& scene, ImageHandle first, ImageHandle second,
-                    Copy mode) {
+                    Copy mode, ImageHandle third = {}) {
     if (!first) return {};
     const ImageHandle out = layerImage(scope, scope.info(first).size);
     const float unit = mode == Copy::kDepth   ? scene.scene->camera.near * scene.units.length
@@ -51,10 +51,21 @@ ImageHandle addCopy(GraphScope scope, const SceneView& scene, ImageHandle first,
     scope.fullscreen("debug_view.copy_layer", "debug_view/copy_layer.frag")
         .sample("first", first)
         .sample("second", second ? second : first)
+        .sample("third", third ? third : first)
         .constant("kMode", mode)
+        .constant("kThird", bool(third))
         .push(unit)
         .colorClear(out, glm::vec4(0));
     return out;
+}
+
+// Of those that are there.
+ImageHandle addSum(GraphScope scope, const SceneView& scene, std::array<ImageHandle, 3> terms) {
+    std::array<ImageHandle, 3> there;
+    size_t count = 0;
+    for (const ImageHandle term : terms)
+        if (term) there[count++] = term;
+    return addCopy(scope, scene, there[0], there[1], count > 1 ? Copy::kSum : Copy::kLight, there[2]);
 }
 
 // A view that draws over the camera's surfaces.
@@ -176,8 +187,7 @@ ImageHandle addFirstBounceTerm(GraphScope scope, const RenderFrame& f) {
 ImageHandle addBouncesTerm(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
     const ImageHandle first = addFirstBounceTerm(scope, f),
                       later = addTerm(scope, f, f.bounce.firstCount, ~0u, kLaterTermShading);
-    return addCopy(scope, scene, first ? first : later, first ? later : ImageHandle{},
-                   first && later ? Copy::kSum : Copy::kLight);
+    return addSum(scope, scene, {first, later, {}});
 }
 
 }  // namespace
@@ -213,7 +223,7 @@ bool hasLayer(const RenderFrame& f, Layer layer) {
             return f.bounce.irradiance.image && f.bounce.bounce1.image &&
                    f.bounce.irradiance.image != f.bounce.bounce1.image;
         case Layer::kIrradiance:
-            return f.direct.image || f.bounce.irradiance.image;
+            return f.direct.image || f.bounce.irradiance.image || f.sky.image;
         case Layer::kRsm:
             return !f.bounce.rsm.empty();
         case Layer::kImportance:
@@ -257,8 +267,7 @@ ImageHandle addLayer(GraphScope scope, const SceneView& scene, const RenderFrame
             return addCopy(scope, scene, f.bounce.irradiance.image, f.bounce.bounce1.image,
                            Copy::kDifference);
         case Layer::kIrradiance:
-            return addCopy(scope, scene, direct ? direct : bounce, direct ? bounce : ImageHandle{},
-                           direct && bounce ? Copy::kSum : Copy::kLight);
+            return addSum(scope, scene, {direct, bounce, f.sky.image});
         case Layer::kAlbedo:
             return addCopy(scope, scene, f.gbuffer.surfaces.albedo, {}, Copy::kPlain);
         case Layer::kNormal:

@@ -13,31 +13,43 @@ constexpr std::array<std::string_view, kMostSuns> kPassNames = {
 
 }  // namespace
 
-gi::Irradiance addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                              const ShadowMaps& shadows) {
-    gi::Irradiance result;
+void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy, PassBuilder& pass,
+                     DirectLight& light) {
+    const bool first = !light.image, lobes = glossy && gbuffer.reflectance;
+    const ImageInfo info{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size};
+    if (first) light.image = scope.image("direct_lighting.irradiance", info);
+    if (first && lobes) light.highlights = scope.image("direct_lighting.highlights", info);
+    // Compiled out, bindings take any image of the same class.
+    const ImageHandle highlights = lobes ? light.highlights : light.image;
+    pass.constant("kFirst", first)
+        .constant("kGlossy", lobes)
+        .sample("albedoMap", lobes ? gbuffer.albedo : gbuffer.normal)
+        .sample("reflectanceMap", lobes ? gbuffer.reflectance : gbuffer.normal);
+    if (first) {
+        pass.write("irradiance", light.image).write("highlights", highlights);
+    } else {
+        pass.readWrite("irradiance", light.image).readWrite("highlights", highlights);
+    }
+}
+
+DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
+                           const ShadowMaps& shadows, bool glossy) {
+    DirectLight result;
     for (uint32_t i = 0; i < shadows.sunCount; ++i) {
         const RenderLight& light = scene.scene->lights[shadows.suns[i].light];
-        const bool first = i == 0, shadow = shadows.suns[i].viewCount > 0;
-        if (first)
-            result.image = scope.image("direct_lighting.irradiance",
-                                       {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
+        const bool shadow = shadows.suns[i].viewCount > 0;
         PassBuilder pass = scope.compute(kPassNames[i], shadow ? "direct_lighting/add_sun_shadowed.comp"
                                                                : "direct_lighting/add_sun_unshadowed.comp");
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)
             .read("camera", scene.camera)
-            .constant("kFirst", first)
             .push(io::Sun{.direction = light.direction,
                           .firstView = shadows.suns[i].firstView,
                           .irradiance = light.intensity,
                           .viewCount = shadows.suns[i].viewCount})
             .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
         if (shadow) pass.read("shadowViews", shadows.views).sample("shadowAtlas", shadows.atlas);
-        if (first)
-            pass.write("irradiance", result.image);
-        else
-            pass.readWrite("irradiance", result.image);
+        bindDirectLight(scope, gbuffer, glossy, pass, result);
     }
     return result;
 }

@@ -7,7 +7,17 @@
 
 namespace ag::render {
 
-gi::Irradiance addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                              const ShadowMaps& shadows);
+struct DirectLight {
+    ImageHandle image;       // irradiance, rgba16f, W/m²; invalid: no light
+    ImageHandle highlights;  // what specular lobes add, rgba16f, W/(m² sr); invalid: no material has one
+};
+
+// Into `light`: makes its images where there are none, and binds what highlights need. `glossy`: they are
+// asked for.
+void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy, PassBuilder& pass,
+                     DirectLight& light);
+
+DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
+                           const ShadowMaps& shadows, bool glossy);
 
 }  // namespace ag::render

@@ -51,17 +51,13 @@ PunctualQuads addPunctualQuads(GraphScope scope, const SceneView& scene, const g
 
 }  // namespace
 
-gi::Irradiance addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                                   const PunctualLights& lights, gi::Irradiance before,
-                                   const PunctualLightingSettings& settings) {
+DirectLight addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
+                                const PunctualLights& lights, DirectLight before, bool glossy,
+                                const PunctualLightingSettings& settings) {
     const auto& [lists, shadows] = lights;
     if (!lists.lights) return before;
     const bool shadowed = bool(shadows.atlas);
     const bool quads = shadowed && settings.quads && shadows.places > kFewClusters;
-    const gi::Irradiance result{
-        before.image ? before.image
-                     : scope.image("punctual_lighting.irradiance",
-                                   {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size})};
     const PunctualQuads from =
         quads ? addPunctualQuads(scope, scene, gbuffer, lights, settings) : PunctualQuads{};
     PassBuilder shade = beginShading(scope, "punctual_lighting.shade",
@@ -69,15 +65,11 @@ gi::Irradiance addPunctualLighting(GraphScope scope, const SceneView& scene, con
                                      : shadowed ? "direct_lighting/shade_punctual.comp"
                                                 : "direct_lighting/shade_punctual_unshadowed.comp",
                                      scene, gbuffer, lists);
-    shade.constant("kFirst", !before.image);
     shade.dispatchGroups(lists.tiles.x * lists.tiles.y);
     if (quads) shade.sample("shadowed", from.shadowed).sample("unshadowed", from.unshadowed);
     if (shadowed && !quads) bindShadows(shade, shadows, settings);
-    if (before.image)
-        shade.readWrite("irradiance", result.image);
-    else
-        shade.write("irradiance", result.image);
-    return result;
+    bindDirectLight(scope, gbuffer, glossy, shade, before);
+    return before;
 }
 
 }  // namespace ag::render

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/core/setting_fields.h"
+#include "engine/renderer/direct_lighting.h"
 #include "engine/renderer/punctual_lists.h"
 #include "engine/renderer/punctual_shadows.h"
 #include "gi/val_shading.h"
@@ -40,8 +41,8 @@ struct PunctualLights {
 };
 
 // Adds to `before`, or starts anew where that has no image.
-gi::Irradiance addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                                   const PunctualLights& lights, gi::Irradiance before,
-                                   const PunctualLightingSettings& settings);
+DirectLight addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
+                                const PunctualLights& lights, DirectLight before, bool glossy,
+                                const PunctualLightingSettings& settings);
 
 }  // namespace ag::render

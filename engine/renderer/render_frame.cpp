@@ -21,14 +21,15 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
 
     // Direct light
     f.shadows = addSunShadows(scope, scene, s.shadowMaps, h.sunShadows);
-    f.direct = addSunLighting(scope, scene, surfaces, f.shadows);
+    const bool glossy = s.bounce.valShading.glossy;
+    f.direct = addSunLighting(scope, scene, surfaces, f.shadows, glossy);
     const LightClusters& lights =
         clusterLights(*scene.scene, h.punctualRelevance, s.lightClusters, h.lightClusters);
     f.punctual.shadows =
         addPunctualShadows(scope, scene, lights, s.lightClusters.most, s.punctualShadows, h.punctualShadows);
     f.punctual.lists =
         addPunctualLists(scope, scene, surfaces, lights, s.punctualLighting.tiles, h.punctualLists);
-    f.direct = addPunctualLighting(scope, scene, surfaces, f.punctual, f.direct, s.punctualLighting);
+    f.direct = addPunctualLighting(scope, scene, surfaces, f.punctual, f.direct, glossy, s.punctualLighting);
     if (s.lightClusters.strongFirst)
         addPunctualRelevance(scope, f.bounce.viewPoints, f.punctual.lists, h.punctualRelevance);
 

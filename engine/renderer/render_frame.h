@@ -32,8 +32,8 @@ struct RenderFrame {
     gi::BounceLight bounce;
     ShadowMaps shadows;
     PunctualLights punctual;
-    gi::Irradiance direct;  // of suns and lamps
-    gi::Irradiance sky;     // straight from it
+    DirectLight direct;  // of suns and lamps
+    gi::SkyLight sky;    // straight from it
     RenderOutputs outputs;
 };
 

@@ -8,6 +8,7 @@ const int kPixels = 4;
 
 struct Receiver {
     vec3 position, normal;
+    float roughness;
     float depth;
 };
 
@@ -17,7 +18,9 @@ Receiver receiverAt(uvec2 at) {
     Receiver r;
     r.depth = texelFetch(depthMap, pixel, 0).x;
     r.position = worldFromPixel(camera.camera.worldFromClip, size, pixel, r.depth);
-    r.normal = texelFetch(normalMap, pixel, 0).xyz;
+    vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0);
+    r.normal = normalAndRoughness.xyz;
+    r.roughness = normalAndRoughness.w;
     return r;
 }
 #endif

@@ -23,6 +23,7 @@ layout(set = 0, binding = 10, rgba16f) uniform writeonly image2D unshadowed;
 const uint kStep = 1;
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
+#include "direct_lighting/highlight.glsl"
 #endif
 #ifdef AG_SHADOW
 layout(set = 0, binding = 4) VEC4_TEXELS(clusters);
@@ -58,9 +59,18 @@ void main() {
     uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * (kPunctualTileSize / kStep) + 2 * uvec2(block % kSide, block / kSide);
     Receiver r[kPixels];
     vec3 e[kPixels], all[kPixels];
+#ifndef AG_QUADS
+    Lobe lobe[kPixels];
+    vec3 shine[kPixels];
+#endif
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
-        r[p] = receiverAt((origin + uvec2(p & 1, p >> 1)) * kStep);
+        uvec2 at = (origin + uvec2(p & 1, p >> 1)) * kStep;
+        r[p] = receiverAt(at);
         e[p] = all[p] = vec3(0.0);
+#ifndef AG_QUADS
+        lobe[p] = lobeAt(ivec2(min(at, size - 1)), r[p].position, r[p].roughness);
+        shine[p] = vec3(0.0);
+#endif
     }
     uint first = tile * kMaxPunctualLightsPerTile, end = first + counts.items[tile];
     for (uint i = first; i < end;) {
@@ -73,7 +83,11 @@ void main() {
                 float distance2;
                 vec3 from = irradianceFrom(light, r[p].position, r[p].normal, distance2);
                 all[p] += from;
-                e[p] += (1.0 - (1.0 - shares[p]) * shadowWeight(light, distance2, kShadowReach)) * from;
+                from *= 1.0 - (1.0 - shares[p]) * shadowWeight(light, distance2, kShadowReach);
+                e[p] += from;
+#ifndef AG_QUADS
+                if (kGlossy) shine[p] += highlightOf(lobe[p], r[p].normal, normalize(light.position - r[p].position), from);
+#endif
             }
         }
     }
@@ -85,6 +99,7 @@ void main() {
         imageStore(shadowed, at, vec4(there ? min(e[p], vec3(kMostHalf)) : vec3(0.0), 1.0));
         imageStore(unshadowed, at, vec4(there ? min(all[p], vec3(kMostHalf)) : vec3(0.0), 1.0));
 #else
+        addHighlight(at, there ? shine[p] : vec3(0.0), kFirst);
         vec3 sum = there ? e[p] : vec3(0.0);
         if (!kFirst) sum += imageLoad(irradiance, at).rgb;
         imageStore(irradiance, at, vec4(min(sum, vec3(kMostHalf)), 1.0));

@@ -22,6 +22,7 @@ layout(set = 0, binding = 4) uniform sampler2D shadowed;
 layout(set = 0, binding = 5) uniform sampler2D unshadowed;
 layout(set = 0, binding = 8, scalar) readonly buffer Counts { uint items[]; } counts;
 layout(set = 0, binding = 9, rgba16f) uniform image2D irradiance;
+#include "direct_lighting/highlight.glsl"
 
 PunctualLight lightOfLane(PunctualLight mine, uint lane) {
     PunctualLight light;
@@ -31,6 +32,15 @@ PunctualLight lightOfLane(PunctualLight mine, uint lane) {
     light.axis = subgroupShuffle(mine.axis, lane);
     light.coneOffset = subgroupShuffle(mine.coneOffset, lane);
     return light;
+}
+
+void meet(PunctualLight light, Receiver r[kPixels], Lobe lobe[kPixels], inout vec3 e[kPixels], inout vec3 shine[kPixels]) {
+    [[unroll]] for (int p = 0; p < kPixels; ++p) {
+        float distance2;
+        vec3 from = irradianceFrom(light, r[p].position, r[p].normal, distance2);
+        e[p] += from;
+        if (kGlossy) shine[p] += highlightOf(lobe[p], r[p].normal, normalize(light.position - r[p].position), from);
+    }
 }
 
 // 1 on the same plane, facing the same way. `pixel`: m at the receiver. Never quite 0, so that something is taken.
@@ -44,13 +54,15 @@ void main() {
     uint tile = gl_WorkGroupID.x, block = gl_LocalInvocationID.x;
     uvec2 origin = uvec2(tile % tiles.x, tile / tiles.x) * kPunctualTileSize + 2 * uvec2(block % 8, block / 8);
     Receiver r[kPixels];
-    vec3 e[kPixels];
+    vec3 e[kPixels], shine[kPixels];
+    Lobe lobe[kPixels];
     [[unroll]] for (int p = 0; p < kPixels; ++p) {
-        r[p] = receiverAt(origin + uvec2(p & 1, p >> 1));
-        e[p] = vec3(0.0);
+        uvec2 at = origin + uvec2(p & 1, p >> 1);
+        r[p] = receiverAt(at);
+        e[p] = shine[p] = vec3(0.0);
+        lobe[p] = lobeAt(ivec2(min(at, size - 1)), r[p].position, r[p].roughness);
     }
     uint first = tile * kMaxPunctualLightsPerTile, end = first + counts.items[tile];
-    float distance2;
     if (kLaneParallel) {
         for (uint base = first; base < end; base += kSubgroupSize) {
             uint entry = base + gl_SubgroupInvocationID;
@@ -58,15 +70,13 @@ void main() {
             if (entry >= end) mine.intensity = vec3(0.0);
             [[unroll]] for (uint lane = 0; lane < kSubgroupSize; ++lane) {
                 PunctualLight light = lightOfLane(mine, lane);
-                [[unroll]] for (int p = 0; p < kPixels; ++p)
-                    e[p] += irradianceFrom(light, r[p].position, r[p].normal, distance2);
+                meet(light, r, lobe, e, shine);
             }
         }
     } else {
         for (uint entry = first; entry < end; ++entry) {
             PunctualLight light = punctualLightAt(fetchTexel(lists, int(entry)).x);
-            [[unroll]] for (int p = 0; p < kPixels; ++p)
-                e[p] += irradianceFrom(light, r[p].position, r[p].normal, distance2);
+            meet(light, r, lobe, e, shine);
         }
     }
     Receiver near[kPixels];  // those for which shadows were found
@@ -92,6 +102,7 @@ void main() {
         vec3 share = mix(vec3(1.0), arrived / max(sent, vec3(1e-20)), greaterThan(sent, vec3(1e-20)));
         vec3 result = r[p].depth > 0.0 ? e[p] * share : vec3(0.0);
         if (any(greaterThanEqual(pixel, size))) continue;
+        addHighlight(ivec2(pixel), r[p].depth > 0.0 ? shine[p] * share : vec3(0.0), kFirst);
         if (!kFirst) result += imageLoad(irradiance, ivec2(pixel)).rgb;
         imageStore(irradiance, ivec2(pixel), vec4(min(result, vec3(kMostHalf)), 1.0));
     }

@@ -10,6 +10,7 @@ layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
 layout(set = 0, binding = 2, scalar) uniform Camera { CameraConstants camera; } camera;
 layout(set = 0, binding = 4, rgba16f) uniform image2D irradiance;
+#include "direct_lighting/highlight.glsl"
 #ifdef AG_SHADOW
 layout(set = 0, binding = 5, scalar) uniform ShadowViews { ShadowView items[kMaxShadowViews]; } shadowViews;
 layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
@@ -30,12 +31,17 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(size)))) return;
     float depth = texelFetch(depthMap, pixel, 0).x;
     vec3 position = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth);
-    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
+    vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0);
+    vec3 normal = normalAndRoughness.xyz;
     vec3 e = push.sun.irradiance * max(dot(normal, -push.sun.direction), 0.0);
 #ifdef AG_SHADOW
     e *= sunShare(position, normal, camera.camera.near / max(depth, 1e-9));
 #endif
     if (depth <= 0.0) e = vec3(0.0);
+    if (kGlossy) {
+        Lobe lobe = lobeAt(pixel, position, normalAndRoughness.w);
+        addHighlight(pixel, highlightOf(lobe, normal, -push.sun.direction, e), kFirst);
+    }
     if (!kFirst) e += imageLoad(irradiance, pixel).rgb;
     imageStore(irradiance, pixel, vec4(min(e, vec3(kMostHalf)), 1.0));
 }

@@ -1,7 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// A ray a pixel to the sky, drawn by its block's choice; and what the block learns from its rays. A block a workgroup.
+// A ray a pixel to the sky, drawn by its block's choice; and what the block learns from its rays. Where a surface has a
+// specular lobe a second one is drawn by that; what the lobe reflects counts both by how likely either was to find it
+// (balance heuristic, Veach & Guibas 1995). A block a workgroup.
+#include "common/brdf.h"
 #include "common/sampling.h"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
@@ -23,6 +26,9 @@ layout(set = 0, binding = 9) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 10) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 11, scalar) readonly buffer Triangles { vec4 items[]; } treeTriangles;
 layout(set = 0, binding = 12) UINT_TEXELS(noise);  // two 16-bit shares each
+layout(set = 0, binding = 13) uniform sampler2D reflectanceMap;           // head on; at grazing angles
+layout(set = 0, binding = 14, rgba32f) uniform writeonly image2D shone;   // what specular lobes reflect, W/(m² sr)
+layout(constant_id = 0) const bool kGlossy = false;
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
 #define AG_SKY_UP_TO(cell) upTo.items[gl_WorkGroupID.x * kSkyCells + (cell)]
@@ -46,6 +52,39 @@ vec2 noiseAt(uvec2 pixel) {
 // Of a block: four by two for each eight invocations in a row.
 uvec2 placeInBlock(uint i) { return uvec2((i & 3u) | (i >> 1 & 4u), (i >> 2 & 1u) | (i >> 3 & 6u)); }
 
+struct Lobe {
+    vec3 normal, toViewer, f0;
+    float f90, alpha;
+};
+
+// Of one that reflects `toLight` to the viewer: of the draw, 1/sr.
+float lobeDensity(Lobe c, vec3 toLight) {
+    vec3 h = normalize(c.toViewer + toLight);
+    float nh = dot(c.normal, h);
+    return ggxDistribution(nh, c.alpha) * nh / (4.0 * max(dot(c.toViewer, h), 1e-6));
+}
+
+// BRDF of the lobe times the cosine.
+vec3 lobeReflects(Lobe c, vec3 toLight) {
+    float nv = dot(c.normal, c.toViewer), nl = dot(c.normal, toLight);
+    if (nv <= 0.0 || nl <= 0.0) return vec3(0.0);
+    vec3 h = normalize(c.toViewer + toLight), f = fresnelSchlick(c.f0, vec3(c.f90), dot(c.toViewer, h));
+    return f * (ggxDistribution(dot(c.normal, h), c.alpha) * smithMasking(nv, c.alpha) * smithMasking(nl, c.alpha) / (4.0 * nv));
+}
+
+vec3 drawFromLobe(Lobe c, vec2 xi) {
+    vec3 t, b;
+    orthonormalBasis(c.normal, t, b);
+    float a2 = c.alpha * c.alpha, cosine = sqrt((1.0 - xi.x) / (1.0 + (a2 - 1.0) * xi.x)), phi = 2.0 * kPi * xi.y;
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    return reflect(-c.toViewer, t * (sine * cos(phi)) + b * (sine * sin(phi)) + c.normal * cosine);
+}
+
+bool reachesSky(vec3 place, vec3 direction, float opaqueFrom) {
+    BvhRay ray = BvhRay(place, direction, push.p.reach, opaqueFrom, true, 0);
+    return !traceOccluders(ray);
+}
+
 void main() {
     for (uint cell = gl_LocalInvocationID.x; cell < kSkyCells; cell += 64) hits[cell] = tries[cell] = 0;
     barrier();
@@ -54,22 +93,32 @@ void main() {
     ivec2 pixel = ivec2(min(at, size - 1u));
     bool there = all(equal(uvec2(pixel), at));
     float depth = texelFetch(depthMap, pixel, 0).x;
-    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
-    vec3 xi = fract(vec3(noiseAt(at), noiseAt(at + 32u).x) + push.p.shift);
+    vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0), reflectance = kGlossy ? texelFetch(reflectanceMap, pixel, 0) : vec4(0.0);
+    vec3 normal = normalAndRoughness.xyz, xi = fract(vec3(noiseAt(at), noiseAt(at + 32u).x) + push.p.shift);
+    vec3 surface = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), place = surface + normal * push.p.offset;
+    float alpha = max(normalAndRoughness.w * normalAndRoughness.w, kLeastAlpha);
+    Lobe lobe = Lobe(normal, normalize(camera.camera.position - surface), reflectance.rgb, reflectance.w, alpha);
+    bool glossy = kGlossy && there && depth > 0.0 && reflectance.w > 0.0;
     SkyDraw d = drawSky(xi);
     float cosine = dot(normal, d.direction);
-    vec3 e = vec3(0.0);
+    vec3 e = vec3(0.0), shine = vec3(0.0);
+    float opaqueFrom = hashToUnit(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.step) * 31u);
     if (there && depth > 0.0 && d.density > 0.0 && cosine > 0.0) {
-        vec3 place = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth) + normal * push.p.offset;
-        float opaqueFrom = hashToUnit(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.step) * 31u);
-        BvhRay ray = BvhRay(place, d.direction, push.p.reach, opaqueFrom, true, 0);
-        bool free = !traceOccluders(ray);
+        bool free = reachesSky(place, d.direction, opaqueFrom);
         atomicAdd(tries[d.cell], 1);
         if (free) {
             atomicAdd(hits[d.cell], 1);
             e = d.radiance * (cosine / d.density);
+            if (glossy) shine = d.radiance * lobeReflects(lobe, d.direction) / (d.density + lobeDensity(lobe, d.direction));
         }
     }
+    if (glossy) {
+        vec3 toLight = drawFromLobe(lobe, fract(xi.zy + vec2(0.5, 0.25)));
+        SkyDraw other = skyAlong(toLight);
+        vec3 reflects = other.radiance * lobeReflects(lobe, toLight) / max(other.density + lobeDensity(lobe, toLight), 1e-20);
+        if (reflects != vec3(0.0) && reachesSky(place, toLight, opaqueFrom)) shine += reflects;
+    }
+    if (kGlossy && there) imageStore(shone, pixel, vec4(shine, 1.0));
     if (there) imageStore(sent, pixel, vec4(e, 1.0));
     learn();
 }

@@ -42,4 +42,22 @@ SkyDraw drawSky(vec3 xi) {
     vec3 direction = skyDirectionAt(skyPlaceOf(cell, low, xi.yz));
     return SkyDraw(cell, direction, texel.rgb, all > 0.0 ? chance / all * share * kTexelsPerSteradian : 0.0);
 }
+
+// The texel that a direction looks at.
+uvec2 skyTexelAt(vec3 direction) {
+    vec2 place = vec2(atan(direction.z, direction.x) / (2.0 * kPi) + 0.5, 0.5 - 0.5 * direction.y);
+    return min(uvec2(clamp(place, vec2(0.0), vec2(1.0)) * float(kSkySide)), uvec2(kSkySide - 1));
+}
+
+// What lies that way, and how likely it is to be drawn.
+SkyDraw skyAlong(vec3 direction) {
+    uvec2 at = skyTexelAt(direction), inCell = at % kSkyCell;
+    uint cell = at.y / kSkyCell * (kSkySide / kSkyCell) + at.x / kSkyCell, index = inCell.y * kSkyCell + inCell.x;
+    float all = AG_SKY_UP_TO(kSkyCells - 1), before = cell > 0 ? AG_SKY_UP_TO(cell - 1) : 0.0;
+    vec4 texel = fetchTexel(skyTexels, int(cell * kSkyCellTexels + index));
+    float share = texel.w - (index > 0 ? fetchTexel(skyTexels, int(cell * kSkyCellTexels + index - 1)).w : 0.0);
+    const float kTexelsPerSteradian = float(kSkySide * kSkySide) / (4.0 * kPi);
+    float chance = all > 0.0 ? (AG_SKY_UP_TO(cell) - before) / all : 0.0;
+    return SkyDraw(cell, direction, texel.rgb, chance * share * kTexelsPerSteradian);
+}
 #endif

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "common/brdf.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
@@ -78,6 +79,32 @@ TEST(SkyLight, WhatIsSeenOfItIsItsRadiance) {
     setCamera(b.scene, up, b.size);
     ++b.scene.cameraVersion;
     EXPECT_EQ(layerAfter(b, Layer::kRadiance, 1).at(30, 20), glm::vec3(0.25f, 0.5f, 2));
+}
+
+// All that a polished floor sends on of a sky that is the same from everywhere, by quadrature of its BRDF.
+TEST(SkyLight, APolishedFloorByQuadrature) {
+    for (const float roughness : {0.1f, 0.4f, 1.0f})
+        for (const float metallic : {0.0f, 1.0f}) {
+            SceneAsset asset = floorUnder(constantSky(glm::vec3(1)));
+            Material& m = asset.geometry.materials[0];
+            m.roughness = roughness, m.metallic = metallic, m.specular = 1;
+            Bench b(std::move(asset), {48, 28});
+            const double got = double(layerAfter(b, Layer::kRadiance, 200).at(24, 14).y);
+            const glm::vec3 n(0, 1, 0), v = glm::normalize(glm::vec3(0, 2, 3));
+            double truth = 0;
+            constexpr int kSteps = 1000;
+            for (int i = 0; i < kSteps; ++i)
+                for (int j = 0; j < kSteps; ++j) {
+                    const float c = std::sqrt((float(i) + 0.5f) / kSteps), sine = std::sqrt(1 - c * c),
+                                phi = 2 * std::numbers::pi_v<float> * (float(j) + 0.5f) / kSteps;
+                    truth += double(io::metallicRoughnessBrdf(n, v,
+                                                              {sine * std::cos(phi), c, sine * std::sin(phi)},
+                                                              glm::vec3(0.5f), metallic, roughness, 1)
+                                        .x);
+                }
+            truth *= kPi / (double(kSteps) * kSteps);
+            EXPECT_NEAR(got / truth, 1, 0.03) << roughness << ' ' << metallic;
+        }
 }
 
 TEST(SkyLight, NoneComesIntoAClosedBox) {
