@@ -9,6 +9,7 @@
 
 #include "engine/core/safe_file.h"
 #include "engine/core/settings.h"
+#include "engine/renderer/debug_view.h"
 #include "engine/renderer/render_settings.h"
 #include "engine/scene/static_scene.h"
 #include "tools/bench/moving_light.h"
@@ -228,6 +229,17 @@ TEST(Bench, PathTracingsErrorBetweenTheTimesItWasLookedAt) {
     EXPECT_NEAR(errorAfter(curve, 5), 0.8, 1e-6) << "less than one pass";
     EXPECT_NEAR(errorAfter(curve, 160), 0.2, 1e-6) << "by the root of time";
     EXPECT_EQ(errorAfter({}, 10), 0);
+}
+
+// A term is a layer of both, so that errors can be measured on it.
+TEST(Bench, TermsAreLayersOfRendererAndReference) {
+    for (const std::string_view term : terms()) {
+        EXPECT_TRUE(render::layerFromName(layerOfTerm(term))) << term;
+        EXPECT_TRUE(reference::checkLayer(layerOfTerm(term), bouncesOfTerm(term))) << term;
+    }
+    for (const Technique& t : techniques())
+        EXPECT_TRUE(isTerm(t.term)) << t.name;
+    EXPECT_GE(bouncesOfTerm("all"), 16u);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ expect 2 "does not exist" "$bin/afterglow" render /no/such.glb -o "$work/a.png"
 expect 2 "16..1024" "$bin/afterglow" render cornell -o "$work/a.png" --set val_clustering.count=3
 expect 2 "a size is WxH" "$bin/afterglow" render cornell -o "$work/a.png" --size 10
 expect 2 "--sun takes" "$bin/afterglow" render cornell -o "$work/a.png" --sun 1,2
+expect 2 "there is no term 'shadow' (there are: all, direct, emissive" "$bin/afterglow" bench --term shadow
 expect 2 "--sky takes a colour" "$bin/afterglow" render cornell -o "$work/a.png" --sky 1,2
 expect 2 "turbidity 2 to 10" "$bin/afterglow" render cornell -o "$work/a.png" --sky 0,-1,0,99
 expect 2 "--sky takes COLOUR" "$bin/afterglow" render cornell -o "$work/a.png" --sky nan

@@ -90,8 +90,7 @@ SceneBench::SceneBench(gpu::Device& device, const RenderScene& scene, std::strin
 }
 
 reference::ReferenceSettings SceneBench::referenceSettings(std::string_view term) const {
-    const uint32_t bounces = term == "direct" ? 0 : term == "all" ? 2 : 1;
-    return {.paths = {.bounces = bounces},
+    return {.paths = {.bounces = bouncesOfTerm(term), .glossy = term == "all"},
             .samplesPerPixel = options_.referenceSamples,
             .maxError = options_.referenceError,
             .layer = std::string(layerOfTerm(term))};
@@ -238,6 +237,10 @@ Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, co
     }
     const auto layer = render::layerFromName(layerOfTerm(row.term));
     if (!layer) return Error{fmt::format("there is no layer '{}'", row.term)};
+    // Ours has them by a setting so far.
+    const bool goesOn = row.term == "all" || row.term == "bounces";
+    if (goesOn && settings.technique == render::Technique::kAreaLights)
+        settings.bounce.laterBounces.enabled = true;
     if (!render::showsGloss(*layer)) settings.bounce.valShading.glossy = false;
     renderer_.load(*scene_.geometry);
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "engine/renderer/frame_budget.h"
 
@@ -117,11 +118,11 @@ std::vector<Technique> makeTechniques() {
         {.name = "ultra", .description = "ours, accuracy first", .variants = {{"", {}}}},
         {.name = "ssvp",
          .description = "point lights and what their clusters see, two bounces (Aranha et al.)",
-         .term = "all",
+         .term = "two_bounces",
          .variants = paraboloids()},
         {.name = "afterglow-bounces",
          .description = "ours, two bounces",
-         .term = "all",
+         .term = "two_bounces",
          .variants = twoBounces()},
         {.name = "steps",
          .preset = "afterglow",
@@ -157,8 +158,47 @@ std::span<const Technique> techniques() {
     return all;
 }
 
+namespace {
+
+constexpr uint32_t kAllBounces = 16;
+struct Term {
+    std::string_view name, layer;
+    uint32_t bounces;
+};
+constexpr std::array<Term, 7> kTerms = {{{"all", "radiance", kAllBounces},
+                                         {"direct", "direct", 0},
+                                         {"emissive", "emissive", 0},
+                                         {"sky", "sky", 0},
+                                         {"bounces", "indirect", kAllBounces},
+                                         {"bounce1", "bounce1", 1},
+                                         {"two_bounces", "indirect", 2}}};
+constexpr auto kTermNames = [] {
+    std::array<std::string_view, kTerms.size()> names;
+    for (size_t i = 0; i < names.size(); ++i)
+        names[i] = kTerms[i].name;
+    return names;
+}();
+
+const Term& termOf(std::string_view name) {
+    return *std::ranges::find(kTerms, name, &Term::name);
+}
+
+}  // namespace
+
+std::span<const std::string_view> terms() {
+    return kTermNames;
+}
+
+bool isTerm(std::string_view term) {
+    return std::ranges::find(kTermNames, term) != kTermNames.end();
+}
+
 std::string_view layerOfTerm(std::string_view term) {
-    return term == "all" ? "indirect" : term;
+    return termOf(term).layer;
+}
+
+uint32_t bouncesOfTerm(std::string_view term) {
+    return termOf(term).bounces;
 }
 
 const Technique* findTechnique(std::string_view name) {

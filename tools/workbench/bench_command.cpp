@@ -25,6 +25,7 @@ struct BenchOptions {
     std::vector<std::string> techniques, ladders;
     std::string size = "640x360", flickerSize = "160x90";
     std::string json, csv, plot, markdown;
+    std::string term;  // empty: each technique's own
     std::string cache = bench::defaultCacheFolder();
     uint32_t param = 0;
     bool noFlicker = false, noPathTracing = false, again = false;
@@ -137,7 +138,7 @@ Result<std::vector<bench::Row>> rowsOf(const bench::RowCache& kept, uint64_t key
 }
 
 Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& device,
-                  std::span<const bench::Technique* const> techniques, bench::ReferenceSource references,
+                  std::span<const bench::Technique> techniques, bench::ReferenceSource references,
                   bench::Report& report) {
     auto loaded = loadScene(sceneArguments(o, name));
     if (!loaded) return loaded.error();
@@ -147,23 +148,22 @@ Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& d
     const bench::RowCache kept(o.again ? "" : o.cache + "/rows");
     const uint64_t run = hashRun(o, report), sceneHash = bench::sceneHash(loaded->scene);
     std::map<std::string, std::vector<bench::Row>, std::less<>> pathCurves;  // by term
-    for (const bench::Technique* technique : techniques) {
-        const bool timed = technique->runner == bench::Runner::kGpu && !o.noPathTracing;
-        if (timed && !pathCurves.contains(technique->term)) {
-            auto curve = rowsOf(kept, scene.hashPathTracing(technique->term),
-                                [&] { return scene.measurePathTracing(technique->term); });
+    for (const bench::Technique& technique : techniques) {
+        const bool timed = technique.runner == bench::Runner::kGpu && !o.noPathTracing;
+        if (timed && !pathCurves.contains(technique.term)) {
+            auto curve = rowsOf(kept, scene.hashPathTracing(technique.term),
+                                [&] { return scene.measurePathTracing(technique.term); });
             if (!curve) return curve.error();
             report.rows.insert(report.rows.end(), curve->begin(), curve->end());
-            pathCurves[std::string(technique->term)] = std::move(*curve);
+            pathCurves[std::string(technique.term)] = std::move(*curve);
         }
-        for (const bench::Variant& variant : technique->variants) {
-            auto rows = rowsOf(kept, hashRow(run, sceneHash, name, *technique, variant),
-                               [&] { return oneRow(scene.measure(*technique, variant)); });
+        for (const bench::Variant& variant : technique.variants) {
+            auto rows = rowsOf(kept, hashRow(run, sceneHash, name, technique, variant),
+                               [&] { return oneRow(scene.measure(technique, variant)); });
             if (!rows) return rows.error();
             bench::Row& row = rows->front();
             if (timed && row.gpuMsMedian > 0)
-                row.pathTracingRelRmse =
-                    errorAfter(pathCurves[std::string(technique->term)], row.gpuMsMedian);
+                row.pathTracingRelRmse = errorAfter(pathCurves[std::string(technique.term)], row.gpuMsMedian);
             printRow(row);
             report.rows.push_back(row);
             if (const Status written = writeAll(o, report); !written) return written;
@@ -216,6 +216,14 @@ int runBench(BenchOptions o) {
     if (!techniques) return refuse(techniques.error().message);
     const bench::Technique budget = bench::budgetTechnique(o.budgets);
     if (!o.budgets.empty()) techniques->push_back(&budget);
+    if (!o.term.empty() && !bench::isTerm(o.term))
+        return refuse(
+            fmt::format("there is no term '{}' (there are: {})", o.term, fmt::join(bench::terms(), ", ")));
+    std::vector<bench::Technique> ofTerm;
+    for (const bench::Technique* t : *techniques)
+        ofTerm.push_back(*t);
+    for (bench::Technique& t : ofTerm)
+        if (!o.term.empty()) t.term = o.term;
     if (const Status ready = prepareTextFiles({o.json, o.csv, o.plot, o.markdown}); !ready)
         return refuse(ready.error().message);
     auto device = gpu::Device::create({});
@@ -229,7 +237,7 @@ int runBench(BenchOptions o) {
         .device = (*device)->info().name, .driver = (*device)->info().driver, .commit = commitOfSource()};
     std::cout << fmt::format("{}, {}\n", report.device, report.driver);
     for (const std::string& scene : o.scenes)
-        if (const Status done = benchScene(o, scene, **device, *techniques, {cache, runner}, report); !done)
+        if (const Status done = benchScene(o, scene, **device, ofTerm, {cache, runner}, report); !done)
             return refuse(done.error().message);
     return 0;
 }
@@ -263,6 +271,10 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
                      "errors are means over so many, of what has clusters")
         ->check(numberFrom(1, 100))
         ->capture_default_str();
+    command->add_option(
+        "--term", o->term,
+        "of light that errors are measured on: all (radiance with every light, gloss and 16 bounces), "
+        "direct, emissive, sky, bounces or bounce1; by default each technique's own");
     command->add_option("--param", o->param, "number of the built-in scenes that take one");
     command->add_option("--size", o->size, "pixels, WxH")->capture_default_str();
     command->add_option("--frames", o->measure.frames, "to time")
