@@ -19,4 +19,9 @@ BufferHandle addBlueNoise(GraphScope scope) {
     return buffer;
 }
 
+glm::vec3 blueNoiseShift(uint32_t step) {
+    return glm::vec3(
+        glm::fract(double(step) * glm::dvec3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)));
+}
+
 }  // namespace ag::gi

@@ -8,4 +8,8 @@ namespace ag::gi {
 // A texel buffer of rg16 unorm, rows from the top.
 BufferHandle addBlueNoise(GraphScope scope);
 
+// What a pixel's three numbers are shifted by in frame `step`, so that its frames are spread evenly:
+// multiples of inverse powers of the root of x^4 = x + 1 (Roberts 2018).
+glm::vec3 blueNoiseShift(uint32_t step);
+
 }  // namespace ag::gi

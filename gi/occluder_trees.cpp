@@ -191,4 +191,11 @@ MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance
     return result;
 }
 
+void readTrees(PassBuilder& pass, const TracedOccluders& trees) {
+    pass.read("treeNodes", trees.nodes)
+        .read("treeTriangles", trees.triangles)
+        .read("treePlaces", trees.places)
+        .read("moverNodes", trees.moverNodes);
+}
+
 }  // namespace ag::gi

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "gi/inputs.h"
 #include "gi/surface_sampling.h"
 #include "shaders/bvh/bvh_io.h"
 
@@ -53,5 +54,8 @@ struct MoverTree {
 
 // Where the trees stand now: some 10 ms for 10,000 movable instances.
 MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> instances);
+
+// What a pass reads that casts rays into all that is static and all that moves.
+void readTrees(PassBuilder& pass, const TracedOccluders& trees);
 
 }  // namespace ag::gi

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
+#include "gi/occluder_trees.h"
 #include "gi/pixel_rays.h"
 #include "gi/upsampling.h"
 #include "shaders/bvh/bvh_io.h"
@@ -15,7 +17,7 @@ namespace ag::gi {
 namespace {
 
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr float kPi = 3.14159265f;
+constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kTexelAngle = 4 * kPi / float(io::kSkySide * io::kSkySide);  // sr
 constexpr float kEvenly = 0.05f;                                             // of the draws within a cell
 constexpr float kKept = 0.9f;             // of what blocks learned, from frame to frame
@@ -71,20 +73,6 @@ uint32_t texelOf(glm::vec3 d) {
            in.x;
 }
 
-// Frames are spread evenly: multiples of inverse powers of the root of x^4 = x + 1 (Roberts 2018).
-glm::vec3 shiftOf(uint32_t step) {
-    return glm::vec3(
-        glm::fract(double(step) * glm::dvec3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)));
-}
-
-// Rays of one kind read the same trees.
-void readTrees(PassBuilder& pass, const TracedOccluders& trees) {
-    pass.read("treeNodes", trees.nodes)
-        .read("treeTriangles", trees.triangles)
-        .read("treePlaces", trees.places)
-        .read("moverNodes", trees.moverNodes);
-}
-
 struct Sent {
     ImageHandle irradiance, gloss;
 };
@@ -122,7 +110,7 @@ Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uin
         .constant("kGlossy", bool(sent.gloss))
         .read("noise", noise)
         .push(io::SkyCastPush{.step = step,
-                              .shift = shiftOf(step),
+                              .shift = blueNoiseShift(step),
                               .offset = io::kBvhOffset * in.occluders.extent,
                               .reach = kReaches * in.occluders.extent,
                               .known = seen.valid,

@@ -4,6 +4,7 @@
 
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
+#include "gi/occluder_trees.h"
 #include "gi/pixel_rays.h"
 #include "shaders/bvh/bvh_io.h"
 #include "shaders/ray_filter/ray_filter_io.h"
@@ -74,12 +75,6 @@ Choice addChoice(const ValTiles& t, uint32_t blocks, const HistoryBuffer& younge
     return choice;
 }
 
-// Frames are spread evenly: multiples of inverse powers of the root of x^4 = x + 1 (Roberts 2018).
-glm::vec3 shiftOf(uint32_t step) {
-    return glm::vec3(
-        glm::fract(double(step) * glm::dvec3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703)));
-}
-
 struct CastHow {
     float reach;  // in the scene's extent
     uint32_t step;
@@ -90,8 +85,8 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
     const Members members = addMembers(t.scope, in.rsm, in.clusters);
     const ImageHandle sent = t.scope.image("texel_rays.sent", {.format = kFloat4, .size = t.gbuffer.size});
     const BufferHandle noise = addBlueNoise(t.scope);
-    t.scope.compute("texel_rays.cast", "texel_rays/cast_rays.comp")
-        .sample("normalMap", t.gbuffer.normal)
+    PassBuilder cast = t.scope.compute("texel_rays.cast", "texel_rays/cast_rays.comp");
+    cast.sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
         .read("camera", t.gbuffer.camera)
         .read("texels", in.rsm.texels)
@@ -105,10 +100,6 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
         .read("members", members.texels)
         .read("slotOfTexel", in.clusters.slotOfTexel)
         .read("candidates", in.clusters.candidates)
-        .read("treeNodes", in.occluders.trees.nodes)
-        .read("treeTriangles", in.occluders.trees.triangles)
-        .read("treePlaces", in.occluders.trees.places)
-        .read("moverNodes", in.occluders.trees.moverNodes)
         .read("noise", noise)
         .readPrevious("youngest", how.youngest)
         .write("sent", sent)
@@ -116,12 +107,13 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
                            .atlasWidth = in.rsm.atlas.size.x,
                            .mapCount = in.rsm.lightRsmCount,
                            .step = how.step,
-                           .shift = shiftOf(how.step),
+                           .shift = blueNoiseShift(how.step),
                            .offset = io::kBvhOffset * in.occluders.extent,
                            .reach = how.reach * in.occluders.extent,
                            .known = how.youngest.valid})
         .step(how.step)
         .dispatchGroups(choice.blocks);
+    readTrees(cast, in.occluders.trees);
     return sent;
 }
 

@@ -87,7 +87,8 @@ gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::Bo
 
 }  // namespace
 
-bool needsMotion(const RenderSettings& s) {
+bool needsMotion(const RenderSettings& s, bool sky) {
+    if (sky && s.bounce.sky.enabled) return true;
     if (s.technique == Technique::kNone) return false;
     return castsTexelRays(s) || (s.bounce.denoiser.enabled && s.bounce.denoiser.motion);
 }

@@ -5,8 +5,8 @@
 
 namespace ag::render {
 
-// Whether histories of indirect light follow what moves.
-bool needsMotion(const RenderSettings& settings);
+// Whether histories of pixels' light follow what moves. `sky`: the scene has one.
+bool needsMotion(const RenderSettings& settings, bool sky);
 
 gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces,
                                  const RenderSettings& settings, RenderHistory& history);

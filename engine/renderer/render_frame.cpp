@@ -14,7 +14,7 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     // What the camera sees
     f.gbuffer = addGBuffer(scope, scene);
     gi::Surfaces& surfaces = f.gbuffer.surfaces;
-    if (needsMotion(s)) surfaces.motion = addMotion(scope, scene, surfaces);
+    if (needsMotion(s, bool(scene.sky))) surfaces.motion = addMotion(scope, scene, surfaces);
 
     // Indirect light
     f.bounce = addIndirectLight(scope, scene, surfaces, s, h);

@@ -104,15 +104,26 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
     return instances;
 }
 
-auto withSampledScene(const RenderScene& scene, auto&& use) {
+auto withSampledScene(const RenderScene& scene, std::span<const gi::SampledMesh> meshes, auto&& use) {
     const GeometryArrays& g = *scene.geometry;
     const DeformedVertices deformed = deformSkinnedMeshes(scene);
-    const std::vector<gi::SampledMesh> meshes = meshesOf(g);
     const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
     const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
         return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
     };
     return use(gi::SampledScene{meshes, instances, scene.bounds, cutOut});
+}
+
+auto withSampledScene(const RenderScene& scene, auto&& use) {
+    return withSampledScene(scene, meshesOf(*scene.geometry), use);
+}
+
+// Those that shine, as if nothing else were there.
+std::vector<gi::SampledMesh> emissiveMeshesOf(const GeometryArrays& g) {
+    std::vector<gi::SampledMesh> meshes = meshesOf(g);
+    for (size_t i = 0; i < meshes.size(); ++i)
+        meshes[i].blocksLight &= g.materials[g.primitives[i].material].emissive != glm::vec3(0);
+    return meshes;
 }
 
 }  // namespace
@@ -141,31 +152,23 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
 
 std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint32_t count, float lightUnit) {
     if (!hasEmissive(scene)) return {};
-    const GeometryArrays& g = *scene.geometry;
-    const DeformedVertices deformed = deformSkinnedMeshes(scene);
-    std::vector<gi::SampledMesh> meshes = meshesOf(g);
-    for (size_t i = 0; i < meshes.size(); ++i)
-        meshes[i].blocksLight &= g.materials[g.primitives[i].material].emissive != glm::vec3(0);
-    const std::vector<gi::SampledInstance> instances = instancesOf(scene, deformed);
-    const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
-        return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
-    };
-    const auto samples =
-        gi::sampleSurfaces(gi::SampledScene{meshes, instances, scene.bounds, cutOut}, 4 * count);
-    if (samples.samples.empty()) return {};
     const auto radiance = [&](uint32_t instance, glm::vec2 uv) {
-        return emissionAbout(g, materialOf(scene, instance), uv) / lightUnit;
+        return emissionAbout(*scene.geometry, materialOf(scene, instance), uv) / lightUnit;
     };
-    auto points = chooseBouncePoints(instances, samples, radiance, count);
-    // Of a surface that shines to both sides, one point to each in turn. Those that joints bend have their
-    // normals from the device: they shine to the front.
-    for (size_t i = 0; i < points.size(); ++i) {
-        io::BouncePoint& p = points[i];
-        if (instances[p.instance].deformed || !materialOf(scene, p.instance).doubleSided) continue;
-        p.area *= 2;
-        if (i % 2) p.normalLocal = -p.normalLocal;
-    }
-    return points;
+    return withSampledScene(scene, emissiveMeshesOf(*scene.geometry), [&](const gi::SampledScene& s) {
+        const gi::SurfaceSamples samples = gi::sampleSurfaces(s, 4 * count);
+        if (samples.samples.empty()) return std::vector<io::BouncePoint>{};
+        auto points = chooseBouncePoints(s.instances, samples, radiance, count);
+        // Of a surface that shines to both sides, one point to each in turn. Those that joints bend have
+        // their normals from the device: they shine to the front.
+        for (size_t i = 0; i < points.size(); ++i) {
+            io::BouncePoint& p = points[i];
+            if (s.instances[p.instance].deformed || !materialOf(scene, p.instance).doubleSided) continue;
+            p.area *= 2;
+            if (i % 2) p.normalLocal = -p.normalLocal;
+        }
+        return points;
+    });
 }
 
 }  // namespace ag::render

@@ -10,7 +10,7 @@ namespace ag::render {
 namespace {
 
 constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr float kMostHalf = 65504;
+using io::kMostHalf;
 
 // Its texels one by one where they are finer than the table's, else places between them.
 void addPicture(const Sky& sky, float lightUnit, gi::AddRadiance add) {
