@@ -1,5 +1,6 @@
 // Recording passes: dispatches, draws, atlases of patches, transfers.
 #include <algorithm>
+#include <optional>
 
 #include "engine/frame/frame_graph_impl.h"
 
@@ -150,6 +151,22 @@ void bindRaster(const gpu::Functions& vk, VkCommandBuffer commands, const gpu::P
                         push.data());
 }
 
+// Ends also where recording runs out of memory: the command buffer is a guest's, who ends it.
+class Rendering {
+  public:
+    Rendering(const gpu::Functions& vk, VkCommandBuffer commands, const VkRenderingInfo& info)
+        : vk_(vk), commands_(commands) {
+        vk_.CmdBeginRendering(commands_, &info);
+    }
+    ~Rendering() { vk_.CmdEndRendering(commands_); }
+    Rendering(const Rendering&) = delete;
+    Rendering& operator=(const Rendering&) = delete;
+
+  private:
+    const gpu::Functions& vk_;
+    VkCommandBuffer commands_;
+};
+
 }  // namespace
 
 void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) {
@@ -176,12 +193,12 @@ void FrameGraph::Impl::recordRaster(VkCommandBuffer commands, const Pass& pass) 
                                .pDepthAttachment = hasDepth ? &depth : nullptr};
     const VkDescriptorSet set = pass.pipeline ? descriptorSet(pass, *pass.pipeline) : VK_NULL_HANDLE;
     const bool attached = colorCount > 0 || hasDepth;
-    if (attached) context->vk().CmdBeginRendering(commands, &info);
+    std::optional<Rendering> rendering;
+    if (attached) rendering.emplace(context->vk(), commands, info);
     if (pass.callback != ~0u)
         recordCallback(commands, pass, set, size);
     else
         recordDraws(commands, pass, set, size);
-    if (attached) context->vk().CmdEndRendering(commands);
 }
 
 void FrameGraph::Impl::recordCallback(VkCommandBuffer commands, const Pass& pass, VkDescriptorSet set,
