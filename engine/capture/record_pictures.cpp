@@ -78,18 +78,22 @@ Status recordPictures(render::Renderer& renderer, const RenderScene& scene, cons
     options.skip = options.alias = false;
     options.timing = TimingMode::kCounts;
     if (renderDoc) renderDoc.begin();
+    BufferHandle exposure;
     renderer.render(scene, settings.size, settings.gi, options,
-                    [](GraphScope scope, const render::SceneView&, const render::RenderFrame& f) {
+                    [&](GraphScope scope, const render::SceneView&, const render::RenderFrame& f) {
                         scope.output(f.outputs.display);
+                        exposure = f.outputs.exposure;
+                        if (exposure) scope.output(exposure);
                     });
     for (const PassCount& count : renderer.graph().counts())
         capture.counts.push_back({std::string(count.name), count});
     renderer.waitIdle();
     if (const Status captured = renderDoc ? renderDoc.end(rdcPath) : Ok{}; !captured) return captured;
     options.timing = TimingMode::kOff;
-    capture.look = {.cameraNear = scene.camera.near,
-                    .exposure = settings.gi.composite.exposure,
-                    .tonemap = uint32_t(settings.gi.composite.tonemap)};
+    capture.look = {
+        .cameraNear = scene.camera.near,
+        .exposure = exposure ? render::readExposure(renderer, exposure) : settings.gi.composite.exposure,
+        .tonemap = uint32_t(settings.gi.composite.tonemap)};
     const FrameDescription frame = renderer.graph().describe();
     for (uint32_t i = 0; i < frame.resources.size(); ++i) {
         const ResourceDescription& r = frame.resources[i];

@@ -6,14 +6,10 @@
 
 namespace ag::render {
 
-RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light,
-                           const CompositeSettings& settings) {
+ImageHandle addRadiance(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light) {
     const gi::Surfaces& surfaces = gbuffer.surfaces;
-    RenderOutputs out;
-    out.radiance =
+    const ImageHandle radiance =
         scope.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = surfaces.size});
-    out.display =
-        scope.image("composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = surfaces.size});
 
     // A term that is not there is compiled out; its binding takes any image of the same class.
     const auto orAlbedo = [&](ImageHandle image) { return image ? image : surfaces.albedo; };
@@ -38,17 +34,25 @@ RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const Compo
         .constant("kEmissive", bool(gbuffer.emissive))
         .constant("kSpecular", bool(light.bounce.gloss))
         .push(gi::pixelRays(surfaces.view, surfaces.size))
-        .colorClear(out.radiance, glm::vec4(0));
+        .colorClear(radiance, glm::vec4(0));
+    return radiance;
+}
 
+ImageHandle addDisplay(GraphScope scope, const GBuffer& gbuffer, ImageHandle radiance, BufferHandle exposure,
+                       const CompositeSettings& settings) {
+    const ImageHandle display = scope.image(
+        "composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = scope.info(radiance).size});
     struct Push {
         float exposure;
         uint32_t mode;
     };
     scope.fullscreen("composite.tonemap", "composite/tonemap.frag")
-        .sample("radianceMap", out.radiance)
+        .sample("radianceMap", radiance)
+        .read("metered", exposure ? exposure : gbuffer.surfaces.camera)  // unread where by hand
+        .constant("kMetered", bool(exposure))
         .push(Push{std::exp2(settings.exposure), uint32_t(settings.tonemap)})
-        .colorClear(out.display, glm::vec4(0));
-    return out;
+        .colorClear(display, glm::vec4(0));
+    return display;
 }
 
 }  // namespace ag::render

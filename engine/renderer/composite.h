@@ -3,12 +3,13 @@
 
 #include "engine/core/setting_fields.h"
 #include "engine/renderer/direct_lighting.h"
+#include "engine/renderer/exposure.h"
 #include "engine/renderer/gbuffer.h"
 #include "gi/bounce_light.h"
 
 namespace ag::render {
 
-enum class Tonemap : uint32_t { kNone, kReinhard, kAces };
+enum class Tonemap : uint32_t { kNone, kReinhard, kAces, kNeutral, kAgx };
 
 struct CompositeSettings {
     float exposure = 0;  // stops
@@ -18,15 +19,16 @@ struct CompositeSettings {
         return std::tuple{
             SettingField{"exposure", &CompositeSettings::exposure, -20, 20, "stops", "of the display image"},
             SettingField{"tonemap", &CompositeSettings::tonemap, 0, 0, "", "curve of the display image",
-                         "none|reinhard|aces"}};
+                         "none|reinhard|aces|neutral|agx"}};
     }
 
     bool operator==(const CompositeSettings&) const = default;
 };
 
 struct RenderOutputs {
-    ImageHandle radiance;  // rgba16f, W/(m² sr); alpha 0 where no surface is seen
-    ImageHandle display;   // rgba8, sRGB-encoded
+    ImageHandle radiance;   // rgba16f, W/(m² sr); alpha 0 where no surface is seen
+    ImageHandle display;    // rgba8, sRGB-encoded
+    BufferHandle exposure;  // io::Exposure; invalid: by hand
 };
 
 struct CompositeLight {
@@ -36,7 +38,9 @@ struct CompositeLight {
     const SceneView& scene;  // whose sky is seen where no surface is
 };
 
-RenderOutputs addComposite(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light,
-                           const CompositeSettings& settings);
+ImageHandle addRadiance(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light);
+// `exposure`: see addExposure; where invalid, the settings'.
+ImageHandle addDisplay(GraphScope scope, const GBuffer& gbuffer, ImageHandle radiance, BufferHandle exposure,
+                       const CompositeSettings& settings);
 
 }  // namespace ag::render

@@ -39,7 +39,11 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
                             s.bounce.sky, h.sky);
 
     // To the eye
-    f.outputs = addComposite(scope, f.gbuffer, {f.direct, f.sky, f.bounce, scene}, s.composite);
+    RenderOutputs& out = f.outputs;
+    out.radiance = addRadiance(scope, f.gbuffer, {f.direct, f.sky, f.bounce, scene});
+    out.exposure = addExposure(scope, out.radiance, scene.units, s.composite.exposure, versionsOf(scene),
+                               s.exposure, h.exposure);
+    out.display = addDisplay(scope, f.gbuffer, out.radiance, out.exposure, s.composite);
     return f;
 }
 

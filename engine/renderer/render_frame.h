@@ -4,6 +4,7 @@
 
 #include "engine/renderer/composite.h"
 #include "engine/renderer/direct_lighting.h"
+#include "engine/renderer/exposure.h"
 #include "engine/renderer/gbuffer.h"
 #include "engine/renderer/punctual_lighting.h"
 #include "engine/renderer/render_settings.h"
@@ -16,6 +17,7 @@ struct RenderHistory {
     Technique technique = Technique::kNone;
     gi::BounceLightHistory bounce;
     gi::SkyHistory sky;
+    gi::Settling exposure;
     SunShadowHistory sunShadows;
     LightClusterHistory lightClusters;
     PunctualShadowHistory punctualShadows;

@@ -234,6 +234,7 @@ void registerSettings(Settings& settings, RenderSettings& s) {
     registerFields(settings, "punctual_shadows", s.punctualShadows);
     registerFields(settings, "punctual_lighting", s.punctualLighting);
     registerFields(settings, "composite", s.composite);
+    registerFields(settings, "exposure", s.exposure);
 }
 
 }  // namespace ag::render

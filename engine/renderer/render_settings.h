@@ -45,6 +45,7 @@ struct RenderSettings {
     PunctualShadowSettings punctualShadows;
     PunctualLightingSettings punctualLighting;
     CompositeSettings composite;
+    ExposureSettings exposure;
 
     bool operator==(const RenderSettings&) const = default;
 };

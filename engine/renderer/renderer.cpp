@@ -8,6 +8,7 @@
 #include "engine/gpu/device_limits.h"
 #include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
+#include "shaders/exposure/exposure_io.h"
 
 namespace ag::render {
 namespace {
@@ -172,6 +173,14 @@ void Renderer::submitBatches(Slot& slot, const Presentation& presentation) {
         batchesSubmitted_.push_back(device_.submit(work));
     }
     slot.submitted = batchesSubmitted_.back();
+}
+
+float readExposure(Renderer& renderer, BufferHandle handle) {
+    io::Exposure exposure{};
+    renderer.waitIdle();
+    gpu::downloadBuffer(renderer.device(), renderer.graph().physical(handle),
+                        std::as_writable_bytes(std::span(&exposure, 1)));
+    return exposure.stops - std::log2(renderer.units().light);
 }
 
 Image readImage(Renderer& renderer, ImageHandle handle) {

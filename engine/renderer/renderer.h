@@ -99,5 +99,7 @@ Image renderLayer(Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
                   const RenderSettings& settings, Layer layer, uint32_t frames);
 // An image the graph left as its output, as floats; rgba8, rgba16f, rgba32f and r32f.
 Image readImage(Renderer& renderer, ImageHandle image);
+// Of a graph output of addExposure: stops by which radiance in W/(m² sr) is brightened.
+float readExposure(Renderer& renderer, BufferHandle exposure);
 
 }  // namespace ag::render

@@ -60,6 +60,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
     ASSERT_TRUE(render::applyPreset(c.preset, settings.gi));
     settings.gi.bounce.laterBounces.enabled = settings.gi.bounce.texelRays.enabled = c.options;
+    settings.gi.exposure.automatic = c.options;
     settings.gi.bounce.denoiser.enabled = settings.gi.bounce.denoiser.motion = true;
     settings.gi.bounce.stochasticRsm.interpolate = c.preset == "rsm-400";
     settings.gi.bounce.valClustering.count = 64;
