@@ -35,11 +35,12 @@ float renderScale(Quality quality) {
 }
 
 void applyQuality(Quality preset, render::RenderSettings& gi) {
-    const render::CompositeSettings eye = gi.composite;
+    const render::RenderSettings before = gi;
     gi = {};
     render::applyPreset(qualityName(preset), gi);
     if (preset == Quality::kLow) trim(gi);
-    gi.composite = eye;
+    gi.composite = before.composite;
+    gi.exposure = before.exposure;
 }
 
 }  // namespace ag::game

@@ -7,7 +7,7 @@
 namespace ag::render {
 namespace {
 
-constexpr float kMeteredPixels = 16384;  // about; more change nothing that is seen
+constexpr float kMeteredPixels = 16384;  // about
 
 uint32_t strideFor(glm::uvec2 size) {
     return std::max(1u, uint32_t(std::sqrt(float(size.x) * float(size.y) / kMeteredPixels)));
@@ -16,12 +16,10 @@ uint32_t strideFor(glm::uvec2 size) {
 }  // namespace
 
 BufferHandle addExposure(GraphScope scope, ImageHandle radiance, const gi::RenderUnits& units,
-                         float compensation, const gi::Versions& versions, const ExposureSettings& s,
+                         float compensation, uint64_t inputsVersion, const ExposureSettings& s,
                          gi::Settling& settling) {
     if (!s.automatic) return {};
-    const uint64_t seen = combineHash(combineHash(versions.lights, versions.instances),
-                                      combineHash(versions.camera, versions.origin));
-    const uint32_t step = settling.advance(seen, s.settleFrames);
+    const uint32_t step = settling.advance(inputsVersion, s.settleFrames);
     const HistoryBuffer exposure =
         scope.historyBuffer("exposure.metered", {.sizeBytes = sizeof(io::Exposure)});
     scope.compute("exposure.meter", "exposure/meter.comp")

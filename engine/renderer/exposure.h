@@ -3,7 +3,6 @@
 
 #include "engine/core/setting_fields.h"
 #include "engine/frame/frame_graph.h"
-#include "gi/inputs.h"
 #include "gi/settling.h"
 #include "gi/units.h"
 
@@ -29,10 +28,11 @@ struct ExposureSettings {
     bool operator==(const ExposureSettings&) const = default;
 };
 
-// `radiance` in `units`; `compensation`: stops on top, log2 of the units included. Gives an io::Exposure;
-// invalid: by hand.
+// `radiance` is in `units`. `compensation`: stops on top, log2 of the unit of light included. `inputsVersion`
+// changes with whatever changes the picture, settings too. Gives an io::Exposure; invalid: exposure is by
+// hand.
 BufferHandle addExposure(GraphScope scope, ImageHandle radiance, const gi::RenderUnits& units,
-                         float compensation, const gi::Versions& versions, const ExposureSettings& settings,
+                         float compensation, uint64_t inputsVersion, const ExposureSettings& settings,
                          gi::Settling& settling);
 
 }  // namespace ag::render

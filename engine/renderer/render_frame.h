@@ -18,6 +18,8 @@ struct RenderHistory {
     gi::BounceLightHistory bounce;
     gi::SkyHistory sky;
     gi::Settling exposure;
+    RenderSettings settings;       // of the frame before
+    uint64_t settingsVersion = 0;  // changes with them
     SunShadowHistory sunShadows;
     LightClusterHistory lightClusters;
     PunctualShadowHistory punctualShadows;

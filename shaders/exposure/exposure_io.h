@@ -1,4 +1,4 @@
-// Automatic exposure: what the meter counts and leaves.
+// Automatic exposure: constants of the meter, its result and its settings.
 #ifndef AG_EXPOSURE_IO_H
 #define AG_EXPOSURE_IO_H
 
@@ -8,13 +8,12 @@ AG_BEGIN
 
 const uint kExposureBins = 256u;  // of luminance, by its logarithm
 const float kExposureBinsAStop = 6.0f;
-const float kLeastLuminanceStops = -24.0f;                  // of a half float; the bins reach to 2^18.6
+const float kLeastLuminanceStops = -24.0f;                  // the least half float; bins reach to 2^18.6
 const float kMiddleGray = 0.18f;                            // what the metered mean is brought to
-const float kDarkestShare = 0.2f, kBrightestShare = 0.05f;  // of the lit pixels that are not metered
+const float kDarkestShare = 0.2f, kBrightestShare = 0.05f;  // of the lit pixels, left out of the mean
 
 struct Exposure {
-    float stops;   // that light is brightened by, in the units of the picture's radiance
-    float target;  // what they go to
+    float stops;  // by which radiance is brightened, in the picture's units
 };
 
 struct MeterPush {
@@ -22,7 +21,7 @@ struct MeterPush {
     float compensation;  // stops on top: what the user asks for, and the unit
     float least, most;   // stops
     float share;         // of the way to the target that a frame goes
-    uint valid;          // there is a frame before
+    uint valid;          // a frame before has left its exposure
     uint stride;         // pixels from one metered to the next
 };
 

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// How much the picture is brightened: the mean logarithm of luminance over the lit pixels, but for the darkest and the
-// brightest, goes to middle gray, a share of the way a frame. One group of lanes for the picture. Sums are of integers, so
-// that they do not depend on the order.
+// Automatic exposure. A histogram of log luminance over the lit pixels gives their mean without the darkest and the
+// brightest; exposure moves toward what makes that mean middle gray. One group of lanes. Sums are of integers, so the
+// order of lanes does not matter.
 #include "common/lanes.glsl"
 #include "common/pixel_rays.h"
 #include "exposure/exposure_io.h"
@@ -14,8 +14,8 @@ layout(set = 0, binding = 0) uniform sampler2D radianceMap;
 layout(set = 0, binding = 1, scalar) readonly buffer Before { Exposure exposure; } before;
 layout(set = 0, binding = 2, scalar) writeonly buffer After { Exposure exposure; } after;
 
-const float kParts = 256.0;     // of a bin, in which places within it are summed
-const float kSettled = 1 / 64.0;  // stops: nearer than this is there
+const float kParts = 256.0;       // of a bin: a pixel adds its place within the bin in these
+const float kSettled = 1 / 64.0;  // stops; once so near, exposure is at its target
 
 shared uint counts[kExposureBins], parts[kExposureBins];
 
@@ -31,7 +31,7 @@ void countPixels() {
     }
 }
 
-// Of log2 of luminance; false: the picture is black.
+// Of log2 luminance. False where the picture is black.
 bool meteredMean(out float mean) {
     uint total = 0;
     for (uint b = 0; b < kExposureBins; ++b) total += counts[b];
@@ -57,5 +57,5 @@ void main() {
     float target = clamp(wanted, push.least, push.most) + push.compensation;
     float stops = push.valid != 0 ? mix(before.exposure.stops, target, push.share) : target;
     if (abs(stops - target) < kSettled) stops = target;
-    after.exposure = Exposure(stops, target);
+    after.exposure = Exposure(stops);
 }

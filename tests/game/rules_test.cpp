@@ -199,7 +199,9 @@ TEST(Quality, PresetsLeaveTheEyeAlone) {
     render::RenderSettings gi;
     gi.composite.exposure = 2;
     for (const Quality q : {Quality::kLow, Quality::kMedium, Quality::kHigh, Quality::kUltra}) {
+        gi.exposure.automatic = true;
         applyQuality(q, gi);
+        EXPECT_TRUE(gi.exposure.automatic) << "the eye stays";
         EXPECT_EQ(gi.composite.exposure, 2);
         EXPECT_EQ(qualityFromName(qualityName(q)), q);
     }

@@ -99,6 +99,19 @@ TEST(Exposure, FollowsWithoutOvershootAndThenRests) {
     EXPECT_EQ(b.passesRun(), 0);
 }
 
+// What changes while nothing in the scene does must not stop halfway.
+TEST(Exposure, FollowsTheSettingsOfAStillScene) {
+    Metered b;
+    for (int i = 0; i < 300; ++i)
+        b.frame();
+    const float before = stopsOf(b);
+    b.settings.composite.exposure += 2;
+    for (int i = 0; i < 120; ++i)
+        b.frame();
+    EXPECT_NEAR(stopsOf(b), before + 2, 0.001);
+    EXPECT_EQ(b.passesRun(), 0);
+}
+
 TEST(Exposure, KeepsItsLimits) {
     Metered b;
     b.settings.exposure.least = 3;
