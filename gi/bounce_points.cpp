@@ -30,7 +30,7 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
                           .instance = s.instance,
                           .normalLocal = s.normalLocal,
                           .area = cutOut ? 0 : float(area),
-                          .albedo = albedoAt(s.instance, samples.uvs[at]),
+                          .albedo = albedoAt(s.instance, samples.uvs[at]) * samples.tints[at],
                           .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}});
         if (deformed) points.back().edgesLocal[0].inward.x = s.curvatureLocal;
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
@@ -175,6 +176,15 @@ glm::vec2 uvOn(const SampledMesh& mesh, uint32_t triangle, glm::vec3 weights) {
     return uv;
 }
 
+glm::vec3 tintOn(const SampledMesh& mesh, uint32_t triangle, glm::vec3 weights) {
+    if (!mesh.colors) return glm::vec3(1);
+    glm::vec3 tint(0);
+    for (uint32_t i = 0; i < 3; ++i)
+        tint += weights[int(i)] *
+                glm::vec3(glm::unpackUnorm3x10_1x2(mesh.colors[mesh.indices[3 * triangle + i]]));
+    return tint;
+}
+
 // The place at a share of a triangle's area along a curve through all of it: each digit to base 4 picks one
 // of the four triangles between corners and middles of sides (Basu & Owen 2015), so that equal steps along
 // the curve are spread evenly over the triangle.
@@ -249,6 +259,7 @@ void addSample(const SampledScene& scene, const CurveTriangle& t, const Corners&
         followJoints(scene, t, weights, c.sharpEdges | (hole ? io::kSharpCutOut : 0), sample);
     out.samples.push_back(sample);
     out.uvs.push_back(uv);
+    out.tints.push_back(tintOn(mesh, t.triangle, weights));
 }
 
 // `count` points at equal steps of all triangles' weights laid end to end.

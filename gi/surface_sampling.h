@@ -15,6 +15,7 @@ namespace ag::gi {
 struct SampledMesh {
     Strided<glm::vec3> positions, normals;
     Strided<glm::vec2> uvs;             // none: zero
+    Strided<uint32_t> colors;           // A2B10G10R10, linear; none: white
     std::span<const uint32_t> indices;  // three a triangle
     bool blocksLight = true;            // others have no points
 };
@@ -41,7 +42,8 @@ struct SurfaceSamples {
     // Along two curves: neighbours in the list are neighbours in space. First those of all that is static,
     // whole segments of kSegmentPoints, then those of movable instances.
     std::vector<io::SurfaceSample> samples;
-    std::vector<glm::vec2> uvs;  // of the vertices, parallel to the samples
+    std::vector<glm::vec2> uvs;    // of the vertices, parallel to the samples
+    std::vector<glm::vec3> tints;  // the vertices' colours there, likewise
     uint32_t staticCount = 0;
     std::vector<float> pointAreas;  // m², one side: what a point of each of the scene's instances stands for
 };

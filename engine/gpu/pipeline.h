@@ -65,7 +65,7 @@ enum class BlendMode : uint32_t { kNone, kAlpha };
 enum class VertexLayout : uint32_t {
     kNone,                    // full-screen triangle, vertices from gl_VertexIndex
     kPositions,               // binding 0: vec3 position
-    kPositionsAndAttributes,  // + binding 1: vec3 normal, vec4 tangent, vec2 uv (36 bytes)
+    kPositionsAndAttributes,  // + binding 1: vec3 normal, vec4 tangent, vec2 uv, unorm colour (40 bytes)
     kPositionsAndUvs,         // the same without normal and tangent
     kImGui,                   // binding 0: vec2 position, vec2 uv, unorm8x4 colour (20 bytes)
     kStrided,  // bindings 0, 1, 2: vec3 position, vec3 normal, vec2 uv; strides and the front's winding are

@@ -10,7 +10,7 @@ namespace {
 struct VertexInput {
     std::array<VkVertexInputBindingDescription, 3> bindings{};
     uint32_t bindingCount = 0;
-    std::array<VkVertexInputAttributeDescription, 4> attributes{};
+    std::array<VkVertexInputAttributeDescription, 5> attributes{};
     uint32_t attributeCount = 0;
 };
 
@@ -22,12 +22,13 @@ VertexInput vertexInput(VertexLayout layout) {
         in.bindings[in.bindingCount++] = {0, 12, VK_VERTEX_INPUT_RATE_VERTEX};
         in.attributes[in.attributeCount++] = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
     }
-    if (uvs) in.bindings[in.bindingCount++] = {1, 36, VK_VERTEX_INPUT_RATE_VERTEX};
+    if (uvs) in.bindings[in.bindingCount++] = {1, 40, VK_VERTEX_INPUT_RATE_VERTEX};
     if (whole) {
         in.attributes[in.attributeCount++] = {1, 1, VK_FORMAT_R32G32B32_SFLOAT, 0};
         in.attributes[in.attributeCount++] = {2, 1, VK_FORMAT_R32G32B32A32_SFLOAT, 12};
     }
     if (uvs) in.attributes[in.attributeCount++] = {3, 1, VK_FORMAT_R32G32_SFLOAT, 28};
+    if (whole) in.attributes[in.attributeCount++] = {4, 1, VK_FORMAT_A2B10G10R10_UNORM_PACK32, 36};
     if (layout == VertexLayout::kImGui) {
         in.bindings[in.bindingCount++] = {0, 20, VK_VERTEX_INPUT_RATE_VERTEX};
         in.attributes[in.attributeCount++] = {0, 0, VK_FORMAT_R32G32_SFLOAT, 0};

@@ -23,6 +23,7 @@ DrawBucket bucketOf(const Material& material, const RenderInstance& instance) {
             .alphaMask = material.alphaMode == AlphaMode::kMask,
             .doubleSided = material.doubleSided,
             .normalMap = material.normalLayer >= 0,
+            .vertexColors = material.vertexColors,
             .deformed = instance.skinnedMesh != kNoSkinnedMesh,
             .mirrored = isMirrored(instance)};
 }

@@ -23,6 +23,7 @@ struct DrawBucket {
     bool alphaMask = false;
     bool doubleSided = false;
     bool normalMap = false;
+    bool vertexColors = false;
     bool deformed = false;  // of skinned meshes: their own vertices
     bool mirrored = false;  // of instances whose transform turns triangles over
 

@@ -24,6 +24,8 @@ RasterDraw drawOf(const DrawBucket& bucket, const DrawOptions& options) {
     if (!shapes) {
         draw.spec[draw.specCount++] = gpu::specConstant("kTextureClass", uint32_t(bucket.textureClass));
         draw.spec[draw.specCount++] = gpu::specConstant("kAlphaMask", bool(bucket.alphaMask));
+        if (options.filter == DrawFilter::kAll)
+            draw.spec[draw.specCount++] = gpu::specConstant("kVertexColors", bool(bucket.vertexColors));
         if (camera) draw.spec[draw.specCount++] = gpu::specConstant("kNormalMaps", bool(bucket.normalMap));
     }
     draw.cull = bucket.doubleSided || !camera ? gpu::CullMode::kNone : gpu::CullMode::kBack;

@@ -84,6 +84,10 @@ std::vector<gi::SampledMesh> meshesOf(const GeometryArrays& g) {
             {.positions = gi::Strided<glm::vec3>::of(g.positions.data() + p.vertexOffset),
              .normals = {reinterpret_cast<const std::byte*>(&attributes->normal), sizeof *attributes},
              .uvs = {reinterpret_cast<const std::byte*>(&attributes->uv), sizeof *attributes},
+             .colors = g.materials[p.material].vertexColors
+                           ? gi::Strided<uint32_t>{reinterpret_cast<const std::byte*>(&attributes->color),
+                                                   sizeof *attributes}
+                           : gi::Strided<uint32_t>{},
              .indices = std::span(g.indices).subspan(p.firstIndex, p.indexCount),
              .blocksLight = g.materials[p.material].alphaMode != AlphaMode::kBlend});
     }
@@ -118,11 +122,13 @@ auto withSampledScene(const RenderScene& scene, auto&& use) {
     return withSampledScene(scene, meshesOf(*scene.geometry), use);
 }
 
-// Those that shine, as if nothing else were there.
+// Those that shine, as if nothing else were there. Colours of vertices tint what is reflected alone.
 std::vector<gi::SampledMesh> emissiveMeshesOf(const GeometryArrays& g) {
     std::vector<gi::SampledMesh> meshes = meshesOf(g);
-    for (size_t i = 0; i < meshes.size(); ++i)
+    for (size_t i = 0; i < meshes.size(); ++i) {
+        meshes[i].colors = {};
         meshes[i].blocksLight &= g.materials[g.primitives[i].material].emissive != glm::vec3(0);
+    }
     return meshes;
 }
 

@@ -21,7 +21,8 @@ void deform(const RenderScene& scene, const RenderSkinnedMesh& skinnedMesh, Defo
         const VertexAttributes& a = g.attributes[from];
         out.positions[to] = io::skinPoint(m, g.positions[from]);
         out.attributes[to] = {io::skinNormal(m, a.normal),
-                              glm::vec4(io::skinDirection(m, glm::vec3(a.tangent)), a.tangent.w), a.uv};
+                              glm::vec4(io::skinDirection(m, glm::vec3(a.tangent)), a.tangent.w), a.uv,
+                              a.color};
     }
 }
 

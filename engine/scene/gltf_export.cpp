@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 #include <span>
 #include <sstream>
 
@@ -120,12 +121,14 @@ tinygltf::Primitive primitiveOf(tinygltf::Model& model, const GeometryArrays& g,
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> uvs;
+    std::vector<glm::u16vec4> colors;
     for (uint32_t v = 0; v < vertices; ++v) {
         const size_t at = size_t(p.vertexOffset) + v;
         positions.push_back(g.positions[at]);
         normals.push_back(g.attributes[at].normal);
         tangents.push_back(g.attributes[at].tangent);
         uvs.push_back(g.attributes[at].uv);
+        colors.push_back(glm::u16vec4(glm::unpackUnorm3x10_1x2(g.attributes[at].color) * 65535.0f + 0.5f));
     }
     tinygltf::Primitive out;
     const int buffer = TINYGLTF_TARGET_ARRAY_BUFFER, f = TINYGLTF_COMPONENT_TYPE_FLOAT;
@@ -134,6 +137,11 @@ tinygltf::Primitive primitiveOf(tinygltf::Model& model, const GeometryArrays& g,
     if (!tangents.empty() && tangents[0] != glm::vec4(0))
         out.attributes["TANGENT"] = addAccessor(model, tangents, f, TINYGLTF_TYPE_VEC4, buffer);
     out.attributes["TEXCOORD_0"] = addAccessor(model, uvs, f, TINYGLTF_TYPE_VEC2, buffer);
+    if (g.materials[p.material].vertexColors) {
+        out.attributes["COLOR_0"] =
+            addAccessor(model, colors, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4, buffer);
+        model.accessors.back().normalized = true;
+    }
     if (!g.skin.empty()) addSkin(model, {g.skin.data() + p.vertexOffset, vertices}, out);
     out.indices = addAccessor(model, indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                               TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <stb/stb_image.h>
+#include <webp/decode.h>
 
+#include <climits>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -26,7 +28,9 @@ struct Folder {
     std::string fault;
 };
 
+// What tinygltf's image callback knows. The model is being read: its buffers and views are there.
 struct ImageBudget {
+    const tinygltf::Model& model;
     uint32_t side;
     uint64_t texelsLeft;
 };
@@ -67,12 +71,56 @@ bool writeNothing(std::string*, const std::string&, const std::vector<unsigned c
     return false;
 }
 
-// Refuses images by their header before decoding them.
+// KTX 2.0: basis universal textures, which no package here reads.
+bool isKtx(const unsigned char* bytes, int size) {
+    constexpr unsigned char kMagic[] = {0xab, 'K', 'T', 'X', ' ', '2', '0'};
+    return size >= int(sizeof kMagic) && std::memcmp(bytes, kMagic, sizeof kMagic) == 0;
+}
+
+bool isWebp(const unsigned char* bytes, int size) {
+    return size >= 12 && std::memcmp(bytes, "RIFF", 4) == 0 && std::memcmp(bytes + 8, "WEBP", 4) == 0;
+}
+
+bool readImageSize(const unsigned char* bytes, int size, int& width, int& height) {
+    int components = 0;
+    return isWebp(bytes, size) ? WebPGetInfo(bytes, size_t(size), &width, &height) != 0
+                               : stbi_info_from_memory(bytes, size, &width, &height, &components) != 0;
+}
+
+// RGBA8; empty: it cannot be decoded.
+std::vector<unsigned char> decodeTexels(const unsigned char* bytes, int size, int width, int height) {
+    std::vector<unsigned char> texels(size_t(width) * size_t(height) * 4);
+    if (isWebp(bytes, size))
+        return WebPDecodeRGBAInto(bytes, size_t(size), texels.data(), texels.size(), width * 4)
+                   ? texels
+                   : std::vector<unsigned char>();
+    int components = 0;
+    unsigned char* decoded = stbi_load_from_memory(bytes, size, &width, &height, &components, 4);
+    if (!decoded) return {};
+    std::copy_n(decoded, texels.size(), texels.begin());
+    stbi_image_free(decoded);
+    return texels;
+}
+
+// tinygltf hands out an image's bytes without a look at where its view ends.
+bool liesInBuffer(const tinygltf::Model& model, int view) {
+    if (view < 0) return true;
+    const tinygltf::BufferView& v = model.bufferViews[size_t(view)];
+    const size_t size = model.buffers[size_t(v.buffer)].data.size();
+    return v.byteOffset <= size && v.byteLength <= size - v.byteOffset && v.byteLength <= INT_MAX;
+}
+
+// Refuses images by their header before decoding them; those of KTX files stay empty.
 bool decodeImage(tinygltf::Image* image, const int index, std::string* error, std::string*, int, int,
                  const unsigned char* bytes, int size, void* user) {
     auto& budget = *static_cast<ImageBudget*>(user);
-    int width = 0, height = 0, components = 0;
-    if (!stbi_info_from_memory(bytes, size, &width, &height, &components)) {
+    if (!liesInBuffer(budget.model, image->bufferView)) {
+        if (error) *error += fmt::format("image {}: its bytes lie outside their buffer\n", index);
+        return false;
+    }
+    if (isKtx(bytes, size)) return gltf::skipImage(*image), true;
+    int width = 0, height = 0;
+    if (!readImageSize(bytes, size, width, height)) {
         if (error) *error += fmt::format("image {} cannot be decoded\n", index);
         return false;
     }
@@ -82,8 +130,8 @@ bool decodeImage(tinygltf::Image* image, const int index, std::string* error, st
         return false;
     }
     budget.texelsLeft -= count;
-    unsigned char* texels = stbi_load_from_memory(bytes, size, &width, &height, &components, 4);
-    if (!texels) {
+    image->image = decodeTexels(bytes, size, width, height);
+    if (image->image.empty()) {
         if (error) *error += fmt::format("image {} cannot be decoded\n", index);
         return false;
     }
@@ -92,8 +140,6 @@ bool decodeImage(tinygltf::Image* image, const int index, std::string* error, st
     image->component = 4;
     image->bits = 8;
     image->pixel_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
-    image->image.assign(texels, texels + size_t(width) * size_t(height) * 4);
-    stbi_image_free(texels);
     return true;
 }
 
@@ -147,6 +193,20 @@ gltf::Fault checkBytes(std::string_view bytes, const ImportLimits& limits) {
     return std::nullopt;
 }
 
+// The file with its JSON made readable.
+std::string readable(const std::string& bytes) {
+    const std::string_view json = jsonOf(bytes);
+    std::string mended = gltf::readableJson(json, isBinary(bytes));
+    if (mended == json) return bytes;
+    if (!isBinary(bytes)) return mended;
+    mended.resize((mended.size() + 3) / 4 * 4, ' ');
+    std::string out = bytes.substr(0, kFirstChunk) + mended + bytes.substr(kFirstChunk + json.size());
+    const auto chunk = uint32_t(mended.size()), whole = uint32_t(out.size());
+    std::memcpy(out.data() + kGlbHeader, &chunk, sizeof chunk);
+    std::memcpy(out.data() + 8, &whole, sizeof whole);
+    return out;
+}
+
 // The library throws where a file's parts name others that are not there.
 bool loadModel(tinygltf::TinyGLTF& loader, const std::string& bytes, const std::string& folder,
                tinygltf::Model& model, std::string& error) {
@@ -173,13 +233,13 @@ Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limit
     // A link to the file itself may lead elsewhere; what it names may not.
     std::error_code code;
     Folder folder{fs::canonical(path, code).parent_path(), limits.fileBytes - bytes->size(), ""};
-    ImageBudget images{limits.imageSide, limits.imageTexels};
+    tinygltf::Model model;
+    ImageBudget images{model, limits.imageSide, limits.imageTexels};
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(decodeImage, &images);
     loader.SetFsCallbacks({assumeExists, expandPath, readWhole, writeNothing, &folder});
-    tinygltf::Model model;
     std::string error;
-    const bool parsed = loadModel(loader, *bytes, folder.root.string(), model, error);
+    const bool parsed = loadModel(loader, readable(*bytes), folder.root.string(), model, error);
     if (!folder.fault.empty()) return Error{fmt::format("{}: {}", path, folder.fault)};
     if (!parsed) return Error{fmt::format("{}: {}", path, firstLine(error, "it cannot be parsed"))};
     return model;
@@ -190,17 +250,19 @@ Result<tinygltf::Model> parse(const std::string& path, const ImportLimits& limit
 Result<SceneAsset> importGltf(const std::string& path, const ImportLimits& limits) {
     auto parsed = parse(path, limits);
     if (!parsed) return parsed.error();
-    const tinygltf::Model& model = *parsed;
+    tinygltf::Model& model = *parsed;
     const auto fail = [&](const gltf::Fault& fault) { return Error{fmt::format("{}: {}", path, *fault)}; };
+    if (const gltf::Fault f = gltf::decompress(model, limits)) return fail(f);
     if (const gltf::Fault f = gltf::validate(model, limits)) return fail(f);
     SceneAsset asset;
     asset.name = fs::path(path).stem().string();
+    asset.features = gltf::featuresOf(model);
     gltf::importMaterials(model, asset);
     if (const gltf::Fault f = gltf::importTextures(model, asset, limits)) return fail(f);
-    if (const gltf::Fault f = gltf::importMeshes(model, asset)) return fail(f);
+    std::vector<int32_t> meshOfNode, newIndex;
+    if (const gltf::Fault f = gltf::importMeshes(model, asset, meshOfNode)) return fail(f);
     splitLargePrimitives(asset);
-    std::vector<int32_t> newIndex;
-    if (const gltf::Fault f = gltf::importNodes(model, asset, newIndex)) return fail(f);
+    if (const gltf::Fault f = gltf::importNodes(model, meshOfNode, limits, asset, newIndex)) return fail(f);
     if (const gltf::Fault f = gltf::importSkins(model, newIndex, asset, limits)) return fail(f);
     if (const gltf::Fault f = gltf::importAnimations(model, newIndex, asset)) return fail(f);
     return asset;

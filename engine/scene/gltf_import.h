@@ -1,6 +1,5 @@
 // glTF 2.0 files (.gltf, .glb) to a SceneAsset. tinygltf parses; everything it lets pass is checked here, so
-// that a hostile file gives a sentence and nothing else. URIs never leave the file's own folder. Morph
-// targets are not imported.
+// that a hostile file gives a sentence and nothing else. URIs never leave the file's own folder.
 #pragma once
 
 #include <string>

@@ -25,6 +25,53 @@ double element(const tinygltf::Value& object, const char* key, size_t i, double 
     return value.IsNumber() ? value.GetNumberAsDouble() : fallback;
 }
 
+// KHR_materials_specular and _ior: reflectance head on over that of an index of 1.5.
+float specularOf(const tinygltf::ExtensionMap& extensions) {
+    constexpr double kUsual = 0.04;
+    constexpr float kMost = float(1 / kUsual);
+    double specular = 1;
+    if (const tinygltf::Value* e = extensionOf(extensions, "KHR_materials_specular")) {
+        double colour = 0;
+        for (size_t c = 0; c < 3; ++c)
+            colour += element(*e, "specularColorFactor", c, 1) / 3;
+        specular = numberOf(*e, "specularFactor", 1) * colour;
+    }
+    if (const tinygltf::Value* e = extensionOf(extensions, "KHR_materials_ior")) {
+        const double ior = numberOf(*e, "ior", 1.5), root = (ior - 1) / (ior + 1);
+        if (ior >= 1) specular *= root * root / kUsual;
+    }
+    return std::clamp(floatOf(specular), 0.0f, kMost);
+}
+
+bool isGlass(const tinygltf::Material& m) {
+    const tinygltf::Value* e = extensionOf(m.extensions, "KHR_materials_transmission");
+    return e && numberOf(*e, "transmissionFactor", 0) > 0.5;
+}
+
+// Nothing is drawn half. What blends is drawn where its texture covers more than half of it; without a
+// texture it is glass: not drawn, and light passes.
+AlphaMode alphaModeOf(const tinygltf::Model& model, const tinygltf::Material& m, float alpha) {
+    if (isGlass(m)) return AlphaMode::kBlend;
+    if (m.alphaMode == "MASK") return AlphaMode::kMask;
+    if (m.alphaMode != "BLEND") return AlphaMode::kOpaque;
+    if (imageOf(model, m.pbrMetallicRoughness.baseColorTexture.index) >= 0) return AlphaMode::kMask;
+    return alpha < 1 ? AlphaMode::kBlend : AlphaMode::kOpaque;
+}
+
+// KHR_materials_unlit: the base colour is what is seen, whatever the light: it is emitted, and nothing
+// reflected.
+void makeUnlit(Material& m) {
+    m.emissive = glm::vec3(m.baseColor);
+    m.emissiveLayer = m.baseColorLayer;
+    m.baseColor = glm::vec4(0, 0, 0, m.baseColor.w);
+    m.metallic = m.specular = 0;
+    m.roughness = 1;
+}
+
+bool isUnlit(const tinygltf::Material& m) {
+    return m.extensions.contains("KHR_materials_unlit");
+}
+
 // KHR_texture_transform: scale, then rotate, then move.
 glm::mat3x2 uvTransformOf(const tinygltf::ExtensionMap& extensions) {
     glm::mat3x2 m(1, 0, 0, 1, 0, 0);
@@ -38,7 +85,7 @@ glm::mat3x2 uvTransformOf(const tinygltf::ExtensionMap& extensions) {
     return m;
 }
 
-Material materialOf(const tinygltf::Material& m) {
+Material materialOf(const tinygltf::Model& model, const tinygltf::Material& m) {
     Material out;
     out.name = m.name;
     const auto& pbr = m.pbrMetallicRoughness;
@@ -51,13 +98,10 @@ Material materialOf(const tinygltf::Material& m) {
         strength = std::max(floatOf(*e, "emissiveStrength", 1), 0.0f);
     for (int c = 0; c < 3 && size_t(c) < m.emissiveFactor.size(); ++c)
         out.emissive[c] = std::max(floatOf(m.emissiveFactor[size_t(c)]), 0.0f) * strength;
-    if (const tinygltf::Value* e = extensionOf(m.extensions, "KHR_materials_specular"))
-        out.specular = std::clamp(floatOf(*e, "specularFactor", 1), 0.0f, 1.0f);
+    out.specular = specularOf(m.extensions);
     out.normalScale = floatOf(m.normalTexture.scale);
-    out.alphaMode = m.alphaMode == "MASK"    ? AlphaMode::kMask
-                    : m.alphaMode == "BLEND" ? AlphaMode::kBlend
-                                             : AlphaMode::kOpaque;
-    out.alphaCutoff = floatOf(m.alphaCutoff);
+    out.alphaMode = alphaModeOf(model, m, out.baseColor.w);
+    out.alphaCutoff = m.alphaMode == "BLEND" ? 0.5f : floatOf(m.alphaCutoff);
     out.doubleSided = m.doubleSided;
     out.uvTransform = uvTransformOf(pbr.baseColorTexture.extensions);
     return out;
@@ -101,8 +145,8 @@ class LayerMaker {
         : model_(model), asset_(asset), texelsLeft_(texels) {}
 
     int32_t layer(int texture, TextureClass textureClass, bool srgb) {
-        if (texture < 0) return -1;
-        const int source = model_.textures[size_t(texture)].source;
+        const int source = imageOf(model_, texture);
+        if (source < 0) return -1;
         const auto [entry, added] = made_.try_emplace({source, textureClass, srgb}, -1);
         if (!added) return entry->second;
         const uint64_t side = textureClassSize(textureClass);
@@ -129,9 +173,28 @@ class LayerMaker {
 
 }  // namespace
 
+void skipImage(tinygltf::Image& image) {
+    image.mimeType = "image/ktx2";
+    image.image.clear();
+}
+
+bool isSkippedImage(const tinygltf::Image& image) {
+    return image.mimeType == "image/ktx2" && image.image.empty();
+}
+
+int imageOf(const tinygltf::Model& model, int texture) {
+    if (texture < 0) return -1;
+    const tinygltf::Texture& t = model.textures[size_t(texture)];
+    const auto webp = t.extensions.find("EXT_texture_webp");
+    const int other = webp == t.extensions.end() ? -1 : int(numberOf(webp->second, "source", -1));
+    for (const int image : {t.source, other})
+        if (image >= 0 && !model.images[size_t(image)].image.empty()) return image;
+    return -1;
+}
+
 void importMaterials(const tinygltf::Model& model, SceneAsset& asset) {
     for (const tinygltf::Material& m : model.materials)
-        asset.geometry.materials.push_back(materialOf(m));
+        asset.geometry.materials.push_back(materialOf(model, m));
     asset.geometry.materials.push_back({.name = "default"});  // for primitives without one
 }
 
@@ -145,17 +208,22 @@ Fault importTextures(const tinygltf::Model& model, SceneAsset& asset, const Impo
                   normal = m.normalTexture.index, emissive = m.emissiveTexture.index;
         int side = 0;
         for (int texture : {base, rough, normal, emissive}) {
-            if (texture < 0) continue;
-            const tinygltf::Image& image = model.images[size_t(model.textures[size_t(texture)].source)];
+            const int source = imageOf(model, texture);
+            if (source < 0) continue;
+            const tinygltf::Image& image = model.images[size_t(source)];
             side = std::max({side, image.width, image.height});
         }
-        if (side == 0) continue;
         Material& out = asset.geometry.materials[i];
+        if (side == 0) {
+            if (isUnlit(m)) makeUnlit(out);
+            continue;
+        }
         out.textureClass = classFor(side);
         out.baseColorLayer = maker.layer(base, out.textureClass, true);
         out.emissiveLayer = maker.layer(emissive, out.textureClass, true);
         out.normalLayer = maker.layer(normal, out.textureClass, false);
         out.metallicRoughnessLayer = maker.layer(rough, out.textureClass, false);
+        if (isUnlit(m)) makeUnlit(out);
         if (maker.full()) return "its textures together are larger than the limit";
     }
     for (const TextureLayers& layers : asset.geometry.textures)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
 #include "engine/scene/gltf_internal.h"
 
@@ -124,24 +125,64 @@ size_t repairNormals(Triangles& t) {
     return repaired;
 }
 
-Fault readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& p, const std::string& what,
-                    Triangles& t, std::vector<std::string>& warnings) {
+// What morph targets add to one attribute: sum of weight times displacement, no entry where there is none.
+std::vector<glm::vec3> morphOf(const tinygltf::Model& model, const tinygltf::Primitive& p, const char* name,
+                               std::span<const double> weights, size_t vertices) {
+    std::vector<glm::vec3> sum;
+    for (size_t t = 0; t < std::min(weights.size(), p.targets.size()); ++t) {
+        const auto target = p.targets[t].find(name);
+        if (target == p.targets[t].end() || weights[t] == 0) continue;
+        sum.resize(vertices, glm::vec3(0));
+        fill<glm::vec3>(model, target->second, vertices,
+                        [&](size_t i, glm::vec3 v) { sum[i] += floatOf(weights[t]) * v; });
+    }
+    return sum;
+}
+
+void addMorphs(const tinygltf::Model& model, const tinygltf::Primitive& p, std::span<const double> weights,
+               Triangles& t) {
+    const std::vector<glm::vec3> moved = morphOf(model, p, "POSITION", weights, t.positions.size()),
+                                 turned = morphOf(model, p, "NORMAL", weights, t.positions.size()),
+                                 along = morphOf(model, p, "TANGENT", weights, t.positions.size());
+    for (size_t i = 0; i < moved.size(); ++i)
+        t.positions[i] += moved[i];
+    for (size_t i = 0; i < turned.size(); ++i)
+        t.attributes[i].normal += turned[i];
+    for (size_t i = 0; i < along.size(); ++i)
+        t.attributes[i].tangent += glm::vec4(along[i], 0);
+}
+
+// The set of texture coordinates that the primitive's material is mapped with: the base colour's, else that
+// of the first texture it has.
+std::string uvSetOf(const tinygltf::Model& model, const tinygltf::Primitive& p) {
+    if (p.material < 0) return "TEXCOORD_0";
+    const int set = uvSetsOf(model.materials[size_t(p.material)]).first;
+    return fmt::format("TEXCOORD_{}", set);
+}
+
+Fault readTriangles(const tinygltf::Model& model, const tinygltf::Primitive& p,
+                    std::span<const double> weights, const std::string& what, Triangles& t,
+                    std::vector<std::string>& warnings) {
     const int position = attribute(p, "POSITION");
     const size_t vertices = model.accessors[size_t(position)].count;
     t.positions.resize(vertices);
     t.attributes.resize(vertices, {.normal = glm::vec3(0), .tangent = glm::vec4(0)});
     fill<glm::vec3>(model, position, vertices, [&](size_t i, glm::vec3 v) { t.positions[i] = v; });
+    fill<glm::vec3>(model, attribute(p, "NORMAL"), vertices,
+                    [&](size_t i, glm::vec3 v) { t.attributes[i].normal = v; });
+    fill<glm::vec4>(model, attribute(p, "TANGENT"), vertices,
+                    [&](size_t i, glm::vec4 v) { t.attributes[i].tangent = v; });
+    addMorphs(model, p, weights, t);
     for (size_t i = 0; i < vertices; ++i)
         if (!finite(t.positions[i]))
             return fmt::format("{} has a position that is not finite (vertex {})", what, i);
         else if (glm::any(glm::greaterThan(glm::abs(t.positions[i]), glm::vec3(kFarthest))))
             return fmt::format("{} has a position farther off than {:g} m (vertex {})", what, kFarthest, i);
-    fill<glm::vec3>(model, attribute(p, "NORMAL"), vertices,
-                    [&](size_t i, glm::vec3 v) { t.attributes[i].normal = v; });
-    fill<glm::vec4>(model, attribute(p, "TANGENT"), vertices,
-                    [&](size_t i, glm::vec4 v) { t.attributes[i].tangent = v; });
-    fill<glm::vec2>(model, attribute(p, "TEXCOORD_0"), vertices,
+    fill<glm::vec2>(model, attribute(p, uvSetOf(model, p).c_str()), vertices,
                     [&](size_t i, glm::vec2 v) { t.attributes[i].uv = v; });
+    fill<glm::vec3>(model, attribute(p, "COLOR_0"), vertices, [&](size_t i, glm::vec3 v) {
+        if (finite(v)) t.attributes[i].color = glm::packUnorm3x10_1x2(glm::vec4(v, 1));
+    });
     if (Fault f = readSkin(model, p, what, t.skin)) return f;
 
     t.indices = toList(indicesOf(model, p, vertices), p.mode);
@@ -176,24 +217,64 @@ void append(Triangles&& t, uint32_t material, bool skinned, SceneAsset& asset) {
     g.primitives.push_back(primitive);
 }
 
+// One of the file's meshes, with its morph targets at some weights.
+Fault importMesh(const tinygltf::Model& model, size_t m, std::span<const double> weights, SceneAsset& asset,
+                 std::vector<std::string>& warnings) {
+    const uint32_t fallback = uint32_t(asset.geometry.materials.size() - 1);
+    SceneMesh mesh{model.meshes[m].name, uint32_t(asset.geometry.primitives.size()), 0};
+    for (size_t i = 0; i < model.meshes[m].primitives.size(); ++i) {
+        const tinygltf::Primitive& p = model.meshes[m].primitives[i];
+        Triangles triangles;
+        if (Fault f = readTriangles(model, p, weights, fmt::format("mesh {} primitive {}", m, i), triangles,
+                                    warnings))
+            return f;
+        if (triangles.indices.empty()) continue;
+        asset.geometry.materials[p.material < 0 ? fallback : uint32_t(p.material)].vertexColors |=
+            attribute(p, "COLOR_0") >= 0;
+        append(std::move(triangles), p.material < 0 ? fallback : uint32_t(p.material), !model.skins.empty(),
+               asset);
+        ++mesh.primitiveCount;
+    }
+    asset.meshes.push_back(std::move(mesh));
+    return std::nullopt;
+}
+
 }  // namespace
 
-Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset) {
-    const uint32_t fallback = uint32_t(asset.geometry.materials.size() - 1);
-    for (size_t m = 0; m < model.meshes.size(); ++m) {
-        SceneMesh mesh{model.meshes[m].name, uint32_t(asset.geometry.primitives.size()), 0};
-        for (size_t i = 0; i < model.meshes[m].primitives.size(); ++i) {
-            const tinygltf::Primitive& p = model.meshes[m].primitives[i];
-            Triangles triangles;
-            if (Fault f = readTriangles(model, p, fmt::format("mesh {} primitive {}", m, i), triangles,
-                                        asset.warnings))
-                return f;
-            if (triangles.indices.empty()) continue;
-            append(std::move(triangles), p.material < 0 ? fallback : uint32_t(p.material),
-                   !model.skins.empty(), asset);
-            ++mesh.primitiveCount;
-        }
-        asset.meshes.push_back(std::move(mesh));
+std::pair<int, bool> uvSetsOf(const tinygltf::Material& m) {
+    int first = -1;
+    bool several = false;
+    const auto add = [&](const auto& texture) {
+        if (texture.index < 0) return;
+        const auto transform = texture.extensions.find("KHR_texture_transform");
+        const double set = transform == texture.extensions.end()
+                               ? texture.texCoord
+                               : numberOf(transform->second, "texCoord", texture.texCoord);
+        const int uvs = int(std::clamp(set, 0.0, 1e6));
+        several = several || (first >= 0 && uvs != first);
+        if (first < 0) first = uvs;
+    };
+    add(m.pbrMetallicRoughness.baseColorTexture);
+    add(m.pbrMetallicRoughness.metallicRoughnessTexture);
+    add(m.normalTexture);
+    add(m.emissiveTexture);
+    return {std::max(first, 0), several};
+}
+
+bool hasOwnMorph(const tinygltf::Model& model, const tinygltf::Node& n) {
+    return n.mesh >= 0 && !n.weights.empty() && n.weights != model.meshes[size_t(n.mesh)].weights;
+}
+
+Fault importMeshes(const tinygltf::Model& model, SceneAsset& asset, std::vector<int32_t>& meshOfNode) {
+    for (size_t m = 0; m < model.meshes.size(); ++m)
+        if (Fault f = importMesh(model, m, model.meshes[m].weights, asset, asset.warnings)) return f;
+    std::vector<std::string> saidBefore;
+    for (const tinygltf::Node& n : model.nodes) {
+        meshOfNode.push_back(n.mesh);
+        if (!hasOwnMorph(model, n)) continue;
+        meshOfNode.back() = int32_t(asset.meshes.size());
+        saidBefore.clear();
+        if (Fault f = importMesh(model, size_t(n.mesh), n.weights, asset, saidBefore)) return f;
     }
     return std::nullopt;
 }

@@ -111,11 +111,87 @@ SceneLight lightFrom(const tinygltf::Light& l) {
 
 SceneCamera cameraFrom(const tinygltf::Camera& c) {
     SceneCamera out{.name = c.name};
+    if (c.type == "orthographic") {
+        const auto& o = c.orthographic;
+        constexpr float kLeastHeight = 1e-6f;  // m
+        out.orthographicHeight = std::isfinite(o.ymag) && o.ymag != 0
+                                     ? std::max(2 * std::abs(floatOf(o.ymag)), kLeastHeight)
+                                     : 2.0f;
+        out.near = std::isfinite(o.znear) && o.znear > 0 ? floatOf(o.znear) : 0.0f;
+    }
     if (c.type != "perspective") return out;
     if (c.perspective.yfov > 0.01 && c.perspective.yfov < 3.1) out.verticalFov = float(c.perspective.yfov);
     if (std::isfinite(c.perspective.znear) && c.perspective.znear > 0)
         out.near = std::max(floatOf(c.perspective.znear), 1e-9f);
     return out;
+}
+
+// KHR_node_visibility: of the node and all below it.
+bool isHidden(const tinygltf::Node& n) {
+    const auto found = n.extensions.find("KHR_node_visibility");
+    return found != n.extensions.end() && !flagOf(found->second, "visible", true);
+}
+
+// EXT_mesh_gpu_instancing: the accessor of an attribute, -1: none.
+int instanceAccessor(const tinygltf::Node& n, const char* name) {
+    const auto found = n.extensions.find("EXT_mesh_gpu_instancing");
+    if (found == n.extensions.end() || !found->second.Has("attributes")) return -1;
+    const double index = numberOf(found->second.Get("attributes"), name, -1);
+    return int(std::clamp(index, -1.0, 2e9));
+}
+
+bool isInstanced(const tinygltf::Node& n) {
+    return n.extensions.contains("EXT_mesh_gpu_instancing");
+}
+
+// How many copies; 0: the attributes do not fit together.
+uint64_t instanceCount(const tinygltf::Model& model, const tinygltf::Node& n) {
+    std::optional<uint64_t> count;
+    for (const auto& [name, type] :
+         {std::pair("TRANSLATION", TINYGLTF_TYPE_VEC3), std::pair("ROTATION", TINYGLTF_TYPE_VEC4),
+          std::pair("SCALE", TINYGLTF_TYPE_VEC3)}) {
+        const int index = instanceAccessor(n, name);
+        if (index < 0) continue;
+        if (size_t(index) >= model.accessors.size()) return 0;
+        const tinygltf::Accessor& a = model.accessors[size_t(index)];
+        if (a.type != type || (count && *count != a.count)) return 0;
+        count = a.count;
+    }
+    return count.value_or(0);
+}
+
+// The copies become nodes of their own below the node.
+Fault addInstances(const tinygltf::Model& model, const tinygltf::Node& n, int32_t parent, int32_t mesh,
+                   const ImportLimits& limits, SceneAsset& asset) {
+    const uint64_t count = instanceCount(model, n);
+    if (count == 0)
+        return fmt::format("node '{}' has instances whose attributes do not fit together", n.name);
+    if (count > limits.nodes - std::min<uint64_t>(limits.nodes, asset.nodes.size()))
+        return "its instances are more nodes than the limit";
+    const auto values = [&](const char* name, int components) {
+        const int index = instanceAccessor(n, name);
+        return index < 0 ? std::vector<float>() : readFloats(model, index, components);
+    };
+    const std::vector<float> moves = values("TRANSLATION", 3), turns = values("ROTATION", 4),
+                             scales = values("SCALE", 3);
+    for (const auto* list : {&moves, &turns, &scales})
+        if (!std::ranges::all_of(*list, [](float v) { return std::abs(v) < 1e12f; }))
+            return fmt::format("node '{}' has an instance that is not finite", n.name);
+    for (size_t i = 0; i < count; ++i) {
+        NodeTransform t;
+        if (!moves.empty()) t.translation = {moves[3 * i], moves[3 * i + 1], moves[3 * i + 2]};
+        if (!scales.empty()) t.scale = {scales[3 * i], scales[3 * i + 1], scales[3 * i + 2]};
+        if (!turns.empty()) {
+            const glm::quat q(turns[4 * i + 3], turns[4 * i], turns[4 * i + 1], turns[4 * i + 2]);
+            if (glm::length(q) > 1e-6f) t.rotation = glm::normalize(q);
+        }
+        asset.nodes.push_back({.name = fmt::format("{} {}", n.name, i),
+                               .parent = parent,
+                               .depth = asset.nodes[size_t(parent)].depth + 1,
+                               .local = t,
+                               .mesh = mesh});
+    }
+    return std::nullopt;
 }
 
 // Transforms that are fine one by one may leave the range of floats together.
@@ -138,9 +214,15 @@ Fault checkPlaces(const SceneAsset& asset) {
 
 }  // namespace
 
-Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, std::vector<int32_t>& newIndex) {
+Fault importNodes(const tinygltf::Model& model, std::span<const int32_t> meshOfNode,
+                  const ImportLimits& limits, SceneAsset& asset, std::vector<int32_t>& newIndex) {
     // Roots: of the default scene, else of the first, else every node without a parent.
-    std::vector<std::pair<int, int32_t>> pending;  // node, new index of its parent
+    struct Pending {
+        int node;
+        int32_t parent;  // new index
+        bool hidden;
+    };
+    std::vector<Pending> pending;
     const int scene = model.defaultScene >= 0 ? model.defaultScene : model.scenes.empty() ? -1 : 0;
     std::vector<int> roots;
     if (scene >= 0) {
@@ -154,26 +236,30 @@ Fault importNodes(const tinygltf::Model& model, SceneAsset& asset, std::vector<i
             if (!isChild[i]) roots.push_back(int(i));
     }
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        pending.push_back({*root, -1});
+        pending.push_back({*root, -1, false});
 
     newIndex.assign(model.nodes.size(), -1);
     while (!pending.empty()) {
-        const auto [old, parent] = pending.back();
+        const auto [old, parent, hiddenAbove] = pending.back();
         pending.pop_back();
         if (newIndex[size_t(old)] != -1) return fmt::format("node {} is listed twice in its scene", old);
         const tinygltf::Node& n = model.nodes[size_t(old)];
-        newIndex[size_t(old)] = int32_t(asset.nodes.size());
+        const int32_t index = int32_t(asset.nodes.size());
+        const bool hidden = hiddenAbove || isHidden(n);
+        newIndex[size_t(old)] = index;
         asset.nodes.push_back({.name = n.name,
                                .parent = parent,
                                .depth = parent < 0 ? 0 : asset.nodes[size_t(parent)].depth + 1,
                                .local = transformOf(n),
-                               .mesh = n.mesh,
-                               .light = lightOf(n),
+                               .mesh = hidden || isInstanced(n) ? -1 : meshOfNode[size_t(old)],
+                               .light = hidden ? -1 : lightOf(n),
                                .camera = n.camera,
                                .skin = n.skin,
                                .extras = extrasOf(n.extras)});
         for (auto child = n.children.rbegin(); child != n.children.rend(); ++child)
-            pending.push_back({*child, newIndex[size_t(old)]});
+            pending.push_back({*child, index, hidden});
+        if (isInstanced(n) && n.mesh >= 0 && !hidden)
+            if (Fault f = addInstances(model, n, index, meshOfNode[size_t(old)], limits, asset)) return f;
     }
     if (Fault f = checkPlaces(asset)) return f;
     for (const tinygltf::Light& l : model.lights)

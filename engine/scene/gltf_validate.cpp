@@ -9,9 +9,9 @@
 namespace ag::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 6> kSupported = {
-    "KHR_lights_punctual",    "KHR_texture_transform", "KHR_materials_emissive_strength",
-    "KHR_materials_specular", "KHR_materials_ior",     "KHR_materials_unlit"};
+bool usesExtension(const tinygltf::Model& model, std::string_view name) {
+    return std::ranges::find(model.extensionsUsed, name) != model.extensionsUsed.end();
+}
 
 template <class T>
 bool inside(int index, const std::vector<T>& list) {
@@ -116,7 +116,22 @@ Fault checkAccessors(const tinygltf::Model& model, const ImportLimits& limits) {
     return std::nullopt;
 }
 
-Fault checkPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p, const std::string& what) {
+// Morph targets add three numbers a vertex.
+Fault checkTargets(const tinygltf::Model& model, const tinygltf::Primitive& p, uint64_t vertices,
+                   const std::string& what) {
+    for (const auto& target : p.targets)
+        for (const auto& [name, index] : target) {
+            if (!inside(index, model.accessors))
+                return fmt::format("{} names accessor {} for a morph target, which does not exist", what,
+                                   index);
+            const tinygltf::Accessor& a = model.accessors[size_t(index)];
+            if (a.count != vertices) return what + " has a morph target of another length than its positions";
+        }
+    return std::nullopt;
+}
+
+Fault checkPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p, bool quantized,
+                     const std::string& what) {
     if (!insideOrNone(p.indices, model.accessors))
         return fmt::format("{} names accessor {}, which does not exist", what, p.indices);
     if (!insideOrNone(p.material, model.materials))
@@ -134,8 +149,9 @@ Fault checkPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p,
     const auto position = p.attributes.find("POSITION");
     if (position == p.attributes.end()) return what + " has no positions";
     const tinygltf::Accessor& a = model.accessors[size_t(position->second)];
-    if (a.type != TINYGLTF_TYPE_VEC3 || a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+    if (a.type != TINYGLTF_TYPE_VEC3 || (a.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !quantized))
         return what + " has positions that are not three floats";
+    if (Fault f = checkTargets(model, p, a.count, what)) return f;
     if (p.indices < 0) return std::nullopt;
     const tinygltf::Accessor& i = model.accessors[size_t(p.indices)];
     const bool whole = i.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
@@ -148,20 +164,30 @@ Fault checkPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& p,
 
 // Summed up before anything is read: primitives may share an accessor, so that a small file asks for much.
 Fault checkMeshes(const tinygltf::Model& model, const ImportLimits& limits) {
-    uint64_t vertices = 0, indices = 0;
+    uint64_t vertices = 0, indices = 0, moved = 0;  // by morph targets
+    const bool quantized = usesExtension(model, "KHR_mesh_quantization");
+    // Of each mesh: one, and one a node that bends its own.
+    std::vector<uint64_t> copies(model.meshes.size(), 1);
+    for (const tinygltf::Node& n : model.nodes)
+        if (inside(n.mesh, model.meshes)) copies[size_t(n.mesh)] += hasOwnMorph(model, n);
     for (size_t m = 0; m < model.meshes.size(); ++m)
         for (size_t i = 0; i < model.meshes[m].primitives.size(); ++i) {
             const tinygltf::Primitive& p = model.meshes[m].primitives[i];
-            if (Fault f = checkPrimitive(model, p, fmt::format("mesh {} primitive {}", m, i))) return f;
+            if (Fault f = checkPrimitive(model, p, quantized, fmt::format("mesh {} primitive {}", m, i)))
+                return f;
             const uint64_t own = model.accessors[size_t(p.attributes.at("POSITION"))].count;
             const uint64_t named = p.indices < 0 ? own : model.accessors[size_t(p.indices)].count;
             const bool shared =
                 p.mode == TINYGLTF_MODE_TRIANGLE_STRIP || p.mode == TINYGLTF_MODE_TRIANGLE_FAN;
             const uint64_t listed = shared ? 3 * named : named;
-            indices += listed;
-            vertices += p.attributes.contains("NORMAL") ? own : std::max(own, listed);  // flat: one a corner
+            indices += copies[m] * listed;
+            // Flat: one a corner. An empty one is work, too.
+            const uint64_t drawn = p.attributes.contains("NORMAL") ? own : std::max(own, listed);
+            vertices += copies[m] * std::max<uint64_t>(drawn, 1);
             if (vertices > limits.vertices || indices > limits.indices)
                 return "it has more vertices or indices than the limit";
+            moved += copies[m] * own * p.targets.size();
+            if (moved > limits.vertices) return "its morph targets move more vertices than the limit";
         }
     return std::nullopt;
 }
@@ -170,9 +196,19 @@ Fault checkTexture(const tinygltf::Model& model, int texture, size_t material) {
     if (texture == -1) return std::nullopt;
     if (!inside(texture, model.textures))
         return fmt::format("material {} names texture {}, which does not exist", material, texture);
-    if (!inside(model.textures[size_t(texture)].source, model.images))
-        return fmt::format("texture {} names image {}, which does not exist", texture,
-                           model.textures[size_t(texture)].source);
+    const tinygltf::Texture& t = model.textures[size_t(texture)];
+    const auto named = [&](const char* extension) {
+        const auto found = t.extensions.find(extension);
+        return found == t.extensions.end() ? -1.0 : numberOf(found->second, "source", -1);
+    };
+    bool any = false;
+    for (const double source : {double(t.source), named("EXT_texture_webp"), named("KHR_texture_basisu")}) {
+        if (source == -1) continue;
+        if (!(source >= 0 && source < double(model.images.size())))
+            return fmt::format("texture {} names image {}, which does not exist", texture, source);
+        any = true;
+    }
+    if (!any) return fmt::format("texture {} names no image", texture);
     return std::nullopt;
 }
 
@@ -259,6 +295,7 @@ Fault checkImages(const tinygltf::Model& model, const ImportLimits& limits) {
     uint64_t texels = 0;
     for (size_t i = 0; i < model.images.size(); ++i) {
         const tinygltf::Image& image = model.images[i];
+        if (isSkippedImage(image)) continue;
         const std::string name =
             image.uri.empty() ? fmt::format("image {}", i) : fmt::format("image {} ({})", i, image.uri);
         if (image.width <= 0 || image.height <= 0 || image.image.empty())
@@ -281,7 +318,7 @@ Fault validate(const tinygltf::Model& model, const ImportLimits& limits) {
     if (model.asset.version.rfind("2", 0) != 0)
         return fmt::format("its version is '{}', not 2.x", model.asset.version);
     for (const std::string& name : model.extensionsRequired)
-        if (std::ranges::find(kSupported, name) == kSupported.end())
+        if (!canRequire(name))
             return fmt::format("it requires the extension {}, which is not supported", name);
     if (Fault f = checkViews(model)) return f;
     if (Fault f = checkAccessors(model, limits)) return f;

@@ -21,10 +21,11 @@
 
 namespace ag {
 
-struct VertexAttributes {  // 36 bytes: gpu::VertexLayout::kPositionsAndAttributes, binding 1
+struct VertexAttributes {  // 40 bytes: gpu::VertexLayout::kPositionsAndAttributes, binding 1
     glm::vec3 normal{0, 1, 0};
     glm::vec4 tangent{1, 0, 0, 1};  // w: handedness; all zero: derive it in the shader
     glm::vec2 uv{0};
+    uint32_t color = ~0u;  // linear, factor of the base colour: A2B10G10R10, white; the alpha is not used
 };
 
 // By how much which joints of a skinned mesh move a vertex.
@@ -62,6 +63,7 @@ struct Material {
     float alphaCutoff = 0.5f;
     AlphaMode alphaMode = AlphaMode::kOpaque;
     bool doubleSided = false;
+    bool vertexColors = false;  // its vertices have colours
     TextureClass textureClass = TextureClass::kNone;
     // Layers in the arrays of the class; -1: none.
     int32_t baseColorLayer = -1;                // in the sRGB array

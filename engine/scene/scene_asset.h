@@ -73,8 +73,19 @@ struct SceneLight {  // KHR_lights_punctual; shines along the node's -Z
 
 struct SceneCamera {  // looks along the node's -Z
     std::string name;
-    float verticalFov = 0.8f;  // radians
-    float near = 0.05f;        // m
+    float verticalFov = 0.8f;      // radians
+    float near = 0.05f;            // m
+    float orthographicHeight = 0;  // m, of a picture without perspective; 0: it has one
+};
+
+enum class FeatureSupport : uint32_t { kUsed, kApproximated, kNotSupported };
+
+// One thing that a file asks for, and what becomes of it.
+struct SceneFeature {
+    std::string name;   // of the extension, or in plain words
+    uint64_t uses = 0;  // how often the file asks for it
+    FeatureSupport support = FeatureSupport::kUsed;
+    std::string note;  // how it is approximated, or what is missing without it
 };
 
 struct SceneSkin {
@@ -111,7 +122,8 @@ struct SceneAsset {
     std::vector<SceneCamera> cameras;
     std::vector<SceneSkin> skins;
     std::vector<SceneAnimation> animations;
-    std::vector<std::string> warnings;  // one sentence each
+    std::vector<std::string> warnings;   // one sentence each
+    std::vector<SceneFeature> features;  // of the file it came from
 };
 
 uint64_t triangleCount(const SceneAsset& asset);  // as drawn: counted for every instance

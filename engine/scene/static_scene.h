@@ -29,6 +29,10 @@ glm::dvec3 likelyView(const SceneAsset& asset);
 CameraPose cameraOf(const SceneAsset& asset, size_t index);
 CameraPose framingCamera(const Bounds& bounds);
 
+// Across the picture, unit. Who looks along `up` itself has tilted the head down or up from looking along -Z,
+// as a glTF camera does.
+glm::vec3 rightOf(glm::vec3 forward, glm::vec3 up);
+
 // Instances, lights (the strongest eight bounce) and bounds, about an origin. The asset must outlive the
 // result.
 RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld = glm::dvec3(0));

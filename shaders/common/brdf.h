@@ -18,7 +18,7 @@ AG_FUNCTION vec3 specularF0(vec3 baseColor, float metallic, float specular) {
 
 // And at grazing angles.
 AG_FUNCTION float specularF90(float metallic, float specular) {
-    return mix(specular, 1.0f, metallic);
+    return mix(min(specular, 1.0f), 1.0f, metallic);
 }
 
 AG_FUNCTION vec3 fresnelSchlick(vec3 f0, vec3 f90, float cosine) {

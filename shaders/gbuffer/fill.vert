@@ -12,6 +12,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
+layout(location = 4) in vec4 color;
 
 invariant gl_Position;  // what moved is drawn again at equal depth
 layout(location = 0) out vec3 outPosition;
@@ -19,6 +20,7 @@ layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec4 outTangent;
 layout(location = 3) out vec2 outUv;
 layout(location = 4) flat out uint outMaterial;
+layout(location = 5) out vec3 outColor;
 
 void main() {
     InstanceTransform t = fetchInstance(drawnInstance());
@@ -27,5 +29,6 @@ void main() {
     outTangent = vec4(transformDirection(t, tangent.xyz), tangent.w);
     outUv = uv;
     outMaterial = t.material;
+    outColor = color.rgb;
     gl_Position = push.clipFromWorld * vec4(outPosition, 1.0);
 }

@@ -9,6 +9,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) flat in uint material;
+layout(location = 5) in vec3 color;
 
 layout(location = 0) out vec4 outNormal;  // xyz: unit; w: roughness
 layout(location = 1) out vec4 outAlbedo;  // rgb: diffuse albedo; w: metallic
@@ -24,7 +25,7 @@ layout(location = 2) out vec4 outReflectance;  // rgb: head on; w: at grazing an
 #endif
 
 void main() {
-    SurfaceMaterial m = fetchMaterial(material, uv);
+    SurfaceMaterial m = tintedMaterial(material, uv, color);
     vec3 n = unitNormal(normal);
     if (!gl_FrontFacing) n = -n;
     if (kNormalMaps) n = bentNormal(m, position, n, tangent);

@@ -11,12 +11,13 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 layout(location = 4) flat in uint material;
+layout(location = 5) in vec3 color;
 
 layout(location = 0) out vec4 outNormal;
 layout(location = 1) out vec4 outAlbedo;
 
 void main() {
-    SurfaceMaterial m = fetchMaterial(material, uv);
+    SurfaceMaterial m = tintedMaterial(material, uv, color);
     vec3 n = unitNormal(normal);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
     outAlbedo = vec4(bounceAlbedo(material, m), 1.0);

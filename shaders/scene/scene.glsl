@@ -59,6 +59,7 @@ int drawnInstance() { return int(fetchTexel(drawnRows, gl_InstanceIndex).x); }
 layout(constant_id = 0) const uint kTextureClass = 0;  // TextureClass: 0 means no texture at all
 layout(constant_id = 1) const bool kAlphaMask = false;
 layout(constant_id = 2) const bool kNormalMaps = false;
+layout(constant_id = 3) const bool kVertexColors = false;
 
 layout(set = 0, binding = 1) VEC4_TEXELS(materials);
 layout(set = 0, binding = 2) uniform sampler2DArray srgb256;
@@ -125,6 +126,13 @@ SurfaceMaterial fetchMaterial(uint index, vec2 uv) {
         m.roughness *= m.layers.w < 0 ? 1.0 : metallicRoughness.g;
     }
     if (kAlphaMask && m.baseColor.a < emissiveCutoff.w) discard;
+    return m;
+}
+
+// With the colours of the vertices about it.
+SurfaceMaterial tintedMaterial(uint index, vec2 uv, vec3 color) {
+    SurfaceMaterial m = fetchMaterial(index, uv);
+    if (kVertexColors) m.baseColor.rgb *= color;
     return m;
 }
 

@@ -26,6 +26,7 @@ struct VertexRow {  // all but the position
     vec3 normal;
     vec4 tangent;
     vec2 uv;
+    uint color;
 };
 
 #ifdef __cplusplus

@@ -156,7 +156,9 @@ TEST(SkyLight, AStillFrameComesToRestAndSkippingChangesNoBit) {
         for (int i = 0; i < 60; ++i)
             b.frame();
         images[skip] = readImage(b.renderer, b.last.outputs.radiance);
-        if (skip) EXPECT_EQ(b.passesRun(), 0);
+        if (skip) {
+            EXPECT_EQ(b.passesRun(), 0);
+        }
     }
     EXPECT_EQ(images[0].pixels, images[1].pixels);
 }

@@ -27,6 +27,11 @@ glm::vec3 cameraDirection(const RenderCamera& camera, glm::uvec2 size, glm::vec2
     return glm::normalize(glm::vec3(h) / h.w - camera.position);
 }
 
+// Where a ray of the picture begins: at the near plane, before which nothing is drawn.
+glm::vec3 nearPoint(const RenderCamera& camera, glm::vec3 direction) {
+    return camera.position + direction * (camera.near / glm::dot(direction, camera.forward));
+}
+
 // The first surfaces along rays from a camera, passing single-sided ones from behind; bits of the lanes that
 // see one.
 uint32_t seeSurfaces(const RayScene& scene, const RayLanes& rays, Surface* surfaces, uint64_t& rayCount) {
@@ -41,7 +46,7 @@ uint32_t seeSurfaces(const RayScene& scene, const RayLanes& rays, Surface* surfa
             if (s.hidden)
                 return onward.set(i, s.position + rays.direction[i] * scene.offset(), rays.direction[i],
                                   INFINITY);
-            s.distance = glm::distance(rays.origin[i], s.position);
+            s.distance = glm::distance(scene.scene().camera.position, s.position);
             scene.resolve(s);
             seen |= 1u << i;
         });
@@ -177,7 +182,7 @@ class PixelTracer {
         for (uint32_t s = 0; s < count; ++s) {
             const glm::vec2 offset = filterOffset(settings_.filter, evenPair(first + s, shift).place);
             const glm::vec3 direction = cameraDirection(camera, hits_.size, glm::vec2(at) + 0.5f + offset);
-            rays.set(s, camera.position, direction, INFINITY);
+            rays.set(s, nearPoint(camera, direction), direction, INFINITY);
             toViewer[s] = -direction;
         }
         const uint32_t seen = seeSurfaces(scene_, rays, seen_, rays_);
@@ -248,7 +253,7 @@ void traceFirstHits(const RayScene& scene, const PathSettings& settings, const L
             const size_t i = size_t(y) * size.x + x;
             hits.directions[i] = cameraDirection(camera, size, glm::vec2(x, y) + 0.5f);
             RayLanes ray;
-            ray.set(0, camera.position, hits.directions[i], INFINITY);
+            ray.set(0, nearPoint(camera, hits.directions[i]), hits.directions[i], INFINITY);
             Surface& surface = hits.surfaces[i];
             if (!seeSurfaces(scene, ray, &surface, count)) {
                 surface.distance = 0;

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
 #include "common/brdf.h"
 #include "common/tonemap.h"
@@ -111,6 +112,14 @@ glm::vec2 RayScene::uvAt(const Part& part, uint32_t triangle, float u, float v) 
     const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
     const VertexAttributes* a = part.vertices.attributes;
     return a[i[0]].uv * (1 - u - v) + a[i[1]].uv * u + a[i[2]].uv * v;
+}
+
+glm::vec3 RayScene::colorAt(const Part& part, uint32_t triangle, float u, float v) const {
+    const uint32_t* i = &scene_.geometry->indices[part.primitive->firstIndex + 3 * triangle];
+    const auto color = [&](uint32_t corner) {
+        return glm::vec3(glm::unpackUnorm3x10_1x2(part.vertices.attributes[i[corner]].color));
+    };
+    return color(0) * (1 - u - v) + color(1) * u + color(2) * v;
 }
 
 const Material& RayScene::materialOf(uint32_t part) const {
@@ -232,6 +241,7 @@ void RayScene::resolve(Surface& s) const {
         s.roughness *= mr.y;
         s.emissive *= glm::vec3(sampleTexture(g, m, m.emissiveLayer, uv, true));
     }
+    if (m.vertexColors) s.baseColor *= colorAt(part, s.triangle, s.u, s.v);
     s.albedo = io::diffuseAlbedo(s.baseColor, s.metallic);
 }
 

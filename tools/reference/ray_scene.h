@@ -102,6 +102,7 @@ class RayScene {
                  Surface& s) const;
     std::array<glm::vec3, 3> cornersOf(const Part& part, uint32_t triangle) const;
     glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
+    glm::vec3 colorAt(const Part& part, uint32_t triangle, float u, float v) const;
     glm::vec3 shadingNormal(const Part& part, uint32_t triangle, float u, float v,
                             glm::vec3 geometricNormal) const;
     bool masked(const Part& part, uint32_t triangle, float u, float v) const;

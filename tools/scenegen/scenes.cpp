@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "common/false_color.h"
+#include "engine/core/near_name.h"
+#include "engine/core/safe_file.h"
 #include "engine/scene/gltf_import.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/figures.h"
@@ -296,16 +298,19 @@ bool isBuiltIn(std::string_view name) {
 
 Result<SceneAsset> buildScene(std::string_view name, uint32_t param) {
     const auto found = std::ranges::find(kScenes, name, &Entry::name);
-    if (found == kScenes.end())
-        return Error{fmt::format("there is no built-in scene named {} (there are: {})", name,
-                                 fmt::join(kNames, ", "))};
+    if (found == kScenes.end()) return Error{missingName("built-in scene", name, kNames)};
     if (found->mostParam > 0 && param > found->mostParam)
         return Error{fmt::format("scene {} takes a number up to {}, not {}", name, found->mostParam, param)};
     return found->build(param);
 }
 
 Result<SceneAsset> resolveScene(const std::string& nameOrPath, uint32_t param) {
-    return isBuiltIn(nameOrPath) ? buildScene(nameOrPath, param) : importGltf(nameOrPath);
+    if (isBuiltIn(nameOrPath)) return buildScene(nameOrPath, param);
+    const bool name = nameOrPath.find_first_of("./") == std::string::npos;
+    if (name && !fileExists(nameOrPath))
+        return Error{fmt::format("{}: the file does not exist, and {}", nameOrPath,
+                                 missingName("built-in scene", nameOrPath, kNames))};
+    return importGltf(nameOrPath);
 }
 
 }  // namespace ag::scenegen

@@ -15,12 +15,14 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
+layout(location = 4) in vec4 color;
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
 layout(location = 2) out vec2 outUv;
 layout(location = 3) flat out uint outMaterial;
 layout(location = 4) out vec3 outFromCluster;  // m, in its frame
+layout(location = 5) out vec3 outColor;
 
 const float kLeastDenominator = 0.1;  // behind the cluster, far outside the disk
 
@@ -31,6 +33,7 @@ void main() {
     outNormal = transformNormal(t, normal);
     outUv = uv;
     outMaterial = t.material;
+    outColor = color.rgb;
     vec3 d = outPosition - cluster.position, x, y;
     orthonormalBasis(cluster.normal, x, y);
     outFromCluster = vec3(dot(d, x), dot(d, y), dot(d, cluster.normal));
