@@ -8,6 +8,7 @@
 #include "engine/core/number_option.h"
 #include "engine/core/program.h"
 #include "engine/core/safe_file.h"
+#include "engine/core/spread_sets.h"
 #include "game/demo_options.h"
 #include "game/save_game.h"
 
@@ -130,7 +131,7 @@ int run(int argc, char** argv) {
     CLI::App program("Afterglow: a gallery in the dark", "afterglow-demo");
     addOptions(program, demo.options);
     try {
-        program.parse(argc, argv);
+        program.parse(reversedArguments({argv, size_t(argc)}));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return program.exit(error);
         return refuse(error.what());

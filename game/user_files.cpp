@@ -66,11 +66,6 @@ Status openFolder(const UserFiles& files) {
     return Ok{};
 }
 
-bool fileExists(const std::string& path) {
-    std::error_code error;
-    return std::filesystem::exists(path, error);
-}
-
 Result<UserSettings> loadUserSettings(const std::string& path) {
     const auto text = readFile(path);
     if (!text) return text.error();

@@ -34,6 +34,5 @@ struct UserFiles {
 Status openFolder(const UserFiles& files);
 Result<UserSettings> loadUserSettings(const std::string& path);
 Status saveUserSettings(const UserSettings& settings, const std::string& path);
-bool fileExists(const std::string& path);
 
 }  // namespace ag::game

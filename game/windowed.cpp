@@ -10,6 +10,7 @@
 
 #include "engine/app/debug_ui.h"
 #include "engine/app/imgui_pass.h"
+#include "engine/app/present.h"
 #include "engine/app/window.h"
 #include "engine/core/image.h"
 #include "engine/core/log.h"
@@ -20,7 +21,6 @@
 #include "game/frame_capture.h"
 #include "game/hud.h"
 #include "game/menu.h"
-#include "game/present.h"
 #include "game/save_game.h"
 #include "game/speaker.h"
 
@@ -35,12 +35,6 @@ constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more f
 constexpr double kCpuBudgetMs = 80, kGpuBudgetMs = 13;  // of a frame's passes, where none is given
 constexpr const char* kGoal = "Flowers open in light that has bounced.\nLight the walls, not the flowers.";
 constexpr double kSaveSeconds = 60;  // between saves without an occasion
-
-// Keys 1 to 9.
-constexpr std::array<render::Layer, 9> kKeyLayers = {
-    render::Layer::kFinal,      render::Layer::kDirect,   render::Layer::kBounce1,
-    render::Layer::kIrradiance, render::Layer::kAlbedo,   render::Layer::kNormal,
-    render::Layer::kRsm,        render::Layer::kClusters, render::Layer::kVals};
 
 class WindowedRun {
   public:
@@ -138,10 +132,8 @@ class WindowedRun {
         if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
         if (key == GLFW_KEY_F10) capture_.start(demo_);
         if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
-        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey) {
-            const render::Layer layer = kKeyLayers[size_t(key - GLFW_KEY_1)];
-            demo_.layer = layer == render::Layer::kFinal ? std::nullopt : std::optional(layer);
-        }
+        if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey)
+            demo_.layer = render::layerOfKey(key - GLFW_KEY_0);
     }
     void obey(MenuEvent event) {
         switch (event) {
@@ -285,11 +277,8 @@ class WindowedRun {
             },
             {.record =
                  [&](VkCommandBuffer commands) {
-                     presentImage(device_.vk(), commands, renderer_.graph().physical(shown_), *image,
-                                  swapchain_.size(), [&] {
-                                      imgui_.draw(commands, image->view, swapchain_.format(),
-                                                  swapchain_.size(), uint32_t(drawn_++ % 2));
-                                  });
+                     presentWithPanels(device_, commands, renderer_.graph().physical(shown_), swapchain_,
+                                       *image, imgui_, drawn_++);
                  },
              .wait = image->acquired,
              .signal = image->rendered});

@@ -8,6 +8,7 @@ cd "$(dirname "$0")/.."
 command -v clang++-16 >/dev/null || { echo "afterglow: fuzzing needs clang++-16 (Debian package clang-16)" >&2; exit 77; }
 targets=(gltf image replay row save settings table user world)
 share=$((${1:-600} / ${#targets[@]}))
+((share > 0)) || share=1  # none would be for ever
 
 mkdir -p build-fuzz/found
 fresh=()

@@ -12,12 +12,14 @@ void editSetting(const Setting& s) {
     if (bool* const* flag = std::get_if<bool*>(&s.value)) {
         ImGui::Checkbox(s.info.name.c_str(), *flag);
     } else if (float* const* number = std::get_if<float*>(&s.value)) {
-        ImGui::SliderFloat(s.info.name.c_str(), *number, float(s.info.min), float(s.info.max));
+        ImGui::SliderFloat(s.info.name.c_str(), *number, float(s.info.min), float(s.info.max), "%.3f",
+                           ImGuiSliderFlags_AlwaysClamp);
     } else if (uint32_t* const* value = std::get_if<uint32_t*>(&s.value)) {
         int edited = int(**value);
         if (s.info.choices.empty()) {
-            if (ImGui::SliderInt(s.info.name.c_str(), &edited, int(s.info.min), int(s.info.max)))
-                **value = uint32_t(std::clamp(edited, int(s.info.min), int(s.info.max)));
+            if (ImGui::SliderInt(s.info.name.c_str(), &edited, int(s.info.min), int(s.info.max), "%d",
+                                 ImGuiSliderFlags_AlwaysClamp))
+                **value = uint32_t(edited);
         } else if (ImGui::BeginCombo(s.info.name.c_str(), s.info.choices[**value].c_str())) {
             for (size_t i = 0; i < s.info.choices.size(); ++i)
                 if (ImGui::Selectable(s.info.choices[i].c_str(), i == **value)) **value = uint32_t(i);
@@ -91,6 +93,10 @@ DebugUi::DebugUi(GLFWwindow* window) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
     ImGui_ImplGlfw_InitForOther(window, true);
+}
+
+bool DebugUi::takesText() const {
+    return ImGui::GetIO().WantTextInput;
 }
 
 DebugUi::~DebugUi() {

@@ -184,4 +184,9 @@ Result<std::string> readFile(const std::string& path, uint64_t mostBytes) {
     return bytes;
 }
 
+bool fileExists(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::exists(path, error);
+}
+
 }  // namespace ag

@@ -27,4 +27,6 @@ constexpr uint64_t kMostFileBytes = uint64_t(64) << 20;
 // than `mostBytes`.
 Result<std::string> readFile(const std::string& path, uint64_t mostBytes = kMostFileBytes);
 
+bool fileExists(const std::string& path);
+
 }  // namespace ag

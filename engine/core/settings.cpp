@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/core/near_name.h"
 #include "engine/core/number.h"
 #include "engine/core/setting_fields.h"
 
@@ -32,14 +33,6 @@ std::string allowed(const Setting& s) {
     if (std::holds_alternative<bool*>(s.value)) return "on|off";
     if (!s.info.choices.empty()) return fmt::format("{}", fmt::join(s.info.choices, "|"));
     return fmt::format("{:g}..{:g}", s.info.min, s.info.max);
-}
-
-// Letters in common at the same places: enough to offer what was probably meant.
-size_t likeness(std::string_view a, std::string_view b) {
-    size_t same = 0;
-    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        same += a[i] == b[i];
-    return same;
 }
 
 }  // namespace
@@ -79,11 +72,14 @@ Status Settings::set(std::string_view assignment) {
     const std::string_view name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
     const auto found = std::ranges::find_if(settings_, [&](const Setting& s) { return fullName(s) == name; });
     if (found == settings_.end()) {
-        const auto near = std::ranges::max_element(
-            settings_, {}, [&](const Setting& s) { return likeness(fullName(s), name); });
-        return Error{near == settings_.end() ? fmt::format("there is no setting '{}'", name)
-                                             : fmt::format("there is no setting '{}'; did you mean '{}'?",
-                                                           name, fullName(*near))};
+        std::vector<std::string> names;
+        for (const Setting& known : settings_)
+            names.push_back(fullName(known));
+        const std::vector<std::string_view> views(names.begin(), names.end());
+        const std::string_view near = nearestName(name, views);
+        return Error{near.empty()
+                         ? fmt::format("there is no setting '{}' (--list-settings has them all)", name)
+                         : fmt::format("there is no setting '{}'; did you mean '{}'?", name, near)};
     }
     const std::optional<double> value = parseValue(*found, text);
     if (!value) return Error{fmt::format("setting {} takes {}, not '{}'", name, allowed(*found), text)};

@@ -203,6 +203,14 @@ std::optional<Layer> layerFromName(std::string_view name) {
     return std::nullopt;
 }
 
+std::optional<Layer> layerOfKey(int digit) {
+    constexpr std::array kOfKeys = {Layer::kFinal,      Layer::kDirect,   Layer::kBounce1,
+                                    Layer::kIrradiance, Layer::kAlbedo,   Layer::kNormal,
+                                    Layer::kRsm,        Layer::kClusters, Layer::kVals};
+    const Layer layer = kOfKeys.at(size_t(digit - 1));
+    return layer == Layer::kFinal ? std::nullopt : std::optional(layer);
+}
+
 bool showsGloss(Layer layer) {
     return layer == Layer::kFinal || layer == Layer::kRadiance;
 }

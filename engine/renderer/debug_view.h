@@ -38,6 +38,8 @@ struct LayerInfo {
 
 const LayerInfo& layerInfo(Layer layer);
 std::optional<Layer> layerFromName(std::string_view name);
+// That of a number key, 1 to 9; nothing: the picture itself.
+std::optional<Layer> layerOfKey(int digit);
 
 // Whether gloss is in it; the others are the same without, and cheaper.
 bool showsGloss(Layer layer);

@@ -4,6 +4,20 @@ source "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 
 expect 0 "Vulkan" "$bin/afterglow" info
 expect 0 "val_clustering.count" "$bin/afterglow" render --list-settings
+expect 2 "there is no sub-command 'rendr'; did you mean 'render'?" "$bin/afterglow" rendr cornell
+expect 2 "did you mean 'cornell'" "$bin/afterglow" render cornel -o "$work/a.png"
+expect 2 "did you mean 'afterglow'" "$bin/afterglow" render cornell -o "$work/a.png" --preset afterglw
+expect 2 "did you mean 'albedo'" "$bin/afterglow" render cornell -o "$work/a.png" --layer albeddo
+expect 2 "there is no setting 'composite.exposre'; did you mean 'composite.exposure'" "$bin/afterglow" render cornell \
+  -o "$work/a.png" --set engine.skip=off composite.exposre=1
+completed() {  # WORDS: what bash offers for the last of them
+  bash -c 'source <("$0" completion); COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _afterglow; echo "${COMPREPLY[*]}"' \
+    "$bin/afterglow" "$@"
+}
+[[ $(completed afterglow ren) == render ]] || fail "completion of ren gives: $(completed afterglow ren)"
+[[ $(completed afterglow render --preset hi) == high ]] || fail "completion of --preset hi gives: $(completed afterglow render --preset hi)"
+[[ $(completed afterglow render corn) == "cornell corner" ]] || fail "completion of corn gives: $(completed afterglow render corn)"
+[[ $(completed afterglow render --list) == --list-settings ]] || fail "completion of --list gives: $(completed afterglow render --list)"
 expect 2 "there is no layer 'colour'" "$bin/afterglow" render cornell -o "$work/a.png" --layer colour
 expect 2 "must end in .exr" "$bin/afterglow" render cornell -o "$work/a.jpg"
 expect 2 "does not exist" "$bin/afterglow" render /no/such.glb -o "$work/a.png"

@@ -2,32 +2,12 @@
 # The demo in a real window on a virtual display: the menu, walking, picking up a crate, panels, a capture, another size, hidden and
 # shown again, left for another window, quit from the menu; validation is silent, and the recording played again without
 # a window ends where the player did.
-set -u
-bin=$1
-work=$(mktemp -d)
-for tool in Xvfb xdotool; do
-  command -v $tool >/dev/null || { echo "FAILED: $tool is missing (see tools/test_packages.txt)"; exit 1; }
-done
-mkfifo "$work/display"
-Xvfb -displayfd 3 -screen 0 1024x768x24 3>"$work/display" >/dev/null 2>&1 &
-xvfb=$!
-read -r number <"$work/display"
-export DISPLAY=:$number
-finish() {
-  kill "$xvfb" 2>/dev/null
-  rm -rf "$work"
-}
-trap finish EXIT
+source "$(dirname "${BASH_SOURCE[0]}")/display.sh"
 
 start_demo() {
   "$bin/afterglow-demo" --size 320x180 --quality low --validate --user "$work/user" "$@" >"$work/log" 2>&1 &
   demo=$!
-  for _ in $(seq 100); do
-    window=$(xdotool search --name Afterglow 2>/dev/null | head -1)
-    [[ -n $window ]] && break
-    sleep 0.2
-  done
-  [[ -n ${window:-} ]] || { echo "FAILED: no window: $(cat "$work/log")"; exit 1; }
+  await_window || { echo "FAILED: no window: $(cat "$work/log")"; exit 1; }
   xdotool mousemove --window "$window" 300 170  # keys go to the window under the pointer; off the menu's lines
   sleep 2
 }

@@ -6,6 +6,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/log.h"
+#include "engine/core/near_name.h"
 #include "tools/bench/ladder.h"
 #include "tools/bench/measure.h"
 #include "tools/bench/path_tracing.h"
@@ -54,10 +55,10 @@ Result<std::vector<const bench::Technique*>> chosenTechniques(const std::vector<
     for (const std::string& name : names) {
         chosen.push_back(bench::findTechnique(name));
         if (chosen.back()) continue;
-        std::string known;
+        std::vector<std::string_view> known;
         for (const bench::Technique& t : bench::techniques())
-            known += (known.empty() ? "" : ", ") + std::string(t.name);
-        return Error{fmt::format("there is no technique '{}' (there are: {})", name, known)};
+            known.push_back(t.name);
+        return Error{missingName("technique", name, known)};
     }
     return chosen;
 }

@@ -11,7 +11,8 @@
 #include "engine/core/settings.h"
 #include "tools/reference/reference.h"
 #include "tools/workbench/commands.h"
-#include "tools/workbench/scene_options.h"
+#include "tools/workbench/render_setup.h"
+#include "tools/workbench/session.h"
 
 namespace ag::workbench {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 struct CaptureOptions {
     SceneOptions scene;
     std::string output;
-    std::string preset = "afterglow";
+    std::string preset, session;
     std::vector<std::string> assignments;
     uint32_t frames = 32, warmUp = 6;
     std::string walk;    // DX,DY,DZ
@@ -42,16 +43,10 @@ struct CapturePlan {
 Result<CapturePlan> readPlan(const CaptureOptions& o) {
     CapturePlan plan;
     capture::RecordSettings& settings = plan.settings;
-    if (!render::applyPreset(o.preset, settings.gi))
-        return Error{fmt::format("there is no preset '{}' (there are: {})", o.preset,
-                                 fmt::join(render::presetNames(), ", "))};
-    Settings registry;
-    registry.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
-                 &settings.graph.skip);
-    registry.add({"engine", "alias", 0, 0, "", "scratch images share memory"}, &settings.graph.alias);
-    render::registerSettings(registry, settings.gi);
-    for (const std::string& assignment : o.assignments)
-        if (const Status set = registry.set(assignment); !set) return set.error();
+    RenderSetup setup;
+    if (const Status set = setup.apply(o.preset, o.assignments); !set) return set.error();
+    settings.gi = setup.gi;
+    settings.graph = setup.graph;
     settings.frames = o.frames;
     settings.warmUp = o.warmUp;
     const auto walk = parseStep(o.walk);
@@ -144,14 +139,16 @@ Status checkOptions(const CaptureOptions& o) {
     const SceneOptions& s = o.scene;
     if (s.scene.empty()) return Error{"capture needs a SCENE"};
     if (o.output.empty()) return Error{"capture needs -o DIR"};
-    if (o.schedule &&
-        (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.hungLamps || s.noSceneLights))
+    if (o.schedule && (!s.suns.empty() || !s.points.empty() || !s.spots.empty() || s.hungLamps ||
+                       s.noSceneLights || s.lights))
         return Error{"--schedule takes the lights of the scene's file: leave the light options out"};
     return Ok{};
 }
 
-int runCapture(const CaptureOptions& o) {
+int runCapture(CaptureOptions o) {
     if (!o.diff.empty()) return runDiff(o);
+    if (const Status used = useSession(o.session, o.scene, o.preset, o.assignments); !used)
+        return refuse(used.error().message);
     if (const Status usable = checkOptions(o); !usable) return refuse(usable.error().message);
     auto plan = readPlan(o);
     if (!plan) return refuse(plan.error().message);
@@ -198,7 +195,8 @@ void addCaptureCommand(CLI::App& program, int& exitCode) {
         ->check(numberFrom(1, 1000))
         ->capture_default_str();
     command->add_option("--preset", o->preset, fmt::format("{}", fmt::join(render::presetNames(), ", ")))
-        ->capture_default_str();
+        ->default_str("afterglow");
+    command->add_option("--session", o->session, "what the viewer saved; other options go on top");
     command->add_option("--set", o->assignments, "group.name=value")->allow_extra_args(false);
     command->add_option("--walk", o->walk, "DX,DY,DZ, m the camera moves in each frame");
     command->add_option("--repeat", o->repeat,

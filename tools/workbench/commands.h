@@ -7,6 +7,7 @@
 namespace ag::workbench {
 
 void addInfoCommand(CLI::App& program, int& exitCode);
+void addViewCommand(CLI::App& program, int& exitCode);
 void addRenderCommand(CLI::App& program, int& exitCode);
 void addReferenceCommand(CLI::App& program, int& exitCode);
 void addSceneCommand(CLI::App& program, int& exitCode);
@@ -17,6 +18,8 @@ void addEcsBenchCommand(CLI::App& program, int& exitCode);
 void addSkippingCommand(CLI::App& program, int& exitCode);
 void addSweepCommand(CLI::App& program, int& exitCode);
 void addStressCommand(CLI::App& program, int& exitCode);
+
+void addCompletionCommand(CLI::App& program);
 
 // One sentence to stderr; returns 2.
 int refuse(const std::string& sentence);

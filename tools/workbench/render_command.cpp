@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 
+#include "engine/core/near_name.h"
 #include "engine/core/safe_file.h"
 #include "engine/core/settings.h"
 #include "engine/renderer/frame_budget.h"
@@ -13,17 +14,19 @@
 #include "tools/workbench/commands.h"
 #include "tools/workbench/layers.h"
 #include "tools/workbench/progress_line.h"
-#include "tools/workbench/scene_options.h"
+#include "tools/workbench/render_setup.h"
+#include "tools/workbench/session.h"
 
 namespace ag::workbench {
 namespace {
 
 struct RenderOptions {
     SceneOptions scene;
+    std::string session;
     std::string output;
     std::string layer;
     uint32_t frames = 64;
-    std::string preset = "afterglow";
+    std::string preset;
     std::vector<std::string> assignments;
     bool listSettings = false;
     bool times = false;
@@ -41,19 +44,6 @@ gpu::AsyncQueue asyncQueueOf(std::string_view name) {
     return name == "off" ? gpu::AsyncQueue::kOff : gpu::AsyncQueue::kOn;
 }
 
-struct RenderSettings {
-    render::RenderSettings gi;
-    FrameGraphOptions graph;
-    Settings registry;
-
-    RenderSettings() {
-        registry.add({"engine", "skip", 0, 0, "", "leave out passes whose inputs did not change"},
-                     &graph.skip);
-        registry.add({"engine", "alias", 0, 0, "", "scratch images share memory"}, &graph.alias);
-        render::registerSettings(registry, gi);
-    }
-};
-
 std::string layerOf(const RenderOptions& options) {
     if (!options.layer.empty()) return options.layer;
     return std::filesystem::path(options.output).extension() == ".png" ? "final" : "radiance";
@@ -61,7 +51,7 @@ std::string layerOf(const RenderOptions& options) {
 
 // Process CPU time of each pass once more with everything run, which also warms the numbers: the first frames
 // compile.
-void printTimes(render::Renderer& renderer, const LoadedScene& loaded, RenderSettings& settings) {
+void printTimes(render::Renderer& renderer, const LoadedScene& loaded, RenderSetup& settings) {
     FrameGraphOptions options = settings.graph;
     options.skip = false;
     options.timing = TimingMode::kProcessCpu;
@@ -89,7 +79,7 @@ void printTimes(render::Renderer& renderer, const LoadedScene& loaded, RenderSet
 }
 
 // The same while the camera walks: passes are skipped as ever, each has its mean over the frames.
-void printTimesOfWalk(render::Renderer& renderer, LoadedScene& loaded, RenderSettings& settings,
+void printTimesOfWalk(render::Renderer& renderer, LoadedScene& loaded, RenderSetup& settings,
                       glm::vec3 step) {
     FrameGraphOptions options = settings.graph;
     options.timing = TimingMode::kProcessCpu;
@@ -156,9 +146,7 @@ Result<AskedLayer> parseLayer(const RenderOptions& options) {
     const std::string text = layerOf(options);
     const LayerName name = splitLayerName(text);
     const auto layer = render::layerFromName(name.layer);
-    if (!layer)
-        return Error{
-            fmt::format("there is no layer '{}' (there are: {})", name.layer, fmt::join(layerNames(), ", "))};
+    if (!layer) return Error{missingName("layer", name.layer, layerNames())};
     if (name.asRadiance && !render::layerInfo(*layer).isIrradiance)
         return Error{fmt::format("layer {} is no irradiance that ':radiance' could be taken of", name.layer)};
     if (!name.known) return Error{fmt::format("a layer is NAME or NAME:radiance, not '{}'", text)};
@@ -200,7 +188,7 @@ struct Shown {
 class Rendering {
   public:
     Rendering(const RenderOptions& options, AskedLayer asked, gpu::Device& device, LoadedScene& loaded,
-              RenderSettings& settings)
+              RenderSetup& settings)
         : options_(options), asked_(asked), renderer_(device), loaded_(loaded), settings_(settings) {
         renderer_.load(loaded.asset->geometry);
     }
@@ -257,17 +245,17 @@ class Rendering {
     const AskedLayer asked_;
     render::Renderer renderer_;
     LoadedScene& loaded_;
-    RenderSettings& settings_;
+    RenderSetup& settings_;
     Shown shown_;
 };
 
-int runRender(const RenderOptions& options) {
-    RenderSettings settings;
-    if (!render::applyPreset(options.preset, settings.gi))
-        return refuse(fmt::format("there is no preset '{}' (there are: {})", options.preset,
-                                  fmt::join(render::presetNames(), ", ")));
-    for (const std::string& assignment : options.assignments)
-        if (const Status set = settings.registry.set(assignment); !set) return refuse(set.error().message);
+int runRender(RenderOptions options) {
+    if (const Status used = useSession(options.session, options.scene, options.preset, options.assignments);
+        !used)
+        return refuse(used.error().message);
+    RenderSetup settings;
+    if (const Status set = settings.apply(options.preset, options.assignments); !set)
+        return refuse(set.error().message);
     if (options.listSettings) {
         std::cout << settings.registry.table();
         return 0;
@@ -316,13 +304,14 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->footer(layerTable());
     command
         ->add_option("--preset", options->preset, fmt::format("{}", fmt::join(render::presetNames(), ", ")))
-        ->capture_default_str();
+        ->default_str("afterglow");
     command
         ->add_option("--budget-ms", options->budgetMs,
                      "choose the quality so that a frame's passes take about so long")
         ->check(numberFrom(0.1, 100000))
         ->excludes("--preset");
     command->add_option("--set", options->assignments, "group.name=value")->allow_extra_args(false);
+    command->add_option("--session", options->session, "what the viewer saved; other options go on top");
     command->add_flag("--list-settings", options->listSettings,
                       "every setting with default, range, unit, help");
     command->add_option("--walk", options->walk,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "engine/scene/animation.h"
 #include "engine/scene/light_check.h"
 #include "tools/scenegen/scenes.h"
+#include "tools/workbench/first_sight.h"
 #include "tools/workbench/hang_lamps.h"
 #include "tools/workbench/scene_library.h"
 
@@ -37,14 +39,29 @@ glm::dvec3 vec3At(const std::vector<double>& numbers, size_t first) {
     return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
+// A strength for all channels, or one for each.
+glm::vec3 colorAt(const std::vector<double>& numbers, size_t first, size_t most) {
+    const bool channels = numbers.size() >= first + 3 && most >= 3;
+    return channels ? glm::vec3(vec3At(numbers, first)) : glm::vec3(float(numbers[first]));
+}
+
+void addLights(const SceneOptions& options, RenderScene& scene) {
+    if (!options.lights) return;
+    for (const PlacedLight& placed : *options.lights) {
+        scene.lights.push_back(placed.light);
+        scene.lights.back().position = glm::vec3(placed.position - scene.originWorld);
+        scene.lights.back().id = 1 + scene.lights.size();
+    }
+}
+
 Status addSuns(const SceneOptions& options, RenderScene& scene) {
     for (const std::string& text : options.suns) {
-        const auto n = parseNumbers(text, 3, 4);
-        if (!n || glm::length(vec3At(*n, 0)) < 1e-6)
-            return Error{fmt::format("--sun takes DX,DY,DZ[,E], not '{}'", text)};
+        const auto n = parseNumbers(text, 3, 6);
+        if (!n || n->size() == 5 || glm::length(vec3At(*n, 0)) < 1e-6)
+            return Error{fmt::format("--sun takes DX,DY,DZ[,E] or DX,DY,DZ,R,G,B, not '{}'", text)};
         scene.lights.push_back({.kind = LightKind::kDirectional,
                                 .direction = glm::vec3(glm::normalize(vec3At(*n, 0))),
-                                .intensity = glm::vec3(n->size() > 3 ? float((*n)[3]) : 10.0f),
+                                .intensity = n->size() > 3 ? colorAt(*n, 3, 3) : glm::vec3(10),
                                 .bounces = true,
                                 .id = 1000 + scene.lights.size()});
     }
@@ -53,11 +70,12 @@ Status addSuns(const SceneOptions& options, RenderScene& scene) {
 
 Status addPoints(const SceneOptions& options, RenderScene& scene) {
     for (const std::string& text : options.points) {
-        const auto n = parseNumbers(text, 4, 4);
-        if (!n) return Error{fmt::format("--point takes X,Y,Z,I, not '{}'", text)};
+        const auto n = parseNumbers(text, 4, 6);
+        if (!n || n->size() == 5)
+            return Error{fmt::format("--point takes X,Y,Z,I or X,Y,Z,R,G,B, not '{}'", text)};
         scene.lights.push_back({.kind = LightKind::kPoint,
                                 .position = glm::vec3(vec3At(*n, 0) - scene.originWorld),
-                                .intensity = glm::vec3(float((*n)[3])),
+                                .intensity = colorAt(*n, 3, 3),
                                 .bounces = true,
                                 .id = 1000 + scene.lights.size()});
     }
@@ -66,17 +84,19 @@ Status addPoints(const SceneOptions& options, RenderScene& scene) {
 
 Status addSpots(const SceneOptions& options, RenderScene& scene) {
     for (const std::string& text : options.spots) {
-        const auto n = parseNumbers(text, 9, 9);
-        const bool fits = n && glm::length(vec3At(*n, 3)) > 1e-6 && (*n)[7] >= 0 && (*n)[7] <= (*n)[8] &&
-                          (*n)[8] > 0 && (*n)[8] < 90;
+        const auto n = parseNumbers(text, 9, 11);
+        const size_t cones = n ? n->size() - 2 : 0;  // where the two angles stand
+        const bool fits = n && n->size() != 10 && glm::length(vec3At(*n, 3)) > 1e-6 && (*n)[cones] >= 0 &&
+                          (*n)[cones] <= (*n)[cones + 1] && (*n)[cones + 1] > 0 && (*n)[cones + 1] < 90;
         if (!fits)
-            return Error{fmt::format("--spot takes X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG, not '{}'", text)};
+            return Error{fmt::format(
+                "--spot takes X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG or R,G,B for I, not '{}'", text)};
         scene.lights.push_back({.kind = LightKind::kSpot,
                                 .position = glm::vec3(vec3At(*n, 0) - scene.originWorld),
                                 .direction = glm::vec3(glm::normalize(vec3At(*n, 3))),
-                                .intensity = glm::vec3(float((*n)[6])),
-                                .innerConeAngle = float(glm::radians((*n)[7])),
-                                .outerConeAngle = float(glm::radians((*n)[8])),
+                                .intensity = colorAt(*n, 6, cones - 6),
+                                .innerConeAngle = float(glm::radians((*n)[cones])),
+                                .outerConeAngle = float(glm::radians((*n)[cones + 1])),
                                 .bounces = true,
                                 .id = 1000 + scene.lights.size()});
     }
@@ -116,7 +136,12 @@ Status choosePose(const SceneOptions& options, SceneAsset& asset) {
     return Ok{};
 }
 
-Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& asset) {
+bool hasCamera(const SceneAsset& asset) {
+    return std::ranges::any_of(asset.nodes, [](const SceneNode& n) { return n.camera >= 0; });
+}
+
+// Nothing: neither the options nor the scene say where from.
+Result<std::optional<CameraPose>> chooseCamera(const SceneOptions& options, const SceneAsset& asset) {
     if (!options.view.empty()) {
         const auto n = parseNumbers(options.view, 6, 7);
         if (!n)
@@ -129,14 +154,59 @@ Result<CameraPose> chooseCamera(const SceneOptions& options, const SceneAsset& a
         pose.position = position;
         pose.forward = glm::vec3(glm::normalize(target - position));
         pose.verticalFov = float(glm::radians(fov));
-        return pose;
+        return std::optional(pose);
     }
-    if (options.camera.empty()) return cameraOf(asset, 0);
+    if (options.camera.empty() && options.pose) return options.pose;
+    if (options.camera.empty()) return hasCamera(asset) ? std::optional(cameraOf(asset, 0)) : std::nullopt;
     for (size_t i = 0; i < asset.cameras.size(); ++i)
         if (asset.cameras[i].name == options.camera || std::to_string(i) == options.camera)
-            return cameraOf(asset, i);
+            return std::optional(cameraOf(asset, i));
     return Error{fmt::format("{} has no camera '{}' (it has {})", options.scene, options.camera,
                              asset.cameras.size())};
+}
+
+// What of a file is shown otherwise than it asks for, in one line; empty: nothing.
+std::string shortcomingsOf(const SceneAsset& asset) {
+    std::string approximated, missing;
+    for (const SceneFeature& f : asset.features) {
+        if (f.support == FeatureSupport::kUsed) continue;
+        std::string& list = f.support == FeatureSupport::kApproximated ? approximated : missing;
+        list += (list.empty() ? "" : ", ") + f.name;
+    }
+    std::string line = approximated.empty() ? "" : "approximated: " + approximated;
+    if (!missing.empty()) line += (line.empty() ? "" : "; ") + std::string("not supported: ") + missing;
+    return line;
+}
+
+// A sun where there is no light at all; where none would reach what is seen, lamps beside it.
+void addMissingLight(const SceneOptions& options, const FirstSight& sight, RenderScene& scene) {
+    constexpr float kLeastLit = 0.01f;
+    constexpr uint32_t kLamps = 6;
+    spdlog::warn("{} has no light: a sun is added", options.scene);
+    scene.lights.push_back(sight.sun);
+    if (sight.litShare >= kLeastLit) return;
+    const uint32_t hung = hangLamps(scene, kLamps);
+    for (RenderLight& light : scene.lights)
+        light.bounces = true;
+    if (hung > 0) spdlog::warn("{} is closed to the sun: {} lamps hang in it", options.scene, hung);
+}
+
+CameraPose poseAndLight(const SceneOptions& options, const std::optional<CameraPose>& given,
+                        MissingLight missing, LoadedScene& loaded) {
+    RenderScene& scene = loaded.scene;
+    const bool wanted = options.noSceneLights || options.lights;
+    const bool dark = scene.lights.empty() && !scene.sky && !hasEmissive(scene) && !wanted;
+    loaded.lightAdded = dark;
+    if (given && !dark) return *given;
+    const FirstSight sight = chooseFirstSight(scene, given, dark);
+    if (dark) addMissingLight(options, sight, scene);
+    if (dark && missing == MissingLight::kSunAndSky) {
+        constexpr float kSunOfClearSky = 100;  // W/m²
+        scene.lights.front().intensity = glm::vec3(kSunOfClearSky);
+        scene.sky = std::make_shared<const Sky>(analyticSky(sight.sun.direction, 3));
+        spdlog::warn("{} has no sky: a clear one is added", options.scene);
+    }
+    return sight.pose;
 }
 
 }  // namespace
@@ -151,11 +221,15 @@ void addSceneOptions(CLI::App& command, SceneOptions& o) {
     command.add_option("--size", o.size, "pixels, WxH")->capture_default_str();
     command.add_option("--camera", o.camera, "index or name of one of the scene's cameras");
     command.add_option("--view", o.view, "camera: PX,PY,PZ,TX,TY,TZ[,VFOV_DEG]");
-    command.add_option("--sun", o.suns, "add a sun: DX,DY,DZ[,E]: the way its light travels, W/m2")
+    command
+        .add_option("--sun", o.suns,
+                    "add a sun: DX,DY,DZ[,E] or DX,DY,DZ,R,G,B: the way its light travels, W/m2")
         ->allow_extra_args(false);
-    command.add_option("--point", o.points, "add a point light: X,Y,Z,I in m and W/sr")
+    command.add_option("--point", o.points, "add a point light: X,Y,Z,I or X,Y,Z,R,G,B in m and W/sr")
         ->allow_extra_args(false);
-    command.add_option("--spot", o.spots, "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG")
+    command
+        .add_option("--spot", o.spots,
+                    "add a spot: X,Y,Z,DX,DY,DZ,I,INNER_DEG,OUTER_DEG, or R,G,B in place of I")
         ->allow_extra_args(false);
     command.add_option(
         "--sky", o.sky,
@@ -173,7 +247,6 @@ Result<glm::vec3> parseStep(const std::string& text) {
     return glm::vec3(vec3At(*n, 0));
 }
 
-// A name from the library of scenes becomes its file, with its view and sun where none are given.
 Result<SceneOptions> withLibraryScene(SceneOptions options) {
     std::error_code ignored;
     if (scenegen::isBuiltIn(options.scene) || std::filesystem::exists(options.scene, ignored)) return options;
@@ -189,7 +262,7 @@ Result<SceneOptions> withLibraryScene(SceneOptions options) {
     return options;
 }
 
-Result<LoadedScene> loadScene(const SceneOptions& given) {
+Result<LoadedScene> loadScene(const SceneOptions& given, MissingLight missing) {
     const auto resolved = withLibraryScene(given);
     if (!resolved) return resolved.error();
     const SceneOptions& options = *resolved;
@@ -200,11 +273,16 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     LoadedScene loaded{.asset = std::make_unique<SceneAsset>(std::move(*asset)), .size = *size};
     for (const std::string& warning : loaded.asset->warnings)
         spdlog::warn("{}: {}", options.scene, warning);
+    if (const std::string lost = shortcomingsOf(*loaded.asset); !lost.empty())
+        spdlog::warn("{}: {} (afterglow info says more)", options.scene, lost);
     if (const Status posed = choosePose(options, *loaded.asset); !posed) return posed.error();
     const auto camera = chooseCamera(options, *loaded.asset);
     if (!camera) return camera.error();
-    loaded.scene = staticScene(*loaded.asset, camera->position);
-    if (options.noSceneLights) loaded.scene.lights.clear(), loaded.scene.sky = nullptr;
+    loaded.scene =
+        staticScene(*loaded.asset, camera->has_value() ? (*camera)->position : likelyView(*loaded.asset));
+    if (options.noSceneLights || options.lights) loaded.scene.lights.clear();
+    addLights(options, loaded.scene);
+    if (options.noSceneLights) loaded.scene.sky = nullptr;
     for (const Status& added :
          {addSuns(options, loaded.scene), addPoints(options, loaded.scene), addSpots(options, loaded.scene)})
         if (!added) return added.error();
@@ -219,16 +297,7 @@ Result<LoadedScene> loadScene(const SceneOptions& given) {
     if (const uint32_t hung = hangLamps(loaded.scene, options.hungLamps); hung < options.hungLamps)
         spdlog::warn("{} has free space for {} of {} punctual lights", options.scene, hung,
                      options.hungLamps);
-    const bool dark = loaded.scene.lights.empty() && !loaded.scene.sky && !hasEmissive(loaded.scene);
-    if (dark && !options.noSceneLights) {
-        spdlog::warn("{} has no light: a sun is added", options.scene);
-        loaded.scene.lights.push_back({.kind = LightKind::kDirectional,
-                                       .direction = glm::normalize(glm::vec3(0.25f, -1, 0.35f)),
-                                       .intensity = glm::vec3(10),
-                                       .bounces = true,
-                                       .id = 1});
-    }
-    setCamera(loaded.scene, *camera, *size);
+    setCamera(loaded.scene, poseAndLight(options, *camera, missing, loaded), *size);
     return loaded;
 }
 

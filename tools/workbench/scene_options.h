@@ -12,6 +12,11 @@
 
 namespace ag::workbench {
 
+struct PlacedLight {
+    RenderLight light;
+    glm::dvec3 position{0};  // m, in the world
+};
+
 struct SceneOptions {
     std::string scene;
     uint32_t param = 0;
@@ -25,6 +30,9 @@ struct SceneOptions {
     std::string sky;                  // COLOUR, FILE or DX,DY,DZ[,TURBIDITY]
     uint32_t hungLamps = 0;           // points of light in free space
     bool noSceneLights = false;
+    // Of a session: the scene's own lights as they were edited, and where it was seen from.
+    std::optional<std::vector<PlacedLight>> lights;
+    std::optional<CameraPose> pose;
 };
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);
@@ -33,10 +41,17 @@ struct LoadedScene {
     std::unique_ptr<SceneAsset> asset;  // stays in place: the scene points into it
     RenderScene scene;
     glm::uvec2 size{0};
+    bool lightAdded = false;  // there was none
 };
 
+// A name from the library of scenes becomes its file, with its view and sun where none are given.
+Result<SceneOptions> withLibraryScene(SceneOptions options);
+
+// What is added to a scene without any light.
+enum class MissingLight { kSun, kSunAndSky };
+
 // Everything the options say, ready to render; warnings are logged.
-Result<LoadedScene> loadScene(const SceneOptions& options);
+Result<LoadedScene> loadScene(const SceneOptions& options, MissingLight missing = MissingLight::kSun);
 
 // "0.1,0,0" in m; nothing for an empty text
 Result<glm::vec3> parseStep(const std::string& text);

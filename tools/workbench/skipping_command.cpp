@@ -2,6 +2,7 @@
 
 #include <iostream>
 
+#include "engine/core/near_name.h"
 #include "tools/bench/skipping.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/progress_line.h"
@@ -29,7 +30,7 @@ void printPasses(const bench::SceneCosts& costs) {
 int runSkipping(const SkippingArguments& o) {
     render::RenderSettings settings;
     if (!render::applyPreset(o.preset, settings))
-        return refuse(fmt::format("there is no preset '{}'", o.preset));
+        return refuse(missingName("preset", o.preset, render::presetNames()));
     if (const Status ready = prepareTextFiles({o.plot, o.markdown}); !ready)
         return refuse(ready.error().message);
     auto device = gpu::Device::create({});

@@ -1,8 +1,8 @@
-#include "game/present.h"
+#include "engine/app/present.h"
 
 #include "engine/gpu/barrier.h"
 
-namespace ag::game {
+namespace ag {
 namespace {
 
 void transition(const gpu::Functions& vk, VkCommandBuffer commands, VkImage image, VkImageLayout from,
@@ -33,4 +33,12 @@ void presentImage(const gpu::Functions& vk, VkCommandBuffer commands, const gpu:
                VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
-}  // namespace ag::game
+void presentWithPanels(const gpu::Device& device, VkCommandBuffer commands, const gpu::Image& from,
+                       const gpu::Swapchain& swapchain, const gpu::SwapchainImage& target, ImGuiPass& panels,
+                       uint64_t frame) {
+    presentImage(device.vk(), commands, from, target, swapchain.size(), [&] {
+        panels.draw(commands, target.view, swapchain.format(), swapchain.size(), uint32_t(frame % 2));
+    });
+}
+
+}  // namespace ag

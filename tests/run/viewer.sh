@@ -1,0 +1,131 @@
+#!/usr/bin/env bash
+# The viewer on a virtual display: it lights a file without light and says so, a recorded script gives the same picture
+# again, keys work, and a session saved with F5 is the same scene for `render`; validation is silent.
+source "$(dirname "${BASH_SOURCE[0]}")/display.sh"
+cd "$work" || exit 1
+
+fail() {
+  echo "FAILED: $1"
+  cat "$work/log"
+  exit 1
+}
+
+press_when_open() {  # KEYS...
+  await_window || fail "no window"
+  xdotool mousemove --window "$window" 150 80
+  sleep 3
+  for key in "$@"; do
+    xdotool key "$key"
+    sleep 0.7
+  done
+}
+
+run() {  # WHAT CODE ARGUMENTS...
+  local what=$1 expected=$2
+  shift 2
+  "$bin/afterglow" "$@" >"$work/log" 2>&1
+  local code=$?
+  [[ $code == "$expected" ]] || fail "$what: exit $code instead of $expected"
+}
+
+# A file without light or camera: both are chosen and said, and the picture is lit.
+python3 - <<'PYTHON'
+import base64, json, struct
+corners = [-1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1, -1, 2, -1, 1, 2, -1]
+faces = [0, 1, 2, 0, 2, 3, 3, 2, 5, 3, 5, 4]
+data = struct.pack("<18f12H", *corners, *faces)
+json.dump({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+    "materials": [{"doubleSided": True, "pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_sheen": {}}}], "extensionsUsed": ["KHR_materials_sheen"],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 72}, {"buffer": 0, "byteOffset": 72, "byteLength": 24}],
+    "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]},
+    open("dark.gltf", "w"))
+PYTHON
+run "a dark file" 0 view dark.gltf --size 160x90 --frames 40 --screenshot dark.png --validate
+for words in "has no light: a sun is added" "has no sky: a clear one is added" "not supported: KHR_materials_sheen"; do
+  grep -q "$words" "$work/log" || fail "nobody said '$words'"
+done
+run "its report" 0 info dark.gltf --json
+grep -q '"support": "not supported"' "$work/log" || fail "the report says nothing of sheen"
+run "a dark file by render" 0 render dark.gltf --size 160x90 --frames 8 --set val_shading.glossy=off -o dark.exr
+run "its truth" 0 reference dark.gltf --size 160x90 --bounces 1 --spp 64 --filter center -o truth.exr
+run "both see the same from the same place" 0 compare truth.exr dark.exr --max-rel-rmse 0.15
+run "the dark file from straight above" 0 reference dark.gltf --size 32x18 --spp 4 --view 0,5,0,0,0,0 -o above.exr
+
+# Its session is the same light elsewhere.
+"$bin/afterglow" view dark.gltf --size 160x90 --session dark.json --validate >"$work/log" 2>&1 &
+viewer=$!
+press_when_open F5 Escape
+wait "$viewer" || fail "the viewer ended with $?"
+run "the dark file's session" 0 render --session dark.json --size 160x90 --frames 8 -o dark_again.png
+grep -q "is added" "$work/log" && fail "the session does not keep the light that was added"
+
+# A script ends where it was recorded to: someone flies.
+"$bin/afterglow" view cornell --size 160x90 --frames 300 --record flight.replay --screenshot flown.png --validate >"$work/log" 2>&1 &
+viewer=$!
+press_when_open Tab
+xdotool keydown w
+sleep 0.3
+xdotool keyup w
+wait "$viewer" || fail "the recording viewer ended with $?"
+run "a script" 0 view cornell --size 160x90 --frames 300 --script flight.replay --screenshot played.png --validate
+run "no script" 0 view cornell --size 160x90 --frames 20 --screenshot still.png
+cmp -s flown.png still.png && fail "W did not move the camera"
+cmp -s flown.png played.png || fail "a script ends elsewhere than it was recorded to"
+
+# Keys: a layer, then the session is saved.
+"$bin/afterglow" view cornell --size 320x180 --point 0.1,0.5,0.3,2,1,0.5 --session saved.json --set composite.exposure=1 --validate >"$work/log" 2>&1 &
+viewer=$!
+press_when_open 2 5 1 F2 F2 o o p F5
+for _ in $(seq 50); do
+  [[ -f saved.json ]] && break
+  sleep 0.2
+done
+xdotool key Escape
+for _ in $(seq 100); do
+  kill -0 "$viewer" 2>/dev/null || break
+  sleep 0.2
+done
+kill -0 "$viewer" 2>/dev/null && { kill "$viewer"; fail "Esc did not close the viewer"; }
+wait "$viewer" || fail "the viewer ended with $?"
+[[ -f saved.json ]] || fail "F5 saved no session"
+
+# The session is the same scene elsewhere: its light, its view, its settings.
+run "the session" 0 render --session saved.json --size 64x36 --frames 8 --layer direct -o session.exr
+run "the same by options" 0 render cornell --point 0.1,0.5,0.3,2,1,0.5 --size 64x36 --frames 8 --layer direct -o options.exr
+run "the session is what was seen" 0 compare options.exr session.exr --max-rel-rmse 0.001
+run "a capture of the session" 0 capture --session saved.json --size 64x36 --frames 2 --warm-up 1 -o seen
+grep -q "composite.exposure=1" seen/report.html || fail "the capture does not use the session's settings"
+
+# Every field of a light is kept, and the eye and the camera as they were.
+cat >hand.json <<'JSON'
+{"scene": "cornell", "preset": "afterglow", "set": ["exposure.automatic=off"],
+ "camera": {"position": [0, 1, 0.9], "forward": [0, -1, 0], "up": [0, 0, -1], "vertical_fov": 0.9, "near": 0.3},
+ "lights": [{"kind": "spot", "position": [0, 1.9, 0], "direction": [0, -1, 0], "intensity": [3, 3, 3], "range": 1.5,
+   "inner_cone": 0, "outer_cone": 1.5707963705062866, "bounces": true, "casts_shadow": false}]}
+JSON
+cp hand.json again.json
+"$bin/afterglow" view --session again.json --size 160x90 --point 5,5,5,0.001 --validate >"$work/log" 2>&1 &
+viewer=$!
+press_when_open F5 Escape
+wait "$viewer" || fail "the viewer of a session by hand ended with $?"
+python3 - <<'PYTHON' || fail "the session is not what it was: $(cat again.json)"
+import json
+a, b = json.load(open("hand.json")), json.load(open("again.json"))
+same = lambda x, y: x == y or all(abs(i - j) < 1e-6 for i, j in zip(x, y)) if isinstance(x, list) else x == y or abs(x - y) < 1e-6
+assert all(same(a["camera"][k], b["camera"][k]) for k in a["camera"]), "camera"
+assert all(same(v, b["lights"][0][k]) for k, v in a["lights"][0].items() if k != "kind"), "lights"
+assert not any("automatic=on" in s or "tonemap" in s for s in b["set"]), "set"
+PYTHON
+run "the session by hand" 0 render --session again.json --size 64x36 --frames 4 -o hand.exr
+sed 's/"spot"/"moon"/' hand.json >broken.json
+run "a light of no kind" 2 render --session broken.json -o x.png
+sed 's/"forward": .0, -1, 0./"forward": [0, 0, 0]/' hand.json >broken.json
+run "a camera that looks nowhere" 2 render --session broken.json -o x.png
+echo '{"scene": 3}' >broken.json
+run "a broken session" 2 render --session broken.json -o x.png
+run "a session that is none" 2 view --session dark.png
+run "no scene" 2 view
+echo "passed"

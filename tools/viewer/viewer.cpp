@@ -1,0 +1,219 @@
+#define GLFW_INCLUDE_NONE
+#include "tools/viewer/viewer.h"
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "engine/app/debug_ui.h"
+#include "engine/app/imgui_pass.h"
+#include "engine/app/present.h"
+#include "engine/app/window.h"
+#include "engine/core/image.h"
+#include "engine/core/log.h"
+#include "engine/core/safe_file.h"
+#include "engine/gpu/swapchain.h"
+#include "tools/viewer/viewer_panel.h"
+
+namespace ag::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kShortestFrame = 1.0 / 144;  // s
+constexpr float kScriptStep = 1.0f / 60;      // s: what a frame of a script stands for
+constexpr float kLongestStep = 0.25f;         // s: a slower frame slows the camera
+
+class ViewerRun {
+  public:
+    ViewerRun(Viewing& viewing, const ViewerOptions& options, FunctionRef<Status(const Viewing&)> save,
+              Window& window, gpu::Device& device)
+        : viewing_(viewing),
+          options_(options),
+          save_(save),
+          window_(window),
+          device_(device),
+          swapchain_(device, window.framebufferSize()),
+          renderer_(device),
+          ui_(window.handle()),
+          imgui_(device, renderer_.pipelines()),
+          camera_(startAt(viewing.pose, viewing.scene.bounds)) {
+        renderer_.load(*viewing.scene.geometry);
+    }
+
+    // 0, or 2 after a sentence.
+    int loop() {
+        auto last = Clock::now();
+        for (uint64_t frame = 0; !window_.wantsToClose(); ++frame) {
+            window_.poll();
+            handleKeys();
+            const auto now = Clock::now();
+            const float elapsed = std::chrono::duration<float>(now - last).count();
+            last = now;
+            frameMs_ += (double(elapsed) * 1e3 - frameMs_) * 0.05;
+            moveCamera(frame, std::min(elapsed, kLongestStep));
+            if (!show()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            obey(std::exchange(chosen_, PanelEvent::kNone));
+            if (options_.frames && frame + 1 >= options_.frames) break;
+            const double shortest = options_.record.empty() ? kShortestFrame : double(kScriptStep);
+            std::this_thread::sleep_until(
+                now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(shortest)));
+        }
+        renderer_.waitIdle();
+        return finish();
+    }
+
+  private:
+    void handleKeys() {
+        for (const int key : window_.takePressedKeys()) {
+            if (ui_.takesText()) continue;  // it is typed into a field
+            if (key == GLFW_KEY_TAB) window_.captureCursor(!window_.cursorCaptured());
+            if (key == GLFW_KEY_ESCAPE) leaveOrClose();
+            if (key == GLFW_KEY_P) panel_.open = !panel_.open;
+            if (key == GLFW_KEY_O) camera_.orbits = !camera_.orbits;
+            if (key == GLFW_KEY_F) obey(PanelEvent::kFrameScene);
+            if (key == GLFW_KEY_F1) panels_.showSettings = !panels_.showSettings;
+            if (key == GLFW_KEY_F2) panels_.showPasses = !panels_.showPasses;
+            if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
+            if (key == GLFW_KEY_F5) obey(PanelEvent::kSaveSession);
+            if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
+            if (key == GLFW_KEY_F12) obey(PanelEvent::kScreenshot);
+            if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) panel_.layer = render::layerOfKey(key - GLFW_KEY_0);
+        }
+    }
+    void leaveOrClose() {
+        if (window_.cursorCaptured())
+            window_.captureCursor(false);
+        else
+            window_.close();
+    }
+
+    // What is recorded plays the same again.
+    bool keepsTime() const { return !options_.script.empty() || !options_.record.empty(); }
+    void moveCamera(uint64_t frame, float elapsed) {
+        const Input held = window_.takeInput(bindings_, double(elapsed));
+        const bool played = !options_.script.empty();
+        const Input input = !played                          ? held
+                            : frame < options_.script.size() ? options_.script[frame]
+                                                             : Input{};
+        viewer::moveCamera(camera_, input, keepsTime() ? kScriptStep : elapsed);
+        if (!options_.record.empty()) recorded_.push_back(input);
+    }
+
+    void obey(PanelEvent event) {
+        if (event == PanelEvent::kFrameScene) frameScene();
+        if (event == PanelEvent::kSaveSession) saveSession();
+        if (event == PanelEvent::kScreenshot) savePicture();
+    }
+    void frameScene() {
+        CameraPose pose = framingCamera(viewing_.scene.bounds);
+        pose.position += viewing_.scene.originWorld;
+        camera_ = startAt(pose, viewing_.scene.bounds);
+    }
+    void saveSession() {
+        const Status saved = save_(viewing_);
+        panel_.message = saved ? "saved " + options_.session : saved.error().message;
+    }
+    void savePicture() {
+        if (!shown_) return;
+        std::string path;
+        for (int i = 1; path.empty() || fileExists(path); ++i)
+            path = fmt::format("view-{:03}.png", i);
+        renderer_.waitIdle();
+        const Status saved = saveImage(render::readImage(renderer_, shown_), path);
+        panel_.message = saved ? "saved " + path : saved.error().message;
+    }
+
+    // False while there is nothing to show on (minimised).
+    bool show() {
+        const auto image = swapchain_.acquire(window_.framebufferSize());
+        if (!image) return false;
+        const glm::uvec2 size = glm::max(window_.framebufferSize(), glm::uvec2(16));
+        drawUi(size);
+        viewing_.pose = poseOf(camera_);
+        setCamera(viewing_.scene, viewing_.pose, size);
+        renderer_.render(
+            viewing_.scene, size, viewing_.gi, viewing_.graph,
+            [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
+                missing_ = panel_.layer && !render::hasLayer(frame, *panel_.layer);
+                shown_ = panel_.layer ? render::addLayerView(scope, view, frame, *panel_.layer, size,
+                                                             viewing_.gi.composite)
+                                      : frame.outputs.display;
+                scope.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+            },
+            {.record =
+                 [&](VkCommandBuffer commands) {
+                     presentWithPanels(device_, commands, renderer_.graph().physical(shown_), swapchain_,
+                                       *image, imgui_, drawn_++);
+                 },
+             .wait = image->acquired,
+             .signal = image->rendered});
+        swapchain_.present(*image);
+        return true;
+    }
+    void drawUi(glm::uvec2 size) {
+        ui_.build(panels_, viewing_.settings, renderer_.graph(), world_, statusLine(size), [&] {
+            if (panel_.open) chosen_ = drawPanel(panel_, viewing_, camera_);
+        });
+    }
+    std::string statusLine(glm::uvec2 size) const {
+        const glm::dvec3 p = camera_.position;
+        return fmt::format("{:.1f} ms  {:.1f}/s  {}x{}  {}  at {:.2f} {:.2f} {:.2f}{}", frameMs_,
+                           1000 / std::max(frameMs_, 1e-3), size.x, size.y, viewing_.preset, p.x, p.y, p.z,
+                           missing_ ? "\nthis preset or scene has no such layer" : "");
+    }
+
+    int finish() {
+        if (!options_.record.empty())
+            if (const Status kept = saveReplay(recorded_, options_.record); !kept) return refuse(kept);
+        if (options_.screenshot.empty() || !shown_) return 0;
+        const Status saved = saveImage(render::readImage(renderer_, shown_), options_.screenshot);
+        return saved ? 0 : refuse(saved);
+    }
+    static int refuse(const Status& status) {
+        spdlog::error("{}", status.error().message);
+        return 2;
+    }
+
+    Viewing& viewing_;
+    const ViewerOptions& options_;
+    FunctionRef<Status(const Viewing&)> save_;
+    Window& window_;
+    gpu::Device& device_;
+    gpu::Swapchain swapchain_;
+    render::Renderer renderer_;
+    DebugUi ui_;
+    ImGuiPass imgui_;
+    ViewCamera camera_;
+    const Bindings bindings_;
+    const World world_;  // of the panels: there is none
+    DebugUiState panels_{.showStatus = true};
+    PanelState panel_;
+    PanelEvent chosen_ = PanelEvent::kNone;
+    ImageHandle shown_;
+    std::vector<Input> recorded_;
+    double frameMs_ = 16;
+    bool missing_ = false;  // the layer that was asked for
+    uint64_t drawn_ = 0;
+};
+
+}  // namespace
+
+int runViewer(Viewing& viewing, const ViewerOptions& options, FunctionRef<Status(const Viewing&)> save) {
+    const auto say = [](const Error& error) { return spdlog::error("{}", error.message), 2; };
+    auto window = Window::open(options.title, options.size);
+    if (!window) return say(window.error());
+    auto surface = (*window)->surface();
+    if (!surface) return say(surface.error());
+    auto device = gpu::Device::create({.validation = options.validate, .window = *std::move(surface)});
+    if (!device) return say(device.error());
+    const int exitCode = ViewerRun(viewing, options, save, **window, **device).loop();
+    const int messages = (*device)->validationMessageCount();
+    device->reset();  // before the window whose surface it holds
+    return exitCode == 0 && messages > 0 ? 1 : exitCode;
+}
+
+}  // namespace ag::viewer

@@ -1,0 +1,41 @@
+// A scene in a window: a free camera, every layer, its lights and settings to edit.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/settings.h"
+#include "engine/gpu/device.h"
+#include "engine/renderer/renderer.h"
+#include "tools/viewer/view_camera.h"
+
+namespace ag::viewer {
+
+struct ViewerOptions {
+    std::string title;
+    glm::uvec2 size{640, 360};  // pixels, of the window
+    uint32_t frames = 0;        // leaves after so many; 0: when it is closed
+    std::string screenshot;     // PNG of the last frame
+    std::vector<Input> script;  // played in place of keys and mouse, one a frame of 1/60 s
+    std::string record;         // keeps what was pressed as such a script
+    std::string session;        // F5 saves into it
+    bool validate = false;
+};
+
+// What is shown; the viewer edits all of it.
+struct Viewing {
+    RenderScene& scene;
+    CameraPose pose;
+    render::RenderSettings& gi;
+    Settings& settings;
+    FrameGraphOptions& graph;
+    std::string preset;
+    bool lightsEdited = false;
+};
+
+// Until it is closed. `save`: a session, called on F5. Returns 0, 1 after a validation message, 2 after a
+// sentence on stderr.
+int runViewer(Viewing& viewing, const ViewerOptions& options, FunctionRef<Status(const Viewing&)> save);
+
+}  // namespace ag::viewer
