@@ -75,6 +75,17 @@ run "no script" 0 view cornell --size 160x90 --frames 20 --screenshot still.png
 cmp -s flown.png still.png && fail "W did not move the camera"
 cmp -s flown.png played.png || fail "a script ends elsewhere than it was recorded to"
 
+# Path tracing beside it: what it says is what `compare` says.
+run "live truth" 0 view cornell --size 64x36 --frames 40 --truth live --truth-samples 16 --validate
+cp "$work/log" said
+run "its pictures" 0 compare live_1.exr live_2.exr live_ours.exr
+for number in rel_rmse mean_ratio tone_rmse; do
+  live=$(sed -n "s/^$number //p" said)
+  compared=$(sed -n "s/.*\"$number\": \([^,]*\),*/\1/p" "$work/log")
+  awk "BEGIN {exit !($live > 0 && ($live - $compared) ^ 2 <= (0.01 * $compared) ^ 2)}" ||
+    fail "$number is $live in the viewer, $compared by compare"
+done
+
 # Keys: a layer, then the session is saved.
 "$bin/afterglow" view cornell --size 320x180 --point 0.1,0.5,0.3,2,1,0.5 --session saved.json --set composite.exposure=1 --validate >"$work/log" 2>&1 &
 viewer=$!

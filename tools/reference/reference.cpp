@@ -211,50 +211,86 @@ void teach(const RayScene& scene, const FirstHits& hits, const ReferenceSettings
 
 }  // namespace
 
+struct Refinement::Impl {
+    const RayScene& scene;
+    const ReferenceSettings settings;
+    JobRunner& runner;
+    FirstHits hits;
+    uint64_t rays = 0;  // before the halves'
+    std::optional<LitPoints> points;
+    std::optional<Half> halves[2];
+    double nextLesson = RayLanes::kCount, nextPlan = kSamplesToPlanBy;
+
+    double done() const { return halves[0]->sums().meanPaths(); }
+    void learn() {
+        if (!points || done() < nextLesson) return;
+        points->learn();
+        nextLesson = 2 * done();
+        if (done() >= kSamplesToLearnFrom) points->stopLearning();
+    }
+    // Each half by what the other found, so that they stay independent.
+    void plan() {
+        if (settings.method != Method::kPaths || done() < nextPlan) return;
+        halves[0]->planBy(*halves[1]);
+        halves[1]->planBy(*halves[0]);
+        nextPlan = 4 * done();
+    }
+};
+
+Refinement::Refinement(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
+                       JobRunner& runner)
+    : impl_(new Impl{scene, settings, runner, FirstHits(size)}) {
+    Impl& r = *impl_;
+    traceFirstHits(scene, r.settings.paths, {}, runner, r.hits, r.rays);
+    if (usesLitPoints(r.settings)) r.points.emplace(scene);
+    if (r.points) teach(scene, r.hits, r.settings, runner, *r.points, r.rays);
+    for (uint32_t i = 0; i < 2; ++i)
+        r.halves[i].emplace(scene, r.hits, r.settings, i);
+}
+
+Refinement::~Refinement() = default;
+
+bool Refinement::add(uint32_t count) {
+    Impl& r = *impl_;
+    const double before = r.done();
+    for (auto& half : r.halves)
+        half->add(std::min(count, RayLanes::kCount), r.points ? &*r.points : nullptr, r.runner);
+    if (r.done() == before) return false;
+    r.learn();
+    r.plan();
+    return true;
+}
+
+double Refinement::samplesOfHalf() const {
+    return impl_->done();
+}
+
+Reference Refinement::half(uint32_t index) const {
+    return assemble(impl_->scene, impl_->hits, impl_->halves[index]->sums(), impl_->settings.paths);
+}
+
+Reference Refinement::mean() const {
+    Reference out = meanOf(half(0), half(1), impl_->settings.layer);
+    const LightSums &a = impl_->halves[0]->sums(), &b = impl_->halves[1]->sums();
+    out.samples = uint32_t(std::lround(a.meanPaths() + b.meanPaths()));
+    out.rays = impl_->rays + a.rays + b.rays;
+    return out;
+}
+
 Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
                         JobRunner& runner, FunctionRef<void(double)> progress) {
-    const PathSettings& paths = settings.paths;
-    uint64_t rays = 0;
-    FirstHits hits(size);
-    traceFirstHits(scene, paths, {}, runner, hits, rays);
-    std::optional<LitPoints> points;
-    if (usesLitPoints(settings)) points.emplace(scene);
-    LitPoints* lit = points ? &*points : nullptr;
-    if (lit) teach(scene, hits, settings, runner, *lit, rays);
-    Half halves[2] = {{scene, hits, settings, 0}, {scene, hits, settings, 1}};
-    const auto result = [&] {
-        return meanOf(assemble(scene, hits, halves[0].sums(), paths),
-                      assemble(scene, hits, halves[1].sums(), paths), settings.layer);
-    };
+    Refinement picture(scene, size, settings, runner);
     const double target = samplesOfHalf(scene, settings);
-    double done = 0, nextCheck = 8, nextLesson = RayLanes::kCount, nextPlan = kSamplesToPlanBy;
-    while (done < target) {
-        const auto count = uint32_t(std::min(std::ceil(target - done), double(RayLanes::kCount)));
-        for (Half& half : halves)
-            half.add(count, lit, runner);
-        const double before = done;
-        done = halves[0].sums().meanPaths();
-        if (done == before) break;  // nothing to see
+    double done = 0, nextCheck = 8;
+    while (done < target &&
+           picture.add(uint32_t(std::min(std::ceil(target - done), double(RayLanes::kCount))))) {
+        done = picture.samplesOfHalf();
         progress(std::min(done / target, 1.0));
-        if (lit && done >= nextLesson) {
-            lit->learn();
-            nextLesson = 2 * done;
-            if (done >= kSamplesToLearnFrom) lit->stopLearning();
-        }
-        if (settings.method == Method::kPaths && done >= nextPlan) {
-            halves[0].planBy(halves[1]);
-            halves[1].planBy(halves[0]);
-            nextPlan = 4 * done;
-        }
-        if (settings.maxError > 0 && done >= nextCheck) {
-            if (result().noise < settings.maxError) break;
-            nextCheck = done + std::max(done / 2, 1.0);
-        }
+        if (settings.maxError <= 0 || done < nextCheck) continue;
+        if (picture.mean().noise < settings.maxError) break;
+        nextCheck = done + std::max(done / 2, 1.0);
     }
-    Reference out = result();
-    out.samples = uint32_t(std::lround(halves[0].sums().meanPaths() + halves[1].sums().meanPaths()));
-    out.rays = rays + halves[0].sums().rays + halves[1].sums().rays;
-    return out;
+    return picture.mean();
 }
 
 namespace {

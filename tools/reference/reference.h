@@ -1,6 +1,7 @@
 // The truth of a scene: all layers of one camera image, with their noise.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -38,6 +39,27 @@ struct Reference {
 const Image* layerOf(const Reference& reference, std::string_view name);
 // Fails with a sentence when a layer's name is unknown or has more bounces than are traced.
 Status checkLayer(std::string_view name, uint32_t bounces);
+
+// A reference that gets better as long as it is asked to: two halves of the picture, independent of each
+// other.
+class Refinement {
+  public:
+    // All must outlive this. Traces what the camera sees, and where light is worth looking for.
+    Refinement(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings, JobRunner& runner);
+    ~Refinement();
+    Refinement(const Refinement&) = delete;
+    Refinement& operator=(const Refinement&) = delete;
+
+    // `count` samples more for each half of the pixels that are due, eight at most. False: nothing is there.
+    bool add(uint32_t count);
+    double samplesOfHalf() const;  // a pixel, in the mean
+    Reference half(uint32_t index) const;
+    Reference mean() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 // `progress` is called now and then with the share that is done.
 Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,

@@ -42,6 +42,7 @@ class ViewerRun {
           imgui_(device, renderer_.pipelines()),
           camera_(startAt(viewing.pose, viewing.scene.bounds)) {
         renderer_.load(*viewing.scene.geometry);
+        panel_.truth.on = !options.truthStem.empty();
     }
 
     // 0, or 2 after a sentence.
@@ -57,7 +58,7 @@ class ViewerRun {
             moveCamera(frame, std::min(elapsed, kLongestStep));
             if (!show()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
             obey(std::exchange(chosen_, PanelEvent::kNone));
-            if (options_.frames && frame + 1 >= options_.frames) break;
+            if (options_.frames && frame + 1 >= options_.frames && truthIsDone()) break;
             const double shortest = options_.record.empty() ? kShortestFrame : double(kScriptStep);
             std::this_thread::sleep_until(
                 now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(shortest)));
@@ -72,6 +73,7 @@ class ViewerRun {
             if (ui_.takesText()) continue;  // it is typed into a field
             if (key == GLFW_KEY_TAB) window_.captureCursor(!window_.cursorCaptured());
             if (key == GLFW_KEY_ESCAPE) leaveOrClose();
+            if (key == GLFW_KEY_T) turnTruth();
             if (key == GLFW_KEY_P) panel_.open = !panel_.open;
             if (key == GLFW_KEY_O) camera_.orbits = !camera_.orbits;
             if (key == GLFW_KEY_F) obey(PanelEvent::kFrameScene);
@@ -83,6 +85,12 @@ class ViewerRun {
             if (key == GLFW_KEY_F12) obey(PanelEvent::kScreenshot);
             if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) panel_.layer = render::layerOfKey(key - GLFW_KEY_0);
         }
+    }
+    // Off, beside ours, the error.
+    void turnTruth() {
+        const bool error = panel_.truth.show == TruthShown::kError;
+        if (panel_.truth.on) panel_.truth.show = error ? TruthShown::kBeside : TruthShown::kError;
+        panel_.truth.on = !panel_.truth.on || !error;
     }
     void leaveOrClose() {
         if (window_.cursorCaptured())
@@ -135,13 +143,12 @@ class ViewerRun {
         drawUi(size);
         viewing_.pose = poseOf(camera_);
         setCamera(viewing_.scene, viewing_.pose, size);
+        const bool fresh = truth_.follow(viewing_.scene, size, panel_.truth, device_);
         renderer_.render(
             viewing_.scene, size, viewing_.gi, viewing_.graph,
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
                 missing_ = panel_.layer && !render::hasLayer(frame, *panel_.layer);
-                shown_ = panel_.layer ? render::addLayerView(scope, view, frame, *panel_.layer, size,
-                                                             viewing_.gi.composite)
-                                      : frame.outputs.display;
+                shown_ = addShown(scope, view, frame, size);
                 scope.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
             },
             {.record =
@@ -152,7 +159,20 @@ class ViewerRun {
              .wait = image->acquired,
              .signal = image->rendered});
         swapchain_.present(*image);
+        if (fresh) truth_.compare(renderer_);
+        panel_.truthNumbers = truth_.numbers();
         return true;
+    }
+    ImageHandle addShown(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
+                         glm::uvec2 size) {
+        if (panel_.layer)
+            return render::addLayerView(scope, view, frame, *panel_.layer, size, viewing_.gi.composite);
+        return truth_.add(scope, view, frame, viewing_.gi.composite, panel_.truth);
+    }
+
+    bool truthIsDone() const {
+        const TruthPicture* picture = truth_.picture();
+        return options_.truthStem.empty() || (picture && picture->samples >= options_.truthSamples);
     }
     void drawUi(glm::uvec2 size) {
         ui_.build(panels_, viewing_.settings, renderer_.graph(), world_, statusLine(size), [&] {
@@ -169,6 +189,11 @@ class ViewerRun {
     int finish() {
         if (!options_.record.empty())
             if (const Status kept = saveReplay(recorded_, options_.record); !kept) return refuse(kept);
+        if (!options_.truthStem.empty() && truth_.picture()) {
+            const auto said = truth_.save(renderer_, options_.truthStem);
+            if (!said) return refuse(said.error());
+            fmt::print("{}", *said);
+        }
         if (options_.screenshot.empty() || !shown_) return 0;
         const Status saved = saveImage(render::readImage(renderer_, shown_), options_.screenshot);
         return saved ? 0 : refuse(saved);
@@ -194,6 +219,7 @@ class ViewerRun {
     PanelState panel_;
     PanelEvent chosen_ = PanelEvent::kNone;
     ImageHandle shown_;
+    TruthView truth_;
     std::vector<Input> recorded_;
     double frameMs_ = 16;
     bool missing_ = false;  // the layer that was asked for

@@ -20,6 +20,10 @@ struct ViewerOptions {
     std::vector<Input> script;  // played in place of keys and mouse, one a frame of 1/60 s
     std::string record;         // keeps what was pressed as such a script
     std::string session;        // F5 saves into it
+    // Path tracing from the start; on leaving, after so many paths a pixel, its halves and our radiance are
+    // saved as STEM_1.exr, STEM_2.exr and STEM_ours.exr, and the error is printed. Empty: not.
+    std::string truthStem;
+    uint32_t truthSamples = 64;
     bool validate = false;
 };
 

@@ -58,6 +58,19 @@ void cameraFields(ViewCamera& camera) {
         camera.verticalFov = glm::radians(degrees);
 }
 
+void truthFields(PanelState& state) {
+    ImGui::Checkbox("path tracing beside it (T)", &state.truth.on);
+    if (!state.truth.on) return;
+    int show = int(state.truth.show);
+    ImGui::RadioButton("picture", &show, int(TruthShown::kBeside));
+    ImGui::SameLine();
+    ImGui::RadioButton("error", &show, int(TruthShown::kError));
+    state.truth.show = TruthShown(show);
+    if (state.truth.show == TruthShown::kBeside)
+        ImGui::SliderFloat("ours to here", &state.truth.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::TextUnformatted(state.truthNumbers.c_str());
+}
+
 bool strengthField(RenderLight& light) {
     float strength = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     glm::vec3 color = strength > 0 ? light.intensity / strength : glm::vec3(1);
@@ -153,6 +166,7 @@ PanelEvent drawPanel(PanelState& state, Viewing& v, ViewCamera& camera) {
     ImGui::Checkbox("automatic exposure", &v.gi.exposure.automatic);
     ImGui::SliderFloat("exposure, stops", &v.gi.composite.exposure, -10, 10, "%.1f",
                        ImGuiSliderFlags_AlwaysClamp);
+    truthFields(state);
     if (ImGui::CollapsingHeader("camera")) cameraFields(camera);
     if (ImGui::Button("whole scene (F)")) event = PanelEvent::kFrameScene;
     ImGui::SameLine();

@@ -1,6 +1,7 @@
-// The viewer's own panel: layer, preset, exposure, camera and the lights.
+// The viewer's own panel: layer, preset, exposure, path tracing, camera and the lights.
 #pragma once
 
+#include "tools/viewer/truth_view.h"
 #include "tools/viewer/viewer.h"
 
 namespace ag::viewer {
@@ -11,6 +12,8 @@ struct PanelState {
     bool open = true;
     std::optional<render::Layer> layer;  // none: the final picture
     std::string message;                 // of what was done last
+    TruthViewSettings truth;
+    std::string truthNumbers;  // of its newest picture
 };
 
 // Within an ImGui frame.

@@ -29,7 +29,7 @@ struct BenchOptions {
     std::string term;  // empty: each technique's own
     std::string cache = bench::defaultCacheFolder();
     uint32_t param = 0;
-    bool noFlicker = false, noPathTracing = false, again = false;
+    bool plain = false, noFlicker = false, noPathTracing = false, again = false;
     bench::MeasureOptions measure;
 };
 
@@ -223,8 +223,10 @@ int runBench(BenchOptions o) {
     std::vector<bench::Technique> ofTerm;
     for (const bench::Technique* t : *techniques)
         ofTerm.push_back(*t);
-    for (bench::Technique& t : ofTerm)
+    for (bench::Technique& t : ofTerm) {
         if (!o.term.empty()) t.term = o.term;
+        if (o.plain && t.variants.front().budgetMs == 0) t.variants = {bench::Variant{}};
+    }
     if (const Status ready = prepareTextFiles({o.json, o.csv, o.plot, o.markdown}); !ready)
         return refuse(ready.error().message);
     auto device = gpu::Device::create({});
@@ -297,6 +299,7 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
         ->capture_default_str();
     command->add_flag("--again", o->again,
                       "measure rows anew that were measured by this very program before");
+    command->add_flag("--plain", o->plain, "one row a technique, with its own settings");
     command->add_flag("--no-flicker", o->noFlicker, "leave the flicker sequences out");
     command->add_flag("--no-path-tracing", o->noPathTracing, "leave path tracing for the same time out");
     command->callback([o, &exitCode] { exitCode = runBench(*o); });

@@ -53,7 +53,8 @@ int runView(ViewOptions& o) {
     if (!saved) setup.gi.exposure.automatic = true, setup.gi.composite.tonemap = render::Tonemap::kAgx;
     if (const Status set = setup.apply(session->preset, session->assignments); !set)
         return refuse(set.error().message);
-    if (const Status good = checkWritable({o.viewer.screenshot, o.viewer.record}); !good)
+    const std::string truthFile = o.viewer.truthStem.empty() ? "" : o.viewer.truthStem + "_1.exr";
+    if (const Status good = checkWritable({o.viewer.screenshot, o.viewer.record, truthFile}); !good)
         return refuse(good.error().message);
     if (!o.script.empty()) {
         auto script = loadReplay(o.script);
@@ -94,11 +95,21 @@ void addViewCommand(CLI::App& program, int& exitCode) {
     command->add_option("--screenshot", o->viewer.screenshot, "save the last frame as PNG");
     command->add_option("--script", o->script, "play these inputs, one a frame, in place of keys and mouse");
     command->add_option("--record", o->viewer.record, "keep the inputs as such a script");
+    command->add_option(
+        "--truth", o->viewer.truthStem,
+        "with path tracing from the start; on leaving STEM_1.exr, STEM_2.exr (its halves) and STEM_ours.exr "
+        "(radiance) are saved, as compare takes them, and the error is printed");
+    command
+        ->add_option("--truth-samples", o->viewer.truthSamples,
+                     "paths a pixel before it leaves by --frames, with --truth")
+        ->check(numberFrom(2, 4096))
+        ->capture_default_str();
     command->add_flag("--validate", o->viewer.validate, "with Vulkan validation; any message exits with 1");
     command->footer(
         "Keys: Tab flies (WASD, Space, Shift, mouse) or frees the mouse for the panels; O circles about what "
         "is "
-        "ahead, F shows the whole scene, 1-9 layers, P panel, F1 settings, F2 passes, F3 times, F5 saves the "
+        "ahead, F shows the whole scene, T traces paths beside it, 1-9 layers, P panel, F1 settings, F2 "
+        "passes, F3 times, F5 saves the "
         "session, F9 profiler, F12 saves a picture, Esc frees the mouse, then closes.");
     command->callback([o, &exitCode] { exitCode = runView(*o); });
 }
