@@ -95,6 +95,10 @@ DebugUi::DebugUi(GLFWwindow* window) {
     ImGui_ImplGlfw_InitForOther(window, true);
 }
 
+bool DebugUi::holdsMouse() const {
+    return ImGui::IsAnyMouseDown();
+}
+
 bool DebugUi::takesText() const {
     return ImGui::GetIO().WantTextInput;
 }

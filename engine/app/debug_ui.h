@@ -32,7 +32,8 @@ class DebugUi {
     // Builds this frame's panels and what `game` adds; their draw data is ready when it returns.
     void build(DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
                const std::string& status, FunctionRef<void()> game);
-    bool takesText() const;  // a field is being typed into: keys are not for the program
+    bool holdsMouse() const;  // a button is down: what is dragged is still being dragged
+    bool takesText() const;   // a field is being typed into: keys are not for the program
 
   private:
     Inspector inspector_;

@@ -89,7 +89,7 @@ done
 # Keys: a layer, then the session is saved.
 "$bin/afterglow" view cornell --size 320x180 --point 0.1,0.5,0.3,2,1,0.5 --session saved.json --set composite.exposure=1 --validate >"$work/log" 2>&1 &
 viewer=$!
-press_when_open 2 5 1 F2 F2 o o p F5
+press_when_open 2 5 1 F2 F2 o o p F6 F5
 for _ in $(seq 50); do
   [[ -f saved.json ]] && break
   sleep 0.2
@@ -107,8 +107,48 @@ wait "$viewer" || fail "the viewer ended with $?"
 run "the session" 0 render --session saved.json --size 64x36 --frames 8 --layer direct -o session.exr
 run "the same by options" 0 render cornell --point 0.1,0.5,0.3,2,1,0.5 --size 64x36 --frames 8 --layer direct -o options.exr
 run "the session is what was seen" 0 compare options.exr session.exr --max-rel-rmse 0.001
+run "the scene as glTF" 0 render cornell_edited.glb --size 64x36 --frames 8 --layer direct -o edited.exr
+run "the glTF is what was seen" 0 compare options.exr edited.exr --max-rel-rmse 0.01
 run "a capture of the session" 0 capture --session saved.json --size 64x36 --frames 2 --warm-up 1 -o seen
 grep -q "composite.exposure=1" seen/report.html || fail "the capture does not use the session's settings"
+
+# A lamp is dragged by its handle, which is undone and done again.
+"$bin/afterglow" view cornell --size 640x360 --no-scene-lights --view 0,1,3.4,0,1,0,45 --point 1.5,1,0,3 --session drag.json \
+  --preset afterglow --validate >"$work/log" 2>&1 &
+viewer=$!
+await_window || fail "no window to drag in"
+sleep 3
+lamp_at() {  # saves the session; the lamp's x
+  rm -f drag.json
+  xdotool key F5
+  for _ in $(seq 50); do
+    [[ -s drag.json ]] && break
+    sleep 0.2
+  done
+  python3 -c 'import json; d = json.load(open("drag.json")); print(d["lights"][0]["position"][0] if "lights" in d else d["points"][0].split(",")[0])'
+}
+pixel=512  # 1.5 m to the right at 3.4 m: 320 + 1.5 * 180 / (3.4 * tan 22.5)
+xdotool mousemove --window "$window" $pixel 180
+sleep 0.5
+xdotool mousedown 1
+sleep 0.5
+for _ in 1 2 3 4; do
+  xdotool mousemove_relative -- -10 0
+  sleep 0.2
+done
+xdotool mouseup 1
+sleep 0.5
+dragged=$(lamp_at)
+xdotool key ctrl+z
+sleep 0.5
+undone=$(lamp_at)
+xdotool key ctrl+y
+sleep 0.5
+again=$(lamp_at)
+xdotool key Escape
+wait "$viewer" || fail "the viewer ended with $?"
+awk "BEGIN {exit !(($dragged - 1.187) ^ 2 < 0.0004 && ($undone - 1.5) ^ 2 < 1e-8 && $again == $dragged)}" ||
+  fail "the lamp was dragged to $dragged, undone to $undone, done again to $again"
 
 # Every field of a light is kept, and the eye and the camera as they were.
 cat >hand.json <<'JSON'

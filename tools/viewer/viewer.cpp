@@ -16,6 +16,8 @@
 #include "engine/core/log.h"
 #include "engine/core/safe_file.h"
 #include "engine/gpu/swapchain.h"
+#include "tools/viewer/light_dragging.h"
+#include "tools/viewer/light_edits.h"
 #include "tools/viewer/viewer_panel.h"
 
 namespace ag::viewer {
@@ -29,11 +31,12 @@ constexpr float kLongestStep = 0.25f;         // s: a slower frame slows the cam
 
 class ViewerRun {
   public:
-    ViewerRun(Viewing& viewing, const ViewerOptions& options, FunctionRef<Status(const Viewing&)> save,
+    ViewerRun(Viewing& viewing, const ViewerOptions& options, SaveViewing session, SaveViewing scene,
               Window& window, gpu::Device& device)
         : viewing_(viewing),
           options_(options),
-          save_(save),
+          saveSession_(session),
+          saveScene_(scene),
           window_(window),
           device_(device),
           swapchain_(device, window.framebufferSize()),
@@ -73,6 +76,8 @@ class ViewerRun {
             if (ui_.takesText()) continue;  // it is typed into a field
             if (key == GLFW_KEY_TAB) window_.captureCursor(!window_.cursorCaptured());
             if (key == GLFW_KEY_ESCAPE) leaveOrClose();
+            if (key == GLFW_KEY_Z && controlHeld()) useEdited(edits_.undo(viewing_.scene.lights));
+            if (key == GLFW_KEY_Y && controlHeld()) useEdited(edits_.redo(viewing_.scene.lights));
             if (key == GLFW_KEY_T) turnTruth();
             if (key == GLFW_KEY_P) panel_.open = !panel_.open;
             if (key == GLFW_KEY_O) camera_.orbits = !camera_.orbits;
@@ -81,10 +86,19 @@ class ViewerRun {
             if (key == GLFW_KEY_F2) panels_.showPasses = !panels_.showPasses;
             if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
             if (key == GLFW_KEY_F5) obey(PanelEvent::kSaveSession);
+            if (key == GLFW_KEY_F6) obey(PanelEvent::kSaveScene);
             if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
             if (key == GLFW_KEY_F12) obey(PanelEvent::kScreenshot);
             if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) panel_.layer = render::layerOfKey(key - GLFW_KEY_0);
         }
+    }
+    bool controlHeld() const {
+        return glfwGetKey(window_.handle(), GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+               glfwGetKey(window_.handle(), GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+    }
+    void useEdited(bool changed) {
+        viewing_.scene.lightsVersion += changed;
+        viewing_.lightsEdited |= changed;
     }
     // Off, beside ours, the error.
     void turnTruth() {
@@ -113,7 +127,8 @@ class ViewerRun {
 
     void obey(PanelEvent event) {
         if (event == PanelEvent::kFrameScene) frameScene();
-        if (event == PanelEvent::kSaveSession) saveSession();
+        if (event == PanelEvent::kSaveSession) say(saveSession_(viewing_));
+        if (event == PanelEvent::kSaveScene) say(saveScene_(viewing_));
         if (event == PanelEvent::kScreenshot) savePicture();
     }
     void frameScene() {
@@ -121,9 +136,8 @@ class ViewerRun {
         pose.position += viewing_.scene.originWorld;
         camera_ = startAt(pose, viewing_.scene.bounds);
     }
-    void saveSession() {
-        const Status saved = save_(viewing_);
-        panel_.message = saved ? "saved " + options_.session : saved.error().message;
+    void say(const Result<std::string>& saved) {
+        panel_.message = saved ? "saved " + *saved : saved.error().message;
     }
     void savePicture() {
         if (!shown_) return;
@@ -177,7 +191,10 @@ class ViewerRun {
     void drawUi(glm::uvec2 size) {
         ui_.build(panels_, viewing_.settings, renderer_.graph(), world_, statusLine(size), [&] {
             if (panel_.open) chosen_ = drawPanel(panel_, viewing_, camera_);
+            if (panel_.open && !window_.cursorCaptured())
+                dragLights(dragging_, viewing_, camera_, glm::vec2(size));
         });
+        edits_.note(viewing_.scene.lights, ui_.holdsMouse());
     }
     std::string statusLine(glm::uvec2 size) const {
         const glm::dvec3 p = camera_.position;
@@ -205,7 +222,7 @@ class ViewerRun {
 
     Viewing& viewing_;
     const ViewerOptions& options_;
-    FunctionRef<Status(const Viewing&)> save_;
+    SaveViewing saveSession_, saveScene_;
     Window& window_;
     gpu::Device& device_;
     gpu::Swapchain swapchain_;
@@ -220,6 +237,8 @@ class ViewerRun {
     PanelEvent chosen_ = PanelEvent::kNone;
     ImageHandle shown_;
     TruthView truth_;
+    LightDragging dragging_;
+    LightEdits edits_;
     std::vector<Input> recorded_;
     double frameMs_ = 16;
     bool missing_ = false;  // the layer that was asked for
@@ -228,7 +247,7 @@ class ViewerRun {
 
 }  // namespace
 
-int runViewer(Viewing& viewing, const ViewerOptions& options, FunctionRef<Status(const Viewing&)> save) {
+int runViewer(Viewing& viewing, const ViewerOptions& options, SaveViewing session, SaveViewing scene) {
     const auto say = [](const Error& error) { return spdlog::error("{}", error.message), 2; };
     auto window = Window::open(options.title, options.size);
     if (!window) return say(window.error());
@@ -236,7 +255,7 @@ int runViewer(Viewing& viewing, const ViewerOptions& options, FunctionRef<Status
     if (!surface) return say(surface.error());
     auto device = gpu::Device::create({.validation = options.validate, .window = *std::move(surface)});
     if (!device) return say(device.error());
-    const int exitCode = ViewerRun(viewing, options, save, **window, **device).loop();
+    const int exitCode = ViewerRun(viewing, options, session, scene, **window, **device).loop();
     const int messages = (*device)->validationMessageCount();
     device->reset();  // before the window whose surface it holds
     return exitCode == 0 && messages > 0 ? 1 : exitCode;

@@ -19,7 +19,6 @@ struct ViewerOptions {
     std::string screenshot;     // PNG of the last frame
     std::vector<Input> script;  // played in place of keys and mouse, one a frame of 1/60 s
     std::string record;         // keeps what was pressed as such a script
-    std::string session;        // F5 saves into it
     // Path tracing from the start; on leaving, after so many paths a pixel, its halves and our radiance are
     // saved as STEM_1.exr, STEM_2.exr and STEM_ours.exr, and the error is printed. Empty: not.
     std::string truthStem;
@@ -38,8 +37,11 @@ struct Viewing {
     bool lightsEdited = false;
 };
 
-// Until it is closed. `save`: a session, called on F5. Returns 0, 1 after a validation message, 2 after a
-// sentence on stderr.
-int runViewer(Viewing& viewing, const ViewerOptions& options, FunctionRef<Status(const Viewing&)> save);
+// Each returns the file that was written.
+using SaveViewing = FunctionRef<Result<std::string>(const Viewing&)>;
+
+// Until it is closed. Sessions are saved on F5, the edited scene as glTF on F6. Returns 0, 1 after a
+// validation message, 2 after a sentence on stderr.
+int runViewer(Viewing& viewing, const ViewerOptions& options, SaveViewing session, SaveViewing scene);
 
 }  // namespace ag::viewer

@@ -172,6 +172,8 @@ PanelEvent drawPanel(PanelState& state, Viewing& v, ViewCamera& camera) {
     ImGui::SameLine();
     if (ImGui::Button("save session (F5)")) event = PanelEvent::kSaveSession;
     ImGui::SameLine();
+    if (ImGui::Button("save glTF (F6)")) event = PanelEvent::kSaveScene;
+    ImGui::SameLine();
     if (ImGui::Button("picture (F12)")) event = PanelEvent::kScreenshot;
     lightList(v, camera);
     ImGui::PopItemWidth();

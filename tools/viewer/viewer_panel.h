@@ -6,7 +6,7 @@
 
 namespace ag::viewer {
 
-enum class PanelEvent { kNone, kSaveSession, kScreenshot, kFrameScene };
+enum class PanelEvent { kNone, kSaveSession, kSaveScene, kScreenshot, kFrameScene };
 
 struct PanelState {
     bool open = true;

@@ -4,6 +4,7 @@
 #include "engine/app/input.h"
 #include "engine/core/number_option.h"
 #include "engine/core/safe_file.h"
+#include "tools/viewer/edited_gltf.h"
 #include "tools/viewer/viewer.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/render_setup.h"
@@ -33,13 +34,24 @@ std::vector<std::string> changesFrom(const std::string& preset, const Settings& 
     return changes;
 }
 
-Status saveAs(const std::string& path, Session session, const viewer::Viewing& viewing) {
+Result<std::string> saveAs(const std::string& path, Session session, const viewer::Viewing& viewing) {
     session.scene.pose = viewing.pose;
     session.scene.view.clear(), session.scene.camera.clear();
     if (viewing.lightsEdited) describeLights(viewing.scene, session.scene);
     session.preset = viewing.preset;
     session.assignments = changesFrom(viewing.preset, viewing.settings);
-    return saveSession(session, path);
+    if (const Status saved = saveSession(session, path); !saved) return saved.error();
+    return path;
+}
+
+Result<std::string> saveAsGltf(const SceneOptions& options, const viewer::Viewing& viewing) {
+    const auto source = withLibraryScene(options);
+    if (!source) return source.error();
+    const std::string path = viewer::editedPath(source->scene);
+    const viewer::SceneEdits edits{viewing.scene.lights, viewing.scene.originWorld, viewing.pose};
+    if (const Status saved = viewer::saveEdited(source->scene, source->param, edits, path); !saved)
+        return saved.error();
+    return path;
 }
 
 int runView(ViewOptions& o) {
@@ -67,7 +79,6 @@ int runView(ViewOptions& o) {
     if (o.session.empty()) o.session = "view-session.json";
     o.viewer.title = fmt::format("Afterglow: {}", session->scene.scene);
     o.viewer.size = loaded->size;
-    o.viewer.session = o.session;
     viewer::Viewing viewing{.scene = loaded->scene,
                             .pose = poseOf(loaded->scene),
                             .gi = setup.gi,
@@ -75,8 +86,9 @@ int runView(ViewOptions& o) {
                             .graph = setup.graph,
                             .preset = session->preset,
                             .lightsEdited = loaded->lightAdded};
-    return viewer::runViewer(viewing, o.viewer,
-                             [&](const viewer::Viewing& now) { return saveAs(o.session, *session, now); });
+    return viewer::runViewer(
+        viewing, o.viewer, [&](const viewer::Viewing& now) { return saveAs(o.session, *session, now); },
+        [&](const viewer::Viewing& now) { return saveAsGltf(session->scene, now); });
 }
 
 }  // namespace
@@ -110,7 +122,8 @@ void addViewCommand(CLI::App& program, int& exitCode) {
         "is "
         "ahead, F shows the whole scene, T traces paths beside it, 1-9 layers, P panel, F1 settings, F2 "
         "passes, F3 times, F5 saves the "
-        "session, F9 profiler, F12 saves a picture, Esc frees the mouse, then closes.");
+        "session, F6 the scene as glTF, Ctrl+Z and Ctrl+Y undo and redo lights, F9 profiler, F12 saves a "
+        "picture, Esc frees the mouse, then closes.");
     command->callback([o, &exitCode] { exitCode = runView(*o); });
 }
 

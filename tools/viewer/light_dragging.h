@@ -1,0 +1,16 @@
+// Lights as handles in the picture, dragged with the mouse.
+#pragma once
+
+#include "tools/viewer/light_handles.h"
+#include "tools/viewer/viewer.h"
+
+namespace ag::viewer {
+
+struct LightDragging {
+    std::optional<size_t> held;  // of the handles
+};
+
+// Within an ImGui frame: draws the handles beneath the panels and moves the light whose handle is held.
+void dragLights(LightDragging& state, Viewing& viewing, const ViewCamera& camera, glm::vec2 size);
+
+}  // namespace ag::viewer
