@@ -42,15 +42,12 @@ ImageHandle addDisplay(GraphScope scope, const GBuffer& gbuffer, ImageHandle rad
                        const CompositeSettings& settings) {
     const ImageHandle display = scope.image(
         "composite.display", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = scope.info(radiance).size});
-    struct Push {
-        float exposure;
-        uint32_t mode;
-    };
     scope.fullscreen("composite.tonemap", "composite/tonemap.frag")
         .sample("radianceMap", radiance)
         .read("metered", exposure ? exposure : gbuffer.surfaces.camera)  // unread where by hand
         .constant("kMetered", bool(exposure))
-        .push(Push{std::exp2(settings.exposure), uint32_t(settings.tonemap)})
+        .constant("kCurve", uint32_t(settings.tonemap))
+        .push(std::exp2(settings.exposure))
         .colorClear(display, glm::vec4(0));
     return display;
 }

@@ -16,7 +16,7 @@ TEST(AsyncQueue, ChangesNoBit) {
     ASSERT_TRUE((*device)->context().asyncFamily());
     std::mt19937 random(23);
     size_t batches = 0, frames = 0;
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < 3; ++round) {
         DeviceGraph split{.device = **device}, plain{.device = **device};
         std::vector<Node> web = randomWeb(random);
         for (int frame = 0; frame < 10; ++frame, ++frames) {

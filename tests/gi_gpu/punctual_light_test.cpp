@@ -294,7 +294,7 @@ TEST(PunctualLighting, WithoutLightsNoPassRuns) {
 TEST(PunctualLighting, LightsMayChangeEveryFrame) {
     const auto b = directBench(*scenegen::buildScene("lamps", 80), {64, 40});
     const std::vector<RenderLight> all = b->scene.lights;
-    for (uint32_t step = 0; step < 1000; ++step) {
+    for (uint32_t step = 0; step < 400; ++step) {
         b->scene.lights.clear();
         for (uint32_t i = 0; i < all.size(); ++i) {
             const uint32_t r = io::hashUint(step / 7 * 131 + i);

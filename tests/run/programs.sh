@@ -77,6 +77,13 @@ render cornell -o "$work/a.png"
 render cornell -o "$work/b.png"
 cmp "$work/a.png" "$work/b.png" || fail "the same command twice gave two pictures"
 expect 0 "frames of a walk" "$bin/afterglow" render cornell -o "$work/walk.png" --size 64x36 --frames 2 --times --walk 0.01,0,0
+expect 0 "" "$bin/afterglow" render cornell -o "$work/round" --size 64x36 --frames 8 --turntable 4 --validate
+[[ $(ls "$work/round" | tr '\n' ' ') == "000.png 001.png 002.png 003.png " ]] || fail "a turntable left $(ls "$work/round")"
+cmp -s "$work/round/000.png" "$work/round/002.png" && fail "the turntable does not turn"
+"$bin/afterglow" render cornell -o "$work/still.png" --size 64x36 --frames 8 2>/dev/null
+cmp -s "$work/round/000.png" "$work/still.png" || fail "the turntable does not begin with the view"
+rm -r "$work/round" "$work/still.png"
+expect 2 "Not a directory" "$bin/afterglow" render cornell -o "$0" --size 64x36 --turntable 4
 render cornell -o "$work/a.exr"
 render cornell -o "$work/a.pfm"
 expect 0 '"rel_rmse": 0.0' "$bin/afterglow" compare "$work/a.exr" "$work/a.pfm" --max-rel-rmse 1e-6

@@ -89,7 +89,7 @@ done
 # Keys: a layer, then the session is saved.
 "$bin/afterglow" view cornell --size 320x180 --point 0.1,0.5,0.3,2,1,0.5 --session saved.json --set composite.exposure=1 --validate >"$work/log" 2>&1 &
 viewer=$!
-press_when_open 2 5 1 F2 F2 o o p F6 F5
+press_when_open 2 5 1 F2 F2 o o b b t t t p F6 F5
 for _ in $(seq 50); do
   [[ -f saved.json ]] && break
   sleep 0.2

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "engine/gpu/transfer.h"
 
 namespace ag::viewer {
@@ -22,10 +20,9 @@ glm::uvec2 sizeOf(const Image& image) {
 
 }  // namespace
 
-bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, const TruthViewSettings& settings,
-                       gpu::Device& device) {
+bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, bool on, gpu::Device& device) {
     radiance_ = {};
-    if (!settings.on) {
+    if (!on) {
         tracing_.reset();
         picture_ = nullptr;
         return false;
@@ -57,30 +54,14 @@ void TruthView::take(std::shared_ptr<const TruthPicture> picture, gpu::Device& d
 }
 
 ImageHandle TruthView::add(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
-                           const render::CompositeSettings& composite, const TruthViewSettings& settings) {
+                           const render::CompositeSettings& composite, const BesideSettings& settings) {
     const render::RenderOutputs& ours = frame.outputs;
     if (!tracing_) return ours.display;
     radiance_ = render::addLayer(scope, view, frame, render::Layer::kRadiance);
     scope.output(radiance_);
-    const glm::uvec2 size = scope.info(ours.display).size;
-    if (!picture_ || image_->desc().size != size) return ours.display;
-    const ImageHandle out =
-        scope.image("viewer.beside_truth", {.format = VK_FORMAT_R8G8B8A8_UNORM, .size = size});
-    struct Push {
-        float exposure;
-        uint32_t mode, show;
-        float split, light, meanOfTruth;
-    };
-    scope.fullscreen("viewer.beside_truth", "debug_view/beside_truth.frag")
-        .sample("oursDisplay", ours.display)
-        .sample("oursRadiance", ours.radiance)
-        .sample("truth", scope.importImage("viewer.truth", *image_, version_))
-        .read("metered", ours.exposure ? ours.exposure : view.camera)  // unread where by hand
-        .constant("kMetered", bool(ours.exposure))
-        .push(Push{std::exp2(composite.exposure) * view.units.light, uint32_t(composite.tonemap),
-                   uint32_t(settings.show), settings.split * float(size.x), view.units.light, mean_})
-        .colorClear(out, glm::vec4(0));
-    return out;
+    if (!picture_) return ours.display;
+    return addBeside(scope, view, frame, composite,
+                     {scope.importImage("viewer.truth", *image_, version_), 1, mean_}, settings);
 }
 
 void TruthView::compare(render::Renderer& renderer) {

@@ -7,27 +7,19 @@
 #include <string>
 
 #include "engine/renderer/renderer.h"
+#include "tools/viewer/beside.h"
 #include "tools/viewer/live_truth.h"
 
 namespace ag::viewer {
-
-enum class TruthShown : uint32_t { kBeside, kError };  // as shaders/debug_view/beside_truth.frag has them
-
-struct TruthViewSettings {
-    bool on = false;
-    TruthShown show = TruthShown::kBeside;
-    float split = 0.5f;  // of the width: ours to its left
-};
 
 class TruthView {
   public:
     // Before a frame of the scene. Takes what was traced meanwhile to the device, blocking; true: there is a
     // better picture, whose numbers are due.
-    bool follow(const RenderScene& scene, glm::uvec2 size, const TruthViewSettings& settings,
-                gpu::Device& device);
+    bool follow(const RenderScene& scene, glm::uvec2 size, bool on, gpu::Device& device);
     // What is to be shown, and our radiance as an output of the frame. Ours alone where there is no picture.
     ImageHandle add(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
-                    const render::CompositeSettings& composite, const TruthViewSettings& settings);
+                    const render::CompositeSettings& composite, const BesideSettings& settings);
     // Once that frame was submitted.
     void compare(render::Renderer& renderer);
 

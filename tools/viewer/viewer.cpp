@@ -18,6 +18,7 @@
 #include "engine/gpu/swapchain.h"
 #include "tools/viewer/light_dragging.h"
 #include "tools/viewer/light_edits.h"
+#include "tools/viewer/preset_view.h"
 #include "tools/viewer/viewer_panel.h"
 
 namespace ag::viewer {
@@ -45,7 +46,7 @@ class ViewerRun {
           imgui_(device, renderer_.pipelines()),
           camera_(startAt(viewing.pose, viewing.scene.bounds)) {
         renderer_.load(*viewing.scene.geometry);
-        panel_.truth.on = !options.truthStem.empty();
+        if (!options.truthStem.empty()) panel_.beside = Beside::kTruth;
     }
 
     // 0, or 2 after a sentence.
@@ -79,6 +80,8 @@ class ViewerRun {
             if (key == GLFW_KEY_Z && controlHeld()) useEdited(edits_.undo(viewing_.scene.lights));
             if (key == GLFW_KEY_Y && controlHeld()) useEdited(edits_.redo(viewing_.scene.lights));
             if (key == GLFW_KEY_T) turnTruth();
+            if (key == GLFW_KEY_B)
+                panel_.beside = panel_.beside == Beside::kPreset ? Beside::kNothing : Beside::kPreset;
             if (key == GLFW_KEY_P) panel_.open = !panel_.open;
             if (key == GLFW_KEY_O) camera_.orbits = !camera_.orbits;
             if (key == GLFW_KEY_F) obey(PanelEvent::kFrameScene);
@@ -102,10 +105,11 @@ class ViewerRun {
     }
     // Off, beside ours, the error.
     void turnTruth() {
-        const bool error = panel_.truth.show == TruthShown::kError;
-        if (panel_.truth.on) panel_.truth.show = error ? TruthShown::kBeside : TruthShown::kError;
-        panel_.truth.on = !panel_.truth.on || !error;
+        const bool on = panel_.beside == Beside::kTruth, error = showsError();
+        panel_.beside = on && error ? Beside::kNothing : Beside::kTruth;
+        panel_.besideSettings.show = on && !error ? BesideShown::kError : BesideShown::kPicture;
     }
+    bool showsError() const { return panel_.besideSettings.show == BesideShown::kError; }
     void leaveOrClose() {
         if (window_.cursorCaptured())
             window_.captureCursor(false);
@@ -151,13 +155,15 @@ class ViewerRun {
 
     // False while there is nothing to show on (minimised).
     bool show() {
-        const auto image = swapchain_.acquire(window_.framebufferSize());
-        if (!image) return false;
         const glm::uvec2 size = glm::max(window_.framebufferSize(), glm::uvec2(16));
         drawUi(size);
         viewing_.pose = poseOf(camera_);
         setCamera(viewing_.scene, viewing_.pose, size);
-        const bool fresh = truth_.follow(viewing_.scene, size, panel_.truth, device_);
+        const bool fresh = truth_.follow(viewing_.scene, size, panel_.beside == Beside::kTruth, device_);
+        renderOther(size);
+        // What waits for the device is done: between an image's acquisition and its submission nothing may.
+        const auto image = swapchain_.acquire(window_.framebufferSize());
+        if (!image) return false;
         renderer_.render(
             viewing_.scene, size, viewing_.gi, viewing_.graph,
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
@@ -174,14 +180,24 @@ class ViewerRun {
              .signal = image->rendered});
         swapchain_.present(*image);
         if (fresh) truth_.compare(renderer_);
-        panel_.truthNumbers = truth_.numbers();
+        if (panel_.beside == Beside::kTruth) panel_.besideNumbers = truth_.numbers();
         return true;
     }
     ImageHandle addShown(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
                          glm::uvec2 size) {
         if (panel_.layer)
             return render::addLayerView(scope, view, frame, *panel_.layer, size, viewing_.gi.composite);
-        return truth_.add(scope, view, frame, viewing_.gi.composite, panel_.truth);
+        if (other_.isOn())
+            return other_.add(scope, view, frame, viewing_.gi.composite, panel_.besideSettings);
+        return truth_.add(scope, view, frame, viewing_.gi.composite, panel_.besideSettings);
+    }
+    void renderOther(glm::uvec2 size) {
+        if (panel_.beside != Beside::kPreset) return other_.forget();
+        other_.render(viewing_.scene, size, panel_.otherPreset, viewing_.graph, device_);
+        double ours = 0;
+        for (const PassReport& pass : renderer_.graph().report())
+            if (pass.outcome == PassOutcome::kRan) ours += pass.gpuMs;
+        panel_.besideNumbers = fmt::format("passes: {:.1f} ms, its {:.1f} ms", ours, other_.gpuMs());
     }
 
     bool truthIsDone() const {
@@ -237,6 +253,7 @@ class ViewerRun {
     PanelEvent chosen_ = PanelEvent::kNone;
     ImageHandle shown_;
     TruthView truth_;
+    PresetView other_;
     LightDragging dragging_;
     LightEdits edits_;
     std::vector<Input> recorded_;

@@ -35,12 +35,15 @@ void usePreset(const std::string& name, Viewing& v) {
     v.preset = name;
 }
 
-void presetCombo(Viewing& v) {
-    if (!ImGui::BeginCombo("preset", v.preset.c_str())) return;
+// True: another one was chosen.
+bool presetCombo(const char* label, std::string& preset) {
+    bool chosen = false;
+    if (!ImGui::BeginCombo(label, preset.c_str())) return false;
     for (const std::string_view known : render::presetNames())
-        if (const std::string name(known); ImGui::Selectable(name.c_str(), name == v.preset))
-            usePreset(name, v);
+        if (const std::string name(known); ImGui::Selectable(name.c_str(), name == preset))
+            preset = name, chosen = true;
     ImGui::EndCombo();
+    return chosen;
 }
 
 void cameraFields(ViewCamera& camera) {
@@ -58,17 +61,25 @@ void cameraFields(ViewCamera& camera) {
         camera.verticalFov = glm::radians(degrees);
 }
 
-void truthFields(PanelState& state) {
-    ImGui::Checkbox("path tracing beside it (T)", &state.truth.on);
-    if (!state.truth.on) return;
-    int show = int(state.truth.show);
-    ImGui::RadioButton("picture", &show, int(TruthShown::kBeside));
-    ImGui::SameLine();
-    ImGui::RadioButton("error", &show, int(TruthShown::kError));
-    state.truth.show = TruthShown(show);
-    if (state.truth.show == TruthShown::kBeside)
-        ImGui::SliderFloat("ours to here", &state.truth.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    ImGui::TextUnformatted(state.truthNumbers.c_str());
+void besideFields(PanelState& state) {
+    int beside = int(state.beside);
+    ImGui::TextUnformatted("beside it:");
+    for (const auto& [name, value] : {std::pair("nothing", Beside::kNothing),
+                                      {"path tracing (T)", Beside::kTruth},
+                                      {"a preset (B)", Beside::kPreset}}) {
+        ImGui::SameLine();
+        ImGui::RadioButton(name, &beside, int(value));
+    }
+    state.beside = Beside(beside);
+    if (state.beside == Beside::kNothing) return;
+    if (state.beside == Beside::kPreset) presetCombo("the other", state.otherPreset);
+    BesideSettings& s = state.besideSettings;
+    bool error = s.show == BesideShown::kError;
+    if (state.beside == Beside::kTruth && ImGui::Checkbox("as the error", &error))
+        s.show = error ? BesideShown::kError : BesideShown::kPicture;
+    if (!error || state.beside == Beside::kPreset)
+        ImGui::SliderFloat("ours to here", &s.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::TextUnformatted(state.besideNumbers.c_str());
 }
 
 bool strengthField(RenderLight& light) {
@@ -162,11 +173,11 @@ PanelEvent drawPanel(PanelState& state, Viewing& v, ViewCamera& camera) {
     ImGui::TextUnformatted("Tab: fly or use the mouse here   P: this panel");
     ImGui::PushItemWidth(160);
     layerCombo(state.layer);
-    presetCombo(v);
+    if (std::string preset = v.preset; presetCombo("preset", preset)) usePreset(preset, v);
     ImGui::Checkbox("automatic exposure", &v.gi.exposure.automatic);
     ImGui::SliderFloat("exposure, stops", &v.gi.composite.exposure, -10, 10, "%.1f",
                        ImGuiSliderFlags_AlwaysClamp);
-    truthFields(state);
+    besideFields(state);
     if (ImGui::CollapsingHeader("camera")) cameraFields(camera);
     if (ImGui::Button("whole scene (F)")) event = PanelEvent::kFrameScene;
     ImGui::SameLine();

@@ -8,12 +8,17 @@ namespace ag::viewer {
 
 enum class PanelEvent { kNone, kSaveSession, kSaveScene, kScreenshot, kFrameScene };
 
+// What is shown beside ours.
+enum class Beside { kNothing, kTruth, kPreset };
+
 struct PanelState {
     bool open = true;
     std::optional<render::Layer> layer;  // none: the final picture
     std::string message;                 // of what was done last
-    TruthViewSettings truth;
-    std::string truthNumbers;  // of its newest picture
+    Beside beside = Beside::kNothing;
+    BesideSettings besideSettings;
+    std::string otherPreset = "high";
+    std::string besideNumbers;  // of what is beside
 };
 
 // Within an ImGui frame.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <optional>
@@ -73,10 +74,31 @@ Status writeAll(const BenchOptions& o, bench::Report report) {
     return Ok{};
 }
 
-void printRow(const bench::Row& row) {
-    std::cout << fmt::format("{:<12} {:<18} {:<14} {:9.2f} ms  relative RMSE {:.4f}  mean ratio {:.3f}\n",
-                             row.scene, row.technique, row.variant, row.indirectMs(), row.error.relativeRmse,
-                             row.error.meanRatio)
+// How many rows there are, and how long those that are left will take if they are like the ones before.
+class Pace {
+  public:
+    explicit Pace(size_t rows) : rows_(rows) {
+        std::cout << fmt::format("{} rows; how long they take is said from the first on\n", rows);
+    }
+    std::string rowDone() {
+        ++done_;
+        const double spent = std::chrono::duration<double>(Clock::now() - start_).count();
+        const double left = spent / double(done_) * double(rows_ - std::min(done_, rows_));
+        return fmt::format("{} of {}, about {:.0f} s left", done_, rows_, left);
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    const size_t rows_;
+    const Clock::time_point start_ = Clock::now();
+    size_t done_ = 0;
+};
+
+void printRow(const bench::Row& row, Pace& pace) {
+    std::cout << fmt::format(
+                     "{:<12} {:<18} {:<14} {:9.2f} ms  relative RMSE {:.4f}  mean ratio {:.3f}  ({})\n",
+                     row.scene, row.technique, row.variant, row.indirectMs(), row.error.relativeRmse,
+                     row.error.meanRatio, pace.rowDone())
               << std::flush;
 }
 
@@ -138,18 +160,28 @@ Result<std::vector<bench::Row>> rowsOf(const bench::RowCache& kept, uint64_t key
     return rows;
 }
 
-Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& device,
-                  std::span<const bench::Technique> techniques, bench::ReferenceSource references,
-                  bench::Report& report) {
+// What all scenes of a run share.
+struct BenchRun {
+    const BenchOptions& options;
+    gpu::Device& device;
+    std::span<const bench::Technique> techniques;
+    bench::ReferenceSource references;
+    bench::Report& report;
+    Pace pace;
+};
+
+Status benchScene(BenchRun& all, const std::string& name) {
+    const BenchOptions& o = all.options;
+    bench::Report& report = all.report;
     auto loaded = loadScene(sceneArguments(o, name));
     if (!loaded) return loaded.error();
     ProgressLine line(name + ", reference: ");
     const auto progress = [&](double share) { line(share); };
-    bench::SceneBench scene(device, loaded->scene, name, references, o.measure, progress);
+    bench::SceneBench scene(all.device, loaded->scene, name, all.references, o.measure, progress);
     const bench::RowCache kept(o.again ? "" : o.cache + "/rows");
     const uint64_t run = hashRun(o, report), sceneHash = bench::sceneHash(loaded->scene);
     std::map<std::string, std::vector<bench::Row>, std::less<>> pathCurves;  // by term
-    for (const bench::Technique& technique : techniques) {
+    for (const bench::Technique& technique : all.techniques) {
         const bool timed = technique.runner == bench::Runner::kGpu && !o.noPathTracing;
         if (timed && !pathCurves.contains(technique.term)) {
             auto curve = rowsOf(kept, scene.hashPathTracing(technique.term),
@@ -165,7 +197,7 @@ Status benchScene(const BenchOptions& o, const std::string& name, gpu::Device& d
             bench::Row& row = rows->front();
             if (timed && row.gpuMsMedian > 0)
                 row.pathTracingRelRmse = errorAfter(pathCurves[std::string(technique.term)], row.gpuMsMedian);
-            printRow(row);
+            printRow(row, all.pace);
             report.rows.push_back(row);
             if (const Status written = writeAll(o, report); !written) return written;
         }
@@ -239,9 +271,12 @@ int runBench(BenchOptions o) {
     bench::Report report{
         .device = (*device)->info().name, .driver = (*device)->info().driver, .commit = commitOfSource()};
     std::cout << fmt::format("{}, {}\n", report.device, report.driver);
+    size_t variants = 0;
+    for (const bench::Technique& t : ofTerm)
+        variants += t.variants.size();
+    BenchRun all{o, **device, ofTerm, {cache, runner}, report, Pace(variants * o.scenes.size())};
     for (const std::string& scene : o.scenes)
-        if (const Status done = benchScene(o, scene, **device, ofTerm, {cache, runner}, report); !done)
-            return refuse(done.error().message);
+        if (const Status done = benchScene(all, scene); !done) return refuse(done.error().message);
     return 0;
 }
 

@@ -16,6 +16,7 @@
 #include "tools/workbench/progress_line.h"
 #include "tools/workbench/render_setup.h"
 #include "tools/workbench/session.h"
+#include "tools/workbench/turntable.h"
 
 namespace ag::workbench {
 namespace {
@@ -30,7 +31,8 @@ struct RenderOptions {
     std::vector<std::string> assignments;
     bool listSettings = false;
     bool times = false;
-    std::string walk;  // DX,DY,DZ
+    std::string walk;        // DX,DY,DZ
+    uint32_t turntable = 0;  // pictures; 0: one, of the view as it is
     double budgetMs = 0;
     bool validate = false;
     std::vector<std::string> without;
@@ -44,9 +46,17 @@ gpu::AsyncQueue asyncQueueOf(std::string_view name) {
     return name == "off" ? gpu::AsyncQueue::kOff : gpu::AsyncQueue::kOn;
 }
 
+bool writesPng(const RenderOptions& options) {
+    return options.turntable > 0 || std::filesystem::path(options.output).extension() == ".png";
+}
+
 std::string layerOf(const RenderOptions& options) {
     if (!options.layer.empty()) return options.layer;
-    return std::filesystem::path(options.output).extension() == ".png" ? "final" : "radiance";
+    return writesPng(options) ? "final" : "radiance";
+}
+
+std::string pictureOfTurn(const RenderOptions& options, uint32_t index) {
+    return (std::filesystem::path(options.output) / fmt::format("{:03}.png", index)).string();
 }
 
 // Process CPU time of each pass once more with everything run, which also warms the numbers: the first frames
@@ -153,9 +163,19 @@ Result<AskedLayer> parseLayer(const RenderOptions& options) {
     return AskedLayer{*layer, name.asRadiance};
 }
 
+// -o DIR of a turntable, which is made if it is not there.
+Status prepareFolder(const RenderOptions& o) {
+    if (o.layer.ends_with(":radiance")) return Error{"radiance of a layer is written as .exr or .pfm"};
+    std::error_code error;
+    std::filesystem::create_directories(o.output, error);
+    if (error) return Error{fmt::format("{}: {}", o.output, error.message())};
+    return checkWritable(pictureOfTurn(o, 0));
+}
+
 Status checkOptions(const RenderOptions& o) {
     if (o.scene.scene.empty()) return Error{"render needs a SCENE"};
     if (o.output.empty()) return Error{"render needs -o FILE.(exr|pfm|png)"};
+    if (o.turntable > 0) return prepareFolder(o);
     const std::string extension = std::filesystem::path(o.output).extension();
     if (extension != ".png" && extension != ".exr" && extension != ".pfm")
         return Error{fmt::format("{} must end in .exr, .pfm or .png", o.output)};
@@ -207,6 +227,24 @@ class Rendering {
         return Ok{};
     }
 
+    // Pictures all round, each some frames after the camera went on: clusters are carried over.
+    Status runTurntable() {
+        constexpr uint32_t kFramesOfStep = 8;
+        ProgressLine line("turntable ");
+        const CameraPose start = poseOf(loaded_.scene);
+        for (uint32_t i = 0; i < options_.turntable; ++i) {
+            const CameraPose pose = turned(start, loaded_.scene.bounds, loaded_.scene.originWorld,
+                                           double(i) / options_.turntable);
+            setCamera(loaded_.scene, pose, loaded_.size);
+            for (uint32_t frame = 0; frame < (i == 0 ? options_.frames : kFramesOfStep); ++frame)
+                renderFrame();
+            if (!shown_.missing.empty()) return Error{shown_.missing};
+            if (Status saved = saveImage(image(), pictureOfTurn(options_, i)); !saved) return saved;
+            line(double(i + 1) / options_.turntable);
+        }
+        return Ok{};
+    }
+
     Image image() {
         Image out = shown_.image ? render::readImage(renderer_, shown_.image)
                                  : Image(int(loaded_.size.x), int(loaded_.size.y));
@@ -226,7 +264,7 @@ class Rendering {
 
   private:
     void renderFrame() {
-        const bool png = std::filesystem::path(options_.output).extension() == ".png";
+        const bool png = writesPng(options_);
         renderer_.render(
             loaded_.scene, loaded_.size, settings_.gi, settings_.graph,
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
@@ -278,6 +316,10 @@ int runRender(RenderOptions options) {
     if (!device) return refuse(device.error().message);
 
     Rendering rendering(options, *asked, **device, *loaded, settings);
+    if (options.turntable > 0) {
+        if (const Status done = rendering.runTurntable(); !done) return refuse(done.error().message);
+        return (*device)->validationMessageCount() == 0 ? 0 : 1;
+    }
     if (const Status done = rendering.run(); !done) return refuse(done.error().message);
     if (const Status saved = saveImage(rendering.image(), options.output); !saved)
         return refuse(saved.error().message);
@@ -316,7 +358,14 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
                       "every setting with default, range, unit, help");
     command->add_option("--walk", options->walk,
                         "with --times: DX,DY,DZ, m the camera moves in each frame measured");
+    CLI::Option* turntable =
+        command
+            ->add_option("--turntable", options->turntable,
+                         "so many pictures once round the scene, or round the view where it is inside: -o is "
+                         "a folder of 000.png and so on")
+            ->check(numberFrom(2, 999));
     command->add_flag("--times", options->times, "print each pass's process CPU time and the memory used");
+    turntable->excludes("--times", "--budget-ms");
     command
         ->add_option("--without", options->without,
                      "run as if the device lacked this feature, or had no more of a limit: LIMIT=N")

@@ -1,0 +1,33 @@
+// The same view by another preset, rendered beside the first.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/renderer/renderer.h"
+#include "tools/viewer/beside.h"
+
+namespace ag::viewer {
+
+class PresetView {
+  public:
+    // One more frame of the scene by the preset, before ours. Blocking where the preset or the size changed.
+    void render(const RenderScene& scene, glm::uvec2 size, const std::string& preset,
+                const FrameGraphOptions& options, gpu::Device& device);
+    void forget();
+    bool isOn() const { return renderer_ != nullptr; }
+    double gpuMs() const { return gpuMs_; }  // of its passes
+
+    ImageHandle add(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
+                    const render::CompositeSettings& composite, const BesideSettings& settings) const;
+
+  private:
+    std::unique_ptr<render::Renderer> renderer_;
+    std::string preset_;
+    glm::uvec2 size_{0};
+    ImageHandle radiance_;
+    uint64_t version_ = 0;  // of its picture
+    double gpuMs_ = 0;
+};
+
+}  // namespace ag::viewer
