@@ -63,14 +63,14 @@ run "the dark file's session" 0 render --session dark.json --size 160x90 --frame
 grep -q "is added" "$work/log" && fail "the session does not keep the light that was added"
 
 # A script ends where it was recorded to: someone flies.
-"$bin/afterglow" view cornell --size 160x90 --frames 300 --record flight.replay --screenshot flown.png --validate >"$work/log" 2>&1 &
+"$bin/afterglow" view cornell --size 160x90 --frames 420 --record flight.replay --screenshot flown.png --validate >"$work/log" 2>&1 &
 viewer=$!
 press_when_open Tab
 xdotool keydown w
 sleep 0.3
 xdotool keyup w
 wait "$viewer" || fail "the recording viewer ended with $?"
-run "a script" 0 view cornell --size 160x90 --frames 300 --script flight.replay --screenshot played.png --validate
+run "a script" 0 view cornell --size 160x90 --frames 420 --script flight.replay --screenshot played.png --validate
 run "no script" 0 view cornell --size 160x90 --frames 20 --screenshot still.png
 cmp -s flown.png still.png && fail "W did not move the camera"
 cmp -s flown.png played.png || fail "a script ends elsewhere than it was recorded to"
