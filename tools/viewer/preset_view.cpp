@@ -4,6 +4,13 @@
 
 namespace ag::viewer {
 
+double passesMs(const FrameGraph& graph) {
+    double sum = 0;
+    for (const PassReport& pass : graph.report())
+        if (pass.outcome == PassOutcome::kRan) sum += pass.gpuMs;
+    return sum;
+}
+
 void PresetView::forget() {
     if (!renderer_) return;
     renderer_->waitIdle();  // our last frame reads its picture
@@ -27,12 +34,9 @@ void PresetView::render(const RenderScene& scene, glm::uvec2 size, const std::st
                           radiance_ = frame.outputs.radiance;
                           scope.output(radiance_);
                       });
-    gpuMs_ = 0;
-    bool ran = false;
-    for (const PassReport& pass : renderer_->graph().report()) {
-        ran = ran || pass.outcome == PassOutcome::kRan;
-        gpuMs_ += pass.outcome == PassOutcome::kRan ? pass.gpuMs : 0;
-    }
+    const bool ran = std::ranges::any_of(
+        renderer_->graph().report(), [](PassOutcome o) { return o == PassOutcome::kRan; },
+        &PassReport::outcome);
     version_ += ran || version_ == 0;
 }
 

@@ -9,6 +9,9 @@
 
 namespace ag::viewer {
 
+// Of the passes of its last frame that ran, ms.
+double passesMs(const FrameGraph& graph);
+
 class PresetView {
   public:
     // One more frame of the scene by the preset, before ours. Blocking where the preset or the size changed.
@@ -16,7 +19,7 @@ class PresetView {
                 const FrameGraphOptions& options, gpu::Device& device);
     void forget();
     bool isOn() const { return renderer_ != nullptr; }
-    double gpuMs() const { return gpuMs_; }  // of its passes
+    double gpuMs() const { return passesMs(renderer_->graph()); }
 
     ImageHandle add(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
                     const render::CompositeSettings& composite, const BesideSettings& settings) const;
@@ -27,7 +30,6 @@ class PresetView {
     glm::uvec2 size_{0};
     ImageHandle radiance_;
     uint64_t version_ = 0;  // of its picture
-    double gpuMs_ = 0;
 };
 
 }  // namespace ag::viewer

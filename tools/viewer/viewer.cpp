@@ -194,10 +194,8 @@ class ViewerRun {
     void renderOther(glm::uvec2 size) {
         if (panel_.beside != Beside::kPreset) return other_.forget();
         other_.render(viewing_.scene, size, panel_.otherPreset, viewing_.graph, device_);
-        double ours = 0;
-        for (const PassReport& pass : renderer_.graph().report())
-            if (pass.outcome == PassOutcome::kRan) ours += pass.gpuMs;
-        panel_.besideNumbers = fmt::format("passes: {:.1f} ms, its {:.1f} ms", ours, other_.gpuMs());
+        panel_.besideNumbers =
+            fmt::format("passes: {:.1f} ms, its {:.1f} ms", passesMs(renderer_.graph()), other_.gpuMs());
     }
 
     bool truthIsDone() const {
