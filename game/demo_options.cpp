@@ -38,10 +38,15 @@ void useQuality(Demo& demo, Quality preset, const render::QualityStep& step) {
     const bool small = step.valCount <= render::qualitySteps()[0].valCount;  // with what else low leaves out
     applyQuality(!automatic ? preset : small ? Quality::kLow : Quality::kMedium, demo.gi);
     if (automatic) render::applyQualityStep(step, demo.gi);
+    if (automatic) demo.gi.antialiasing.scale = step.scale;
     demo.gi.composite.exposure = demo.user.exposure;
     demo.sound.volume = demo.user.volume;
     for (const std::string& assignment : demo.options.assignments)
         if (const Status set = demo.settings.set(assignment); !set) spdlog::warn("{}", set.error().message);
+}
+
+render::RenderSettings shownSettings(const Demo& demo) {
+    return demo.layer ? render::settingsOf(*demo.layer, demo.gi) : demo.gi;
 }
 
 Input nextInput(Demo& demo, uint64_t tick, const Input& given) {

@@ -61,6 +61,8 @@ gpu::DeviceOptions deviceOptions(const Demo& demo, std::optional<gpu::WindowSurf
 Status loadLevel(Demo& demo);
 // The preset's settings, or the automatic step's, with what the command line set over them.
 void useQuality(Demo& demo, Quality preset, const render::QualityStep& step);
+// Those of the picture, or of the layer shown in its place.
+render::RenderSettings shownSettings(const Demo& demo);
 // The tick's input: from the replay while it lasts, else what is given; kept if a recording was asked for.
 Input nextInput(Demo& demo, uint64_t tick, const Input& given);
 // Saves the recording if one was asked for.

@@ -61,7 +61,7 @@ class HeadlessRun {
         const glm::uvec2 size = demo_.options.size;
         demo_.game->frame(size);
         renderer_.render(
-            demo_.game->scene(), size, demo_.gi, demo_.graph,
+            demo_.game->scene(), size, shownSettings(demo_), demo_.graph,
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
                 shown_ = demo_.layer ? render::addLayerView(scope, view, frame, *demo_.layer, size,
                                                             demo_.gi.composite)

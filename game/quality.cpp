@@ -30,10 +30,6 @@ std::string_view qualityName(Quality quality) {
     return kNames[size_t(quality)];
 }
 
-float renderScale(Quality quality) {
-    return quality == Quality::kLow ? 0.5f : 1.0f;
-}
-
 void applyQuality(Quality preset, render::RenderSettings& gi) {
     const render::RenderSettings before = gi;
     gi = {};
@@ -41,6 +37,8 @@ void applyQuality(Quality preset, render::RenderSettings& gi) {
     if (preset == Quality::kLow) trim(gi);
     gi.composite = before.composite;
     gi.exposure = before.exposure;
+    gi.antialiasing = {.mode = render::Antialiasing::kTemporal,
+                       .scale = preset == Quality::kLow ? 0.5f : 1.0f};
 }
 
 }  // namespace ag::game

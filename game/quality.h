@@ -1,5 +1,5 @@
-// How much light is worth: presets of the renderer's settings with a share of the window's pixels. The
-// automatic choice is engine/renderer/frame_budget's.
+// How much light is worth: presets of the renderer's settings with a share of the picture's pixels, which
+// anti-aliasing makes whole. The automatic choice is engine/renderer/frame_budget's.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,6 @@ enum class Quality : uint32_t { kLow, kMedium, kHigh, kUltra, kAutomatic };
 
 std::optional<Quality> qualityFromName(std::string_view name);
 std::string_view qualityName(Quality quality);
-
-// Of the window's sides that is rendered; automatic: see render::QualityStep.
-float renderScale(Quality quality);
 
 // Replaces what presets are about; the eye's exposure stays.
 void applyQuality(Quality preset, render::RenderSettings& gi);

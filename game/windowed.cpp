@@ -244,7 +244,6 @@ class WindowedRun {
 
     // --- The picture ---
     void usePlayerSettings() {
-        scale_ = automatic() ? quality().scale : renderScale(demo_.user.quality);
         useQuality(demo_, demo_.user.quality, quality());
         demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
     }
@@ -254,20 +253,17 @@ class WindowedRun {
         const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
         if (automatic() && !menu_.open && budget_.frame(cost)) usePlayerSettings();
     }
-    glm::uvec2 renderSize() const {
-        return glm::max(glm::uvec2(glm::vec2(window_.framebufferSize()) * scale_), glm::uvec2(16));
-    }
     // False while there is nothing to show on (minimised).
     bool show() {
         const auto image = swapchain_.acquire(window_.framebufferSize());
         if (!image) return false;
-        const glm::uvec2 size = renderSize();
+        const glm::uvec2 size = glm::max(window_.framebufferSize(), glm::uvec2(16));
         demo_.game->frame(size, menu_.open ? 1.0f : float(behind_ / kTick));
         capture_.noteSystems(demo_.game->frameSchedule());
         speaker_.listenFrom(demo_.game->world().resource<ActiveCamera>().pose);
         drawUi();
         renderer_.render(
-            demo_.game->scene(), size, demo_.gi, capture_.options(demo_.graph),
+            demo_.game->scene(), size, shownSettings(demo_), capture_.options(demo_.graph),
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
                 shown_ = demo_.layer ? render::addLayerView(scope, view, frame, *demo_.layer, size,
                                                             demo_.gi.composite)
@@ -313,7 +309,7 @@ class WindowedRun {
             key(Action::kLamp), key(Action::kJump), key(Action::kCrouch), key(Action::kUse));
     }
     std::string statusLine() const {
-        const glm::uvec2 size = renderSize();
+        const glm::uvec2 size = window_.framebufferSize();
         const glm::dvec3 at = demo_.game->player().position;
         return fmt::format("{:.1f} ms  {:.1f}/s  {}x{} {}  at {:.2f} {:.2f}{}", frameMs_,
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y,
@@ -344,7 +340,6 @@ class WindowedRun {
     MenuEvent chosen_ = MenuEvent::kNone;
     ImageHandle shown_;
     glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels
-    float scale_ = 1;      // of the window's sides that is rendered
     double behind_ = 0, frameMs_ = 16, sinceSave_ = 0;
     uint32_t solved_ = 0;
     bool quit_ = false, checkedSave_ = false;

@@ -47,6 +47,7 @@ ImageHandle addDisplay(GraphScope scope, const GBuffer& gbuffer, ImageHandle rad
         .read("metered", exposure ? exposure : gbuffer.surfaces.camera)  // unread where by hand
         .constant("kMetered", bool(exposure))
         .constant("kCurve", uint32_t(settings.tonemap))
+        .constant("kDither", settings.dither)
         .push(std::exp2(settings.exposure))
         .colorClear(display, glm::vec4(0));
     return display;

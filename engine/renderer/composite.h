@@ -14,19 +14,22 @@ enum class Tonemap : uint32_t { kNone, kReinhard, kAces, kNeutral, kAgx };
 struct CompositeSettings {
     float exposure = 0;  // stops
     Tonemap tonemap = Tonemap::kAces;
+    bool dither = true;
 
     static constexpr auto fields() {
         return std::tuple{
             SettingField{"exposure", &CompositeSettings::exposure, -20, 20, "stops", "of the display image"},
             SettingField{"tonemap", &CompositeSettings::tonemap, 0, 0, "", "curve of the display image",
-                         "none|reinhard|aces|neutral|agx"}};
+                         "none|reinhard|aces|neutral|agx"},
+            SettingField{"dither", &CompositeSettings::dither, 0, 0, "",
+                         "half a step of the display's 8 bits by place, so that gradients have no bands"}};
     }
 
     bool operator==(const CompositeSettings&) const = default;
 };
 
 struct RenderOutputs {
-    ImageHandle radiance;   // rgba16f, W/(m² sr); alpha 0 where no surface is seen
+    ImageHandle radiance;   // rgba16f, W/(m² sr), anti-aliased; alpha 0 where no surface is seen
     ImageHandle display;    // rgba8, sRGB-encoded
     BufferHandle exposure;  // io::Exposure; invalid: by hand
 };

@@ -79,7 +79,7 @@ PassBuilder beginSurfaceView(GraphScope scope, std::string_view name, std::strin
 }
 
 ImageHandle addClusters(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
-    const ImageHandle out = layerImage(scope, scene.size);
+    const ImageHandle out = layerImage(scope, scene.grid.size);
     beginSurfaceView(scope, "debug_view.clusters", "debug_view/clusters.frag", scene, f)
         .read("texels", f.bounce.rsm.texels)
         .read("faces", f.bounce.rsm.faces)
@@ -91,7 +91,7 @@ ImageHandle addClusters(GraphScope scope, const SceneView& scene, const RenderFr
 }
 
 ImageHandle addVals(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
-    const ImageHandle out = layerImage(scope, scene.size);
+    const ImageHandle out = layerImage(scope, scene.grid.size);
     beginSurfaceView(scope, "debug_view.vals", "debug_view/vals.frag", scene, f)
         .read("vals", f.bounce.vals.vals)
         .read("shapes", f.bounce.vals.shapes)
@@ -101,7 +101,7 @@ ImageHandle addVals(GraphScope scope, const SceneView& scene, const RenderFrame&
 }
 
 ImageHandle addLightClusters(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
-    const ImageHandle out = layerImage(scope, scene.size);
+    const ImageHandle out = layerImage(scope, scene.grid.size);
     beginSurfaceView(scope, "debug_view.light_clusters", "debug_view/light_clusters.frag", scene, f)
         .read("lights", f.punctual.lists.lights)
         .push(f.punctual.lists.lightCount)
@@ -211,8 +211,15 @@ std::optional<Layer> layerOfKey(int digit) {
     return layer == Layer::kFinal ? std::nullopt : std::optional(layer);
 }
 
-bool showsGloss(Layer layer) {
+bool isPicture(Layer layer) {
     return layer == Layer::kFinal || layer == Layer::kRadiance;
+}
+
+RenderSettings settingsOf(Layer layer, RenderSettings s) {
+    if (isPicture(layer)) return s;
+    s.bounce.valShading.glossy = false;
+    s.antialiasing.mode = Antialiasing::kOff;
+    return s;
 }
 
 bool hasLayer(const RenderFrame& f, Layer layer) {

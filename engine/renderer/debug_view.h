@@ -41,8 +41,10 @@ std::optional<Layer> layerFromName(std::string_view name);
 // That of a number key, 1 to 9; nothing: the picture itself.
 std::optional<Layer> layerOfKey(int digit);
 
-// Whether gloss is in it; the others are the same without, and cheaper.
-bool showsGloss(Layer layer);
+// The picture or its radiance, with gloss and anti-aliased; others are of the pixels' centres.
+bool isPicture(Layer layer);
+// For a layer alone: without what it does not show.
+RenderSettings settingsOf(Layer layer, RenderSettings settings);
 
 // Whether the frame has it; without light there are few.
 bool hasLayer(const RenderFrame& frame, Layer layer);

@@ -19,7 +19,7 @@ namespace ag::render {
 // A step of quality: our preset with these knobs.
 struct QualityStep {
     std::string name;
-    float scale = 1;             // of a window's sides that is rendered
+    float scale = 1;             // of the picture's sides, rendered: AntialiasingSettings::scale
     uint32_t mapResolution = 0;  // texels along an RSM; 0: as each light says
     uint32_t valCount = 128;
     uint32_t ismTile = 64, pointsPerMap = 1536;

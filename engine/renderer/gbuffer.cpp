@@ -16,20 +16,20 @@ std::string_view fillShader(const SceneView& scene) {
 
 GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
     const auto target = [&](const char* name, VkFormat format) {
-        return scope.image(name, {.format = format, .size = scene.size});
+        return scope.image(name, {.format = format, .size = scene.grid.size});
     };
     gi::Surfaces g{.depth = target("gbuffer.depth", VK_FORMAT_D32_SFLOAT),
                    .normal = target("gbuffer.normal", VK_FORMAT_R16G16B16A16_SFLOAT),
                    .albedo = target("gbuffer.albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
-                   .size = scene.size,
+                   .size = scene.grid.size,
                    .normalMapped = scene.hasNormalMaps,
-                   .view = scene.scene->camera,
+                   .view = scene.eye,
                    .camera = scene.camera};
     ImageHandle emissive;
     if (scene.hasEmissive) emissive = target("gbuffer.emissive", VK_FORMAT_R16G16B16A16_SFLOAT);
     if (scene.hasGlossy) g.reflectance = target("gbuffer.reflectance", VK_FORMAT_R16G16B16A16_SFLOAT);
 
-    const glm::mat4& clipFromWorld = scene.scene->camera.clipFromWorld;
+    const glm::mat4& clipFromWorld = scene.eye.clipFromWorld;
     const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.slots.camera, clipFromWorld);
     PassBuilder pass = scope.raster("gbuffer.fill", "gbuffer/fill.vert", fillShader(scene),
                                     gpu::VertexLayout::kPositionsAndAttributes);
@@ -47,7 +47,7 @@ GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
 
 ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces) {
     if (scene.moved.empty()) return {};
-    const glm::mat4& clipFromWorld = scene.scene->camera.clipFromWorld;
+    const glm::mat4& clipFromWorld = scene.eye.clipFromWorld;
     const ViewDraws& all = scene.draws->cull(*scene.scene, scene.slots.camera, clipFromWorld);
     const ViewDraws& moved = scene.draws->pick(scene.slots.moved, all, scene.moved);
     if (moved.rows.empty()) return {};

@@ -88,6 +88,7 @@ gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::Bo
 }  // namespace
 
 bool needsMotion(const RenderSettings& s, bool sky) {
+    if (s.antialiasing.mode == Antialiasing::kTemporal) return true;
     if (sky && s.bounce.sky.enabled) return true;
     if (s.technique == Technique::kNone) return false;
     return castsTexelRays(s) || (s.bounce.denoiser.enabled && s.bounce.denoiser.motion);
@@ -98,7 +99,7 @@ gi::Versions versionsOf(const SceneView& scene) {
     return {.scene = scene.loadedVersion,
             .instances = s.instancesVersion,
             .lights = s.lightsVersion,
-            .camera = s.cameraVersion,
+            .camera = jitteredVersion(s.cameraVersion, scene.grid),
             .origin = s.originVersion};
 }
 

@@ -2,25 +2,9 @@
 // frame graph finds order, barriers and what can be skipped.
 #include "engine/renderer/render_frame.h"
 
-#include <utility>
-
-#include "engine/core/hash.h"
 #include "engine/renderer/indirect_light.h"
 
 namespace ag::render {
-namespace {
-
-// Of whatever changes the picture.
-uint64_t pictureVersion(const SceneView& scene, const RenderSettings& s, RenderHistory& h) {
-    if (std::exchange(h.settings, s) != s) ++h.settingsVersion;
-    const gi::Versions v = versionsOf(scene);
-    uint64_t version = combineHash(h.settingsVersion, scene.sky.version);
-    for (const uint64_t part : {v.scene, v.instances, v.lights, v.camera, v.origin})
-        version = combineHash(version, part);
-    return version;
-}
-
-}  // namespace
 
 RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSettings& s, RenderHistory& h) {
     RenderFrame f;
@@ -57,9 +41,12 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     // To the eye
     RenderOutputs& out = f.outputs;
     out.radiance = addRadiance(scope, f.gbuffer, {f.direct, f.sky, f.bounce, scene});
-    out.exposure = addExposure(scope, out.radiance, scene.units, s.composite.exposure,
-                               pictureVersion(scene, s, h), s.exposure, h.exposure);
-    out.display = addDisplay(scope, f.gbuffer, out.radiance, out.exposure, s.composite);
+    out.radiance = addAntialiasing(scope, scene, surfaces, out.radiance, s.antialiasing, h.antialiasing);
+    out.exposure = addExposure(scope, out.radiance, scene.units, s.composite.exposure, scene.grid.version,
+                               s.exposure, h.exposure);
+    const ImageHandle glaring = addBloom(scope, out.radiance, s.bloom);
+    out.display = addDisplay(scope, f.gbuffer, glaring, out.exposure, s.composite);
+    out.display = addSmoothEdges(scope, out.display, s.antialiasing);
     return f;
 }
 

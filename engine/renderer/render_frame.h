@@ -6,6 +6,7 @@
 #include "engine/renderer/direct_lighting.h"
 #include "engine/renderer/exposure.h"
 #include "engine/renderer/gbuffer.h"
+#include "engine/renderer/picture_version.h"
 #include "engine/renderer/punctual_lighting.h"
 #include "engine/renderer/render_settings.h"
 #include "gi/bounce_light.h"
@@ -18,8 +19,8 @@ struct RenderHistory {
     gi::BounceLightHistory bounce;
     gi::SkyHistory sky;
     gi::Settling exposure;
-    RenderSettings settings;       // of the frame before
-    uint64_t settingsVersion = 0;  // changes with them
+    PictureVersion picture;
+    AntialiasingHistory antialiasing;
     SunShadowHistory sunShadows;
     LightClusterHistory lightClusters;
     PunctualShadowHistory punctualShadows;

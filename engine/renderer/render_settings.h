@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "engine/gpu/functions.h"
+#include "engine/renderer/antialiasing.h"
+#include "engine/renderer/bloom.h"
 #include "engine/renderer/composite.h"
 #include "engine/renderer/punctual_lighting.h"
 #include "engine/renderer/shadow_maps.h"
@@ -44,6 +46,8 @@ struct RenderSettings {
     LightClusterSettings lightClusters;
     PunctualShadowSettings punctualShadows;
     PunctualLightingSettings punctualLighting;
+    AntialiasingSettings antialiasing;
+    BloomSettings bloom;
     CompositeSettings composite;
     ExposureSettings exposure;
 

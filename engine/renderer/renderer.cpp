@@ -120,13 +120,15 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     graph_.beginFrame(options);
     scene_.beginFrame(scene, jobs_);
     if (castsTexelRays(settings)) checkTexelRays(device_.info());
-    SceneView view = scene_.import(graph_, scene, size, tracedBy(settings, bool(given.sky)));
-    view.units = units_;
-    view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     RenderSettings asked = settings;
     fitToDevice(device_.info().limits, asked);
     asked.bounce.ismAtlas.keepMaps = settings.bounce.ismAtlas.keepMaps && options.skip;
     asked.composite.exposure += std::log2(units_.light);
+    const PixelGrid grid = choosePixels(asked.antialiasing, size, scene, history_.picture.next(scene, asked),
+                                        history_.antialiasing);
+    SceneView view = scene_.import(graph_, scene, grid, tracedBy(settings, bool(given.sky)));
+    view.units = units_;
+    view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     const RenderFrame frame = addFrame(graph_, view, asked, history_);
     finish(graph_, view, frame);
     moments_.declared = steadyNs();

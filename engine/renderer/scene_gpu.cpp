@@ -226,7 +226,7 @@ ViewSlots viewSlots(const RenderScene& scene) {
     return s;
 }
 
-SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec2 size,
+SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const PixelGrid& grid,
                            std::optional<gi::TreesOf> traced) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
@@ -236,7 +236,8 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
     SceneView view{.scene = &scene,
                    .draws = &draws_,
                    .slots = viewSlots(scene),
-                   .size = size,
+                   .grid = grid,
+                   .eye = jittered(scene.camera, grid),
                    .hasEmissive = strongestEmission_ > 0,
                    .hasGlossy = hasGlossy_,
                    .hasNormalMaps = hasNormalMaps_};
@@ -276,7 +277,7 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, glm::uvec
         view.trees =
             trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion), *traced);
     view.sky = sky_.import(scope, scene.sky, lightUnit_, view.skyPicture);
-    view.camera = gi::addCamera(scope, "scene.camera", scene.camera, size);
+    view.camera = gi::addCamera(scope, "scene.camera", view.eye, grid.size);
     return view;
 }
 

@@ -13,6 +13,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/resources.h"
 #include "engine/renderer/draw_lists.h"
+#include "engine/renderer/pixel_grid.h"
 #include "engine/renderer/render_units.h"
 #include "engine/renderer/scene_trees.h"
 #include "engine/renderer/skinning.h"
@@ -49,7 +50,8 @@ struct SceneView {
     BufferHandle commands;   // indirect draws of all views
     BufferHandle drawnRows;  // the instances that they draw: a texel buffer of uint
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
-    glm::uvec2 size{0};                                       // pixels of the camera's image
+    PixelGrid grid;                                           // the camera's pixels
+    RenderCamera eye;                                         // the scene's camera as those see
     RenderUnits units;                                        // of everything above
     float extent = 0;                                         // see steadyExtent()
     bool hasEmissive = false;
@@ -86,7 +88,7 @@ class SceneGpu {
 
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
-    SceneView import(GraphScope scope, const RenderScene& scene, glm::uvec2 size,
+    SceneView import(GraphScope scope, const RenderScene& scene, const PixelGrid& grid,
                      std::optional<gi::TreesOf> traced = {});
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     // `previous`: whether a pass reads where things were in the frame before.

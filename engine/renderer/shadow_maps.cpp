@@ -42,7 +42,7 @@ float sceneReach(const RenderScene& scene) {
 void addSunViews(const SceneView& scene, const RenderLight& light, const ShadowMapSettings& settings,
                  Views& views) {
     const RenderCamera& camera = scene.scene->camera;
-    const float aspect = float(scene.size.x) / float(scene.size.y);
+    const float aspect = float(scene.grid.output.x) / float(scene.grid.output.y);
     const uint32_t count = std::clamp(settings.cascades, 1u, io::kMaxCascades);
     const float whole = sceneReach(*scene.scene), reach = whole * settings.cascadeReach;
     float begin = camera.near;

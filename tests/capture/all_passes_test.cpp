@@ -61,6 +61,9 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     ASSERT_TRUE(render::applyPreset(c.preset, settings.gi));
     settings.gi.bounce.laterBounces.enabled = settings.gi.bounce.texelRays.enabled = c.options;
     settings.gi.exposure.automatic = c.options;
+    settings.gi.bloom.share = c.options ? 0.1f : 0.0f;
+    settings.gi.antialiasing.mode =
+        c.options ? render::Antialiasing::kTemporal : render::Antialiasing::kSpatial;
     settings.gi.bounce.denoiser.enabled = settings.gi.bounce.denoiser.motion = true;
     settings.gi.bounce.stochasticRsm.interpolate = c.preset == "rsm-400";
     settings.gi.bounce.valClustering.count = 64;

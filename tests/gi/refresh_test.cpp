@@ -48,10 +48,10 @@ struct Refreshed {
             ++scene.instancesVersion;
         }
         draws.beginFrame(scene, runner);
-        SceneView view{.scene = &scene, .draws = &draws, .size = {160, 90}};
+        SceneView view{.scene = &scene, .draws = &draws, .grid = {.size = {160, 90}}};
         view.moved = scene.changedInstances;
-        const Refresh refresh =
-            chooseRefresh(worldOf(view, lights, moved), scene.camera, view.size, settings.bounce, history);
+        const Refresh refresh = chooseRefresh(worldOf(view, lights, moved), scene.camera, view.grid.size,
+                                              settings.bounce, history);
         scene.allInstancesChanged = false;
         return refresh;
     }
@@ -150,7 +150,7 @@ TEST(Refresh, SharesAreOfDirections) {
     r.frame(true);
     const uint32_t row = uint32_t(r.scene.instances.size()) - 1;
     r.scene.changedInstances = {{row, row + 1}};
-    SceneView view{.scene = &r.scene, .draws = &r.draws, .size = {160, 90}};
+    SceneView view{.scene = &r.scene, .draws = &r.draws, .grid = {.size = {160, 90}}};
     view.moved = r.scene.changedInstances;
     const auto ofBall = [](double distance) {
         return 1 - std::cos(std::asin(0.05 * std::sqrt(3) / distance));  // over 2 pi
@@ -160,14 +160,14 @@ TEST(Refresh, SharesAreOfDirections) {
     const double cone = 1 - std::cos(std::atan(std::hypot(width, height)));
     const double part = 4 * width * height / (glm::pi<double>() * (width * width + height * height));
     const double ofPicture = ofBall(std::hypot(1.9, 0.5)) / (cone * part);
-    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), ofPicture,
+    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.grid.size), ofPicture,
                 0.02 * ofPicture);
     r.scene.camera.forward = -r.scene.camera.forward;  // looks away
     const double ofLight = ofBall(3) / (1 - std::cos(glm::radians(60.0)));
-    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), ofLight,
+    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.grid.size), ofLight,
                 0.02 * ofLight);
     r.scene.lights[0].direction = {0, 1, 0};  // and so does the light
-    EXPECT_EQ(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.size), 0);
+    EXPECT_EQ(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.grid.size), 0);
 }
 
 TEST(Refresh, LightsFollowAThingThatLeavesItsLightBehind) {

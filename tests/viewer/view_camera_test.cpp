@@ -34,6 +34,19 @@ TEST(ViewCamera, StartsAsThePoseLooks) {
     }
 }
 
+TEST(ViewCamera, KeepsThePosesRoll) {
+    for (const float roll : {-2.5f, -0.4f, 0.0f, 0.7f}) {
+        CameraPose pose;
+        pose.forward = glm::normalize(glm::vec3(0.3f, -0.2f, -0.9f));
+        const glm::vec3 right = glm::normalize(glm::cross(pose.forward, glm::vec3(0, 1, 0)));
+        pose.up = std::cos(roll) * glm::cross(right, pose.forward) + std::sin(roll) * right;
+        ViewCamera c = startAt(pose, box());
+        EXPECT_NEAR(glm::distance(poseOf(c).up, pose.up), 0, 1e-5f) << roll;
+        moveCamera(c, {.forward = 1, .look = {30, 10}}, 0.1f);
+        EXPECT_NEAR(c.roll, roll, 1e-5f);
+    }
+}
+
 TEST(ViewCamera, FliesAlongItsViewAtItsSpeed) {
     ViewCamera c = looking({1, 1, 0});
     moveCamera(c, {.forward = 1}, 0.5f);

@@ -241,7 +241,7 @@ Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, co
     const bool goesOn = row.term == "all" || row.term == "bounces";
     if (goesOn && settings.technique == render::Technique::kAreaLights)
         settings.bounce.laterBounces.enabled = true;
-    if (!render::showsGloss(*layer)) settings.bounce.valShading.glossy = false;
+    settings = render::settingsOf(*layer, settings);
     renderer_.load(*scene_.geometry);
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};

@@ -42,6 +42,7 @@ std::shared_ptr<const TruthPicture> pictureOf(const reference::Refinement& refin
 struct LiveTruth::Work {
     RenderScene scene;
     glm::uvec2 size{0};
+    reference::PixelFilter filter{};
     uint64_t subject = 0;
     std::optional<reference::RayScene> rays;
 };
@@ -62,13 +63,15 @@ LiveTruth::~LiveTruth() {
     thread_.join();
 }
 
-void LiveTruth::follow(const RenderScene& scene, glm::uvec2 size) {
+void LiveTruth::follow(const RenderScene& scene, glm::uvec2 size, reference::PixelFilter filter) {
     const std::lock_guard lock(mutex_);
-    const bool same = subject_ > 0 && size == size_ && sameSurroundings(scene, wanted_) &&
+    const bool same = subject_ > 0 && size == size_ && filter == filter_ &&
+                      sameSurroundings(scene, wanted_) &&
                       scene.camera.clipFromWorld == wanted_.camera.clipFromWorld;
     if (same) return;
     wanted_ = scene;
     size_ = size;
+    filter_ = filter;
     wantedSubject_ = ++subject_;
     newest_ = nullptr;
     changed_.notify_all();
@@ -96,6 +99,7 @@ bool LiveTruth::waitForWork(Work& work) {
         work.scene = wanted_;
     }
     work.size = size_;
+    work.filter = filter_;
     work.subject = subject_;
     return true;
 }
@@ -103,7 +107,8 @@ bool LiveTruth::waitForWork(Work& work) {
 void LiveTruth::trace(Work& work) {
     const auto start = Clock::now();
     if (!work.rays) work.rays.emplace(work.scene);
-    const reference::ReferenceSettings settings{.paths = {.bounces = kBounces, .glossy = true}};
+    const reference::ReferenceSettings settings{
+        .paths = {.bounces = kBounces, .glossy = true, .filter = work.filter}};
     JobRunner runner(threads_);
     reference::Refinement refinement(*work.rays, work.size, settings, runner);
     uint32_t count = 1;

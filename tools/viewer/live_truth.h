@@ -8,11 +8,11 @@
 
 #include "engine/core/image_difference.h"
 #include "engine/scene/render_scene.h"
+#include "tools/reference/pixel_filter.h"
 
 namespace ag::viewer {
 
-// Radiance in W/(m² sr) with every light, gloss and 16 bounces, at the pixels' centres as the renderer has
-// it.
+// Radiance in W/(m² sr) with every light, gloss and 16 bounces.
 struct TruthPicture {
     uint64_t subject = 0;  // of LiveTruth::follow: what it is a picture of
     Image halves[2];       // independent of each other
@@ -33,9 +33,11 @@ class LiveTruth {
     LiveTruth(const LiveTruth&) = delete;
     LiveTruth& operator=(const LiveTruth&) = delete;
 
-    // What is to be traced; begins anew where camera, lights, sky or size differ. The scene's geometry must
-    // stay until this ends, the scene itself is copied.
-    void follow(const RenderScene& scene, glm::uvec2 size);
+    // What is to be traced; begins anew where camera, lights, sky, size or filter differ. The scene's
+    // geometry must stay until this ends, the scene itself is copied. `filter`: as the renderer's picture has
+    // it.
+    void follow(const RenderScene& scene, glm::uvec2 size,
+                reference::PixelFilter filter = reference::PixelFilter::kCenter);
     uint64_t subject() const { return wantedSubject_; }
     // Null: none of the subject yet.
     std::shared_ptr<const TruthPicture> newest() const;
@@ -53,6 +55,7 @@ class LiveTruth {
     std::condition_variable changed_;
     RenderScene wanted_;
     glm::uvec2 size_{0};
+    reference::PixelFilter filter_ = reference::PixelFilter::kCenter;
     uint64_t subject_ = 0;
     bool leave_ = false;
     std::shared_ptr<const TruthPicture> newest_;

@@ -19,7 +19,8 @@ void PresetView::forget() {
 }
 
 void PresetView::render(const RenderScene& scene, glm::uvec2 size, const std::string& preset,
-                        const FrameGraphOptions& options, gpu::Device& device) {
+                        const render::AntialiasingSettings& antialiasing, const FrameGraphOptions& options,
+                        gpu::Device& device) {
     if (size != size_ || preset != preset_) forget();
     if (!renderer_) {
         renderer_ = std::make_unique<render::Renderer>(device);
@@ -29,6 +30,7 @@ void PresetView::render(const RenderScene& scene, glm::uvec2 size, const std::st
     size_ = size;
     render::RenderSettings settings;
     render::applyPreset(preset, settings);
+    settings.antialiasing = antialiasing;
     renderer_->render(scene, size, settings, options,
                       [&](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
                           radiance_ = frame.outputs.radiance;

@@ -14,9 +14,11 @@ double passesMs(const FrameGraph& graph);
 
 class PresetView {
   public:
-    // One more frame of the scene by the preset, before ours. Blocking where the preset or the size changed.
+    // One more frame of the scene by the preset, before ours, anti-aliased alike. Blocking where the preset
+    // or the size changed.
     void render(const RenderScene& scene, glm::uvec2 size, const std::string& preset,
-                const FrameGraphOptions& options, gpu::Device& device);
+                const render::AntialiasingSettings& antialiasing, const FrameGraphOptions& options,
+                gpu::Device& device);
     void forget();
     bool isOn() const { return renderer_ != nullptr; }
     double gpuMs() const { return passesMs(renderer_->graph()); }

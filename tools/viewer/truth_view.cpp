@@ -20,7 +20,8 @@ glm::uvec2 sizeOf(const Image& image) {
 
 }  // namespace
 
-bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, bool on, gpu::Device& device) {
+bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, reference::PixelFilter filter, bool on,
+                       gpu::Device& device) {
     radiance_ = {};
     if (!on) {
         tracing_.reset();
@@ -28,7 +29,7 @@ bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, bool on, gpu::
         return false;
     }
     if (!tracing_) tracing_.emplace();
-    tracing_->follow(scene, size);
+    tracing_->follow(scene, size, filter);
     auto newest = tracing_->newest();
     if (newest && newest == picture_) return false;
     if (!newest) numbers_ = "path tracing...";

@@ -16,7 +16,8 @@ class TruthView {
   public:
     // Before a frame of the scene. Takes what was traced meanwhile to the device, blocking; true: there is a
     // better picture, whose numbers are due.
-    bool follow(const RenderScene& scene, glm::uvec2 size, bool on, gpu::Device& device);
+    bool follow(const RenderScene& scene, glm::uvec2 size, reference::PixelFilter filter, bool on,
+                gpu::Device& device);
     // What is to be shown, and our radiance as an output of the frame. Ours alone where there is no picture.
     ImageHandle add(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
                     const render::CompositeSettings& composite, const BesideSettings& settings);

@@ -15,12 +15,14 @@ glm::vec3 forwardOf(const ViewCamera& c) {
     return {-std::sin(c.yaw) * std::cos(c.pitch), std::sin(c.pitch), -std::cos(c.yaw) * std::cos(c.pitch)};
 }
 
-glm::vec3 upOf(const ViewCamera& c) {
-    return {std::sin(c.yaw) * std::sin(c.pitch), std::cos(c.pitch), std::cos(c.yaw) * std::sin(c.pitch)};
-}
-
+// Of the level: without roll.
 glm::vec3 rightOf(const ViewCamera& c) {
     return {std::cos(c.yaw), 0, -std::sin(c.yaw)};
+}
+
+glm::vec3 upOf(const ViewCamera& c) {
+    const glm::vec3 level = glm::cross(rightOf(c), forwardOf(c));
+    return std::cos(c.roll) * level + std::sin(c.roll) * rightOf(c);
 }
 
 }  // namespace
@@ -34,6 +36,8 @@ ViewCamera startAt(const CameraPose& pose, const Bounds& bounds) {
         upright ? glm::cross(glm::vec3(0, 1, 0), ag::rightOf(pose.forward, pose.up)) : pose.forward;
     c.yaw = std::atan2(-ahead.x, -ahead.z);
     c.pitch = std::asin(std::clamp(pose.forward.y, -1.0f, 1.0f));
+    const glm::vec3 level = glm::cross(rightOf(c), forwardOf(c));
+    c.roll = std::atan2(glm::dot(pose.up, rightOf(c)), glm::dot(pose.up, level));
     c.verticalFov = pose.verticalFov;
     c.near = pose.near;
     const float diagonal = bounds.empty() ? 10 : glm::length(bounds.max - bounds.min);

@@ -11,13 +11,14 @@ struct ViewCamera {
     glm::dvec3 position{0};  // m
     float yaw = 0;           // rad about +Y, 0: along -Z, rising to the left
     float pitch = 0;         // rad, up
+    float roll = 0;          // rad, about the view: the picture's top leans to the right
     float verticalFov = 0.8f, near = 0.05f;
     float speed = 1;          // m/s
     float focusDistance = 1;  // m ahead: what is circled about
     bool orbits = false;
 };
 
-// As the pose looks, without its roll; it flies through a box's diagonal in twelve seconds.
+// As the pose looks; it flies through a box's diagonal in twelve seconds.
 ViewCamera startAt(const CameraPose& pose, const Bounds& bounds);
 
 // One step of so many seconds. Flying, forward and right move along the view, jump and crouch up and down; in

@@ -30,6 +30,11 @@ constexpr double kShortestFrame = 1.0 / 144;  // s
 constexpr float kScriptStep = 1.0f / 60;      // s: what a frame of a script stands for
 constexpr float kLongestStep = 0.25f;         // s: a slower frame slows the camera
 
+reference::PixelFilter filterOf(const render::AntialiasingSettings& s) {
+    const bool filters = s.mode == render::Antialiasing::kTemporal;
+    return filters ? reference::PixelFilter::kBlackmanHarris : reference::PixelFilter::kCenter;
+}
+
 class ViewerRun {
   public:
     ViewerRun(Viewing& viewing, const ViewerOptions& options, SaveViewing session, SaveViewing scene,
@@ -159,13 +164,15 @@ class ViewerRun {
         drawUi(size);
         viewing_.pose = poseOf(camera_);
         setCamera(viewing_.scene, viewing_.pose, size);
-        const bool fresh = truth_.follow(viewing_.scene, size, panel_.beside == Beside::kTruth, device_);
+        const bool fresh = truth_.follow(viewing_.scene, size, filterOf(viewing_.gi.antialiasing),
+                                         panel_.beside == Beside::kTruth, device_);
         renderOther(size);
         // What waits for the device is done: between an image's acquisition and its submission nothing may.
         const auto image = swapchain_.acquire(window_.framebufferSize());
         if (!image) return false;
+        const render::RenderSettings gi = panel_.layer ? settingsOf(*panel_.layer, viewing_.gi) : viewing_.gi;
         renderer_.render(
-            viewing_.scene, size, viewing_.gi, viewing_.graph,
+            viewing_.scene, size, gi, viewing_.graph,
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
                 missing_ = panel_.layer && !render::hasLayer(frame, *panel_.layer);
                 shown_ = addShown(scope, view, frame, size);
@@ -193,7 +200,8 @@ class ViewerRun {
     }
     void renderOther(glm::uvec2 size) {
         if (panel_.beside != Beside::kPreset) return other_.forget();
-        other_.render(viewing_.scene, size, panel_.otherPreset, viewing_.graph, device_);
+        other_.render(viewing_.scene, size, panel_.otherPreset, viewing_.gi.antialiasing, viewing_.graph,
+                      device_);
         panel_.besideNumbers =
             fmt::format("passes: {:.1f} ms, its {:.1f} ms", passesMs(renderer_.graph()), other_.gpuMs());
     }

@@ -31,8 +31,19 @@ void usePreset(const std::string& name, Viewing& v) {
     if (!render::applyPreset(name, settings)) return;
     settings.exposure = v.gi.exposure;
     settings.composite = v.gi.composite;
+    settings.antialiasing = v.gi.antialiasing;
+    settings.bloom = v.gi.bloom;
     v.gi = settings;
     v.preset = name;
+}
+
+void antialiasingFields(render::AntialiasingSettings& s) {
+    int mode = int(s.mode);
+    if (ImGui::Combo("anti-aliasing", &mode, "off\0spatial\0temporal\0")) s.mode = render::Antialiasing(mode);
+    float percent = 100 * s.scale;
+    if (s.mode == render::Antialiasing::kTemporal &&
+        ImGui::SliderFloat("rendered size", &percent, 50, 100, "%.0f %%", ImGuiSliderFlags_AlwaysClamp))
+        s.scale = percent / 100;
 }
 
 // True: another one was chosen.
@@ -177,6 +188,8 @@ PanelEvent drawPanel(PanelState& state, Viewing& v, ViewCamera& camera) {
     ImGui::Checkbox("automatic exposure", &v.gi.exposure.automatic);
     ImGui::SliderFloat("exposure, stops", &v.gi.composite.exposure, -10, 10, "%.1f",
                        ImGuiSliderFlags_AlwaysClamp);
+    antialiasingFields(v.gi.antialiasing);
+    ImGui::SliderFloat("bloom", &v.gi.bloom.share, 0, 0.5f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     besideFields(state);
     if (ImGui::CollapsingHeader("camera")) cameraFields(camera);
     if (ImGui::Button("whole scene (F)")) event = PanelEvent::kFrameScene;

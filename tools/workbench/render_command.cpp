@@ -256,13 +256,18 @@ class Rendering {
         out.attributes["settings"] = fmt::format("{}", fmt::join(options_.assignments, " "));
         out.attributes["frames"] = std::to_string(options_.frames);
         out.attributes["device"] = renderer_.device().info().name;
-        out.attributes["filter"] = "center";
+        out.attributes["filter"] = filterName();
         return out;
     }
 
     render::Renderer& renderer() { return renderer_; }
 
   private:
+    std::string filterName() const {
+        const bool filtered = settings_.gi.antialiasing.mode == render::Antialiasing::kTemporal &&
+                              render::isPicture(asked_.layer);
+        return filtered ? "blackman-harris" : "center";
+    }
     void renderFrame() {
         const bool png = writesPng(options_);
         renderer_.render(
@@ -287,11 +292,20 @@ class Rendering {
     Shown shown_;
 };
 
+// A picture has every bounce; terms are compared one by one.
+std::string defaultPreset(const RenderOptions& o) {
+    const auto layer = render::layerFromName(layerOf(o));
+    const bool all = layer && render::isPicture(*layer) && o.budgetMs == 0;
+    return all ? "afterglow-bounces" : "afterglow";
+}
+
 int runRender(RenderOptions options) {
+    if (options.preset.empty() && options.session.empty()) options.preset = defaultPreset(options);
     if (const Status used = useSession(options.session, options.scene, options.preset, options.assignments);
         !used)
         return refuse(used.error().message);
     RenderSetup settings;
+    if (layerOf(options) == "final") settings.gi.antialiasing.mode = render::Antialiasing::kTemporal;
     if (const Status set = settings.apply(options.preset, options.assignments); !set)
         return refuse(set.error().message);
     if (options.listSettings) {
@@ -301,7 +315,7 @@ int runRender(RenderOptions options) {
     if (const Status good = checkOptions(options); !good) return refuse(good.error().message);
     const auto asked = parseLayer(options);
     if (!asked) return refuse(asked.error().message);
-    if (!render::showsGloss(asked->layer)) settings.gi.bounce.valShading.glossy = false;
+    settings.gi = render::settingsOf(asked->layer, settings.gi);
     const auto walk = parseStep(options.walk);
     if (!walk) return refuse(walk.error().message);
     auto loaded = loadScene(options.scene);
@@ -346,7 +360,7 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->footer(layerTable());
     command
         ->add_option("--preset", options->preset, fmt::format("{}", fmt::join(render::presetNames(), ", ")))
-        ->default_str("afterglow");
+        ->default_str("afterglow, with all bounces (afterglow-bounces) for final and radiance");
     command
         ->add_option("--budget-ms", options->budgetMs,
                      "choose the quality so that a frame's passes take about so long")

@@ -54,6 +54,13 @@ Result<std::string> saveAsGltf(const SceneOptions& options, const viewer::Viewin
     return path;
 }
 
+// Until the user says otherwise.
+void showAtItsBest(render::RenderSettings& gi) {
+    gi.exposure.automatic = true;
+    gi.composite.tonemap = render::Tonemap::kAgx;
+    gi.antialiasing.mode = render::Antialiasing::kTemporal;
+}
+
 int runView(ViewOptions& o) {
     const bool saved = fileExists(o.session);
     if (!saved && o.given.preset.empty()) o.given.preset = "afterglow-bounces";
@@ -62,7 +69,7 @@ int runView(ViewOptions& o) {
     if (session->scene.scene.empty())
         return refuse("view needs a SCENE, or a --session that was saved before");
     RenderSetup setup;
-    if (!saved) setup.gi.exposure.automatic = true, setup.gi.composite.tonemap = render::Tonemap::kAgx;
+    if (!saved) showAtItsBest(setup.gi);
     if (const Status set = setup.apply(session->preset, session->assignments); !set)
         return refuse(set.error().message);
     const std::string truthFile = o.viewer.truthStem.empty() ? "" : o.viewer.truthStem + "_1.exr";
