@@ -32,7 +32,7 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     f.bounce1 = addValShading(tiles, s.valShading, kFirstBounceShading, refresh.pixels);
     f.bounce1 = addTexelRays(tiles, f.bounce1, {f.rsm, f.clusters, in.occluders, in.world.versions},
                              s.valShading, s.texelRays, h.texelRays);
-    f.gloss = addValGloss(scope, in.surfaces, {f.vals, f.isms}, s.valShading, refresh.pixels);
+    f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);
 
     // Light that goes on
     f.irradiance = f.bounce1;

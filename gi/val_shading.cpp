@@ -1,5 +1,6 @@
 #include "gi/val_shading.h"
 
+#include "gi/gloss_upsampling.h"
 #include "gi/pixel_list.h"
 #include "shaders/val_shading/val_shading_io.h"
 
@@ -78,6 +79,15 @@ struct GlossGather {
     uint32_t taps;
 };
 
+Surfaces withMaterials(GraphScope scope, const Surfaces& all, const Surfaces& downsampled) {
+    const uint32_t spacing = downsampled.spacing / all.spacing;
+    Surfaces cells = downsampled;
+    cells.albedo = addDownsampledImage(scope, "val_gloss.downsample_albedo", all.albedo, spacing);
+    cells.reflectance =
+        addDownsampledImage(scope, "val_gloss.downsample_reflectance", all.reflectance, spacing);
+    return cells;
+}
+
 void addGloss(const ValTiles& t, const GlossGather& of, const WorkList& groups, ImageHandle gloss) {
     gatherPass(t, of.name, "val_shading/gather_gloss.comp", of.shape, of.taps)
         .sample("albedoMap", t.gbuffer.albedo)
@@ -136,18 +146,20 @@ Irradiance addValShading(const ValTiles& t, const ValShadingSettings& settings, 
     return result;
 }
 
-ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
-                        const ValShadingSettings& settings, const PixelShare& share) {
+ImageHandle addValGloss(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                        const ShadowedVals& lights, const ValShadingSettings& settings,
+                        const PixelShare& share) {
     const bool lightsHaveArea = settings.farShape != ValShape::kPoint;
-    if (!settings.glossy || !gbuffer.reflectance || lights.vals.count == 0 || !lightsHaveArea) return {};
+    if (!settings.glossy || !all.reflectance || lights.vals.count == 0 || !lightsHaveArea) return {};
+    const Surfaces cells = withMaterials(scope, all, downsampled);
     const ValTiles t =
-        addValTiles(scope, gbuffer, lights, settings.nearReach, tileSizeFor(gbuffer.spacing), kGlossTiles);
-    const ImageHandle gloss = scope.image("val_gloss.gloss", scope.info(gbuffer.reflectance));
+        addValTiles(scope, cells, lights, settings.nearReach, tileSizeFor(cells.spacing), kGlossTiles);
+    const ImageHandle gloss = scope.image("val_gloss.gloss", scope.info(cells.reflectance));
     const WorkList glossy = addGlossyGroups(t, gloss);
     const WorkList anew = share.some ? addGroupsAnew(t, share, kGlossyAnew, &glossy) : glossy;
     addGloss(t, {"val_gloss.near", io::kNearList, settings.shape, settings.taps}, anew, gloss);
     addGloss(t, {"val_gloss.far", io::kFarList, settings.farShape, settings.farTaps}, anew, gloss);
-    return gloss;
+    return addGlossUpsampling(scope, all, cells, gloss, lights, settings);
 }
 
 }  // namespace ag::gi

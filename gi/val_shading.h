@@ -82,9 +82,11 @@ Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const Shadow
                          const ValShadingSettings& settings,
                          const ValShadingNames& names = kFirstBounceShading);
 
-// What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels of the
-// G-buffer; those without a specular lobe cost nothing. Invalid: no gloss.
-ImageHandle addValGloss(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
-                        const ValShadingSettings& settings, const PixelShare& share = {});
+// What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels, gathered
+// at those of `downsampled` = addDownsampled(`all`) where neighbours reflect alike; pixels without a specular
+// lobe cost next to nothing. Invalid: no gloss.
+ImageHandle addValGloss(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                        const ShadowedVals& lights, const ValShadingSettings& settings,
+                        const PixelShare& share = {});
 
 }  // namespace ag::gi

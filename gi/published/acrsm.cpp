@@ -14,7 +14,7 @@ BounceLight addAcrsm(GraphScope scope, const BounceLightInputs& in, const Bounce
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 =
         addInterleavedShading(scope, downsampled, {f.vals, f.isms}, s.valShading, interleaved.side);
-    f.gloss = addValGloss(scope, in.surfaces, {f.vals, f.isms}, s.valShading);
+    f.gloss = addValGloss(scope, in.surfaces, in.surfaces, {f.vals, f.isms}, s.valShading);
     addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;

@@ -12,7 +12,7 @@ BounceLight addRsmc(GraphScope scope, const BounceLightInputs& in, const BounceL
     f.firstCount = f.vals.count;
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 = addValShading(scope, downsampled, {f.vals, f.isms}, s.valShading);
-    f.gloss = addValGloss(scope, in.surfaces, {f.vals, f.isms}, s.valShading);
+    f.gloss = addValGloss(scope, in.surfaces, in.surfaces, {f.vals, f.isms}, s.valShading);
     addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;

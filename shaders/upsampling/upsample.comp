@@ -4,7 +4,7 @@
 #extension GL_EXT_control_flow_attributes : require
 // Of the four cells about each pixel those on the same surface, bilinearly (Kopf et al. 2007). Where none is, the pixel is
 // listed to look farther.
-#include "upsampling/surface.glsl"
+#include "upsampling/cell_light.glsl"
 #define PIXEL_LIST_BINDING 5
 #include "common/pixel_list.glsl"
 

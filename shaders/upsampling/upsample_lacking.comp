@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // Pixels that are like none of the four cells about them: of those farther away what is most alike. Where nothing is,
 // the pixel is listed to be gathered by itself.
-#include "upsampling/surface.glsl"
+#include "upsampling/cell_light.glsl"
 #define PIXEL_LIST_BINDING 10
 #include "common/pixel_list.glsl"
 

@@ -7,8 +7,8 @@
 #define AG_GLOSS_GLSL
 
 #include "common/brdf.h"
+#include "val_shading/lobe.glsl"
 
-const float kLeastRoughness = 0.15;
 // Squared width of a lobe over the squared angle of a light whose border it is half as high at as in the middle, so that
 // lights side by side leave no grooves: half vectors turn by half a light's half side h = sqrt(3) angles, and the lobe
 // is half as high at sqrt(sqrt(2) - 1) of its width.
@@ -24,7 +24,7 @@ struct Specular {
 
 // reflectance: head on, and at grazing angles.
 Specular specularOf(vec3 toViewer, float roughness, vec4 reflectance, vec3 albedo) {
-    float root = max(roughness, kLeastRoughness), alpha = root * root;
+    float alpha = lobeWidth(roughness);
     return Specular(toViewer, alpha * alpha, reflectance.rgb, reflectance.w, albedo * kInvPi);
 }
 

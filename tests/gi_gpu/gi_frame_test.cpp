@@ -889,5 +889,29 @@ TEST(Glossy, RunsOnlyWhereAMaterialIs) {
     }
 }
 
+// Where neighbours reflect alike they share what they reflect; all else meets the lights by itself.
+TEST(Glossy, OfEverySecondPixelIsThatOfAll) {
+    for (const char* name : {"glossy", "showroom"}) {
+        Image images[2];
+        for (const uint32_t spacing : {1u, 2u}) {
+            Bench b(*scenegen::buildScene(name, 0), {160, 96});
+            b.settings.bounce.spacing = spacing;
+            b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.gloss); };
+            b.frame();
+            images[spacing - 1] = readImage(b.renderer, b.last.bounce.gloss);
+        }
+        double off = 0, all = 0;
+        for (size_t i = 0; i < images[0].pixels.size(); ++i) {
+            const glm::dvec3 truth = images[0].pixels[i], apart = glm::dvec3(images[1].pixels[i]) - truth;
+            off += glm::dot(apart, apart);
+            all += glm::dot(truth, truth);
+        }
+        std::printf("%s: relative RMSE %.4f\n", name, std::sqrt(off / all));
+        // What is left are borders of lights in smooth floors and of shadows: pixels are large here.
+        EXPECT_LT(std::sqrt(off / all), 0.15) << name;
+        EXPECT_NEAR(meanOf(images[1]) / meanOf(images[0]), 1, 0.01) << name;
+    }
+}
+
 }  // namespace
 }  // namespace ag::gi
