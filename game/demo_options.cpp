@@ -9,6 +9,7 @@ namespace ag::game {
 namespace {
 
 constexpr const char* kLevel = AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb";
+constexpr float kMood = -1.5f;  // stops: so much darker than what the eye gets used to
 
 }  // namespace
 
@@ -37,9 +38,12 @@ void useQuality(Demo& demo, Quality preset, const render::QualityStep& step) {
     const bool automatic = preset == Quality::kAutomatic;
     const bool small = step.valCount <= render::qualitySteps()[0].valCount;  // with what else low leaves out
     applyQuality(!automatic ? preset : small ? Quality::kLow : Quality::kMedium, demo.gi);
-    if (automatic) render::applyQualityStep(step, demo.gi);
-    if (automatic) demo.gi.antialiasing.scale = step.scale;
-    demo.gi.composite.exposure = demo.user.exposure;
+    if (automatic) {
+        render::applyQualityStep(step, demo.gi);
+        addBounces(demo.gi);
+        demo.gi.antialiasing.scale = step.scale;
+    }
+    demo.gi.composite.exposure = demo.user.exposure + kMood;
     demo.sound.volume = demo.user.volume;
     for (const std::string& assignment : demo.options.assignments)
         if (const Status set = demo.settings.set(assignment); !set) spdlog::warn("{}", set.error().message);

@@ -104,6 +104,7 @@ Status prepare(Demo& demo) {
     demo.settings.add({"sound", "volume", 0, 1, "", "of the sound; 0 opens no sound device"},
                       &demo.sound.volume);
     render::registerSettings(demo.settings, demo.gi);
+    openEyes(demo.gi);
     for (const std::string& assignment : o.assignments)
         if (Status set = demo.settings.set(assignment); !set) return set;
     const auto size = parseSize(o.sizeText);

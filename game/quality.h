@@ -14,7 +14,14 @@ enum class Quality : uint32_t { kLow, kMedium, kHigh, kUltra, kAutomatic };
 std::optional<Quality> qualityFromName(std::string_view name);
 std::string_view qualityName(Quality quality);
 
-// Replaces what presets are about; the eye's exposure stays.
+// An eye that gets used to dark rooms, within limits: the gallery stays darker than the garden.
+void openEyes(render::RenderSettings& gi);
+
+// Every bounce, with as many area lights for the later ones: out of the first's few, half of their light
+// would be lost in a level of many rooms.
+void addBounces(render::RenderSettings& gi);
+
+// Replaces what presets are about, with every bounce; what the eye does stays.
 void applyQuality(Quality preset, render::RenderSettings& gi);
 
 }  // namespace ag::game

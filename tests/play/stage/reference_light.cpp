@@ -73,18 +73,18 @@ gi::ProbeReading measureLight(render::Renderer& renderer, const LitFlower& lit,
     return light;
 }
 
-gi::ProbeReading referenceLight(const LitFlower& lit, bool unshadowed) {
+gi::ProbeReading referenceLight(const LitFlower& lit, uint32_t bounces, bool unshadowed) {
     RenderScene bouncing = lit.scene;  // the other lights are not asked for
     std::erase_if(bouncing.lights, [](const RenderLight& light) { return !light.bounces; });
     const reference::RayScene rays(bouncing);
     JobRunner runner(2);
     const reference::FirstHits hits = planesAround(lit.probe.position);
-    reference::LightSums sums(hits.size, 1);
-    reference::addPaths(rays, hits, {.bounces = 1, .unshadowed = unshadowed}, {.seed = 3, .count = kSamples},
-                        runner, sums);
+    reference::LightSums sums(hits.size, bounces);
+    reference::addPaths(rays, hits, {.bounces = bounces, .unshadowed = unshadowed},
+                        {.seed = 3, .count = kSamples}, runner, sums);
     gi::ProbeReading mean;
     // Flames shine through area lights, as bounced light does.
-    for (const auto* light : {&sums.bounces[1], &sums.emissive})
+    for (const auto* light : {bounces > 1 ? &sums.indirect : &sums.bounces[1], &sums.emissive})
         for (const glm::vec3& e : light->pixels)
             mean.bounced += e / float(kSamples * kDirections);
     for (const reference::PreparedLight& light : rays.lights())

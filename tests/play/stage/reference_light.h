@@ -19,8 +19,8 @@ std::vector<LitFlower> litFlowers(Stage& stage, std::span<const Input> inputs);
 gi::ProbeReading measureLight(render::Renderer& renderer, const LitFlower& lit,
                               const render::RenderSettings& settings, uint32_t frames);
 
-// Mean over all directions, W/m²: straight from the lights that bounce, and of one bounce. `unshadowed`:
-// bounced light passes through surfaces.
-gi::ProbeReading referenceLight(const LitFlower& lit, bool unshadowed = false);
+// Mean over all directions, W/m²: straight from the lights that bounce, and of so many bounces.
+// `unshadowed`: bounced light passes through surfaces.
+gi::ProbeReading referenceLight(const LitFlower& lit, uint32_t bounces, bool unshadowed = false);
 
 }  // namespace ag::game
