@@ -77,10 +77,10 @@ class HeadlessRun {
             firstMs_ = sinceStart;
             return;
         }
-        frameMs_.push_back(ms);
+        frameMs_.add(ms);
         passes_.add(renderer_.graph());
         const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
-        costMs_.push_back(cost);
+        costMs_.add(cost);
         if (demo_.options.budgetMs > 0 && budget_.frame(cost)) {
             costMs_.clear();
             useQuality(demo_, Quality::kAutomatic, render::qualitySteps()[budget_.step()]);
@@ -97,14 +97,14 @@ class HeadlessRun {
         const DemoOptions& o = demo_.options;
         const Progress& p = demo_.game->progress();
         const glm::dvec3 at = demo_.game->player().position;
-        const double median = quantile(frameMs_, 0.5);
+        const double median = frameMs_.quantile(0.5);
         return fmt::format(
                    "device {}\n{} frames of {}x{}, {} ticks each, first after {:.0f} ms (start and shader "
                    "compilation), median {:.1f} ms ({:.1f}/s), p99 {:.1f} ms\nplayer at {:.2f} {:.2f}{}\n"
                    "flowers open: {} of {}, rooms solved: {} of {}{}\nworld hash {:016x}\n"
                    "device memory {:.1f} MiB, resident {:.1f} MiB a quarter in and {:.1f} MiB at the end\n\n",
                    device_.info().name, frames_, o.size.x, o.size.y, o.ticksPerFrame, firstMs_, median,
-                   median > 0 ? 1000 / median : 0, quantile(frameMs_, 0.99), at.x, at.z,
+                   median > 0 ? 1000 / median : 0, frameMs_.quantile(0.99), at.x, at.z,
                    demo_.game->player().carried ? ", carrying a crate" : "", p.flowersOpen, p.flowers,
                    p.roomsSolved, p.rooms, p.won ? ", finished" : "", demo_.game->stateHash(),
                    double(renderer_.deviceBytes()) / 1048576.0, residentBefore_, residentMib()) +
@@ -116,8 +116,8 @@ class HeadlessRun {
         return fmt::format(
             "budget {:.1f} ms: quality step {}, passes of a whole frame {:.1f} ms (median of the {} "
             "frames since it was chosen)\n\n",
-            demo_.options.budgetMs, render::qualitySteps()[budget_.step()].name, quantile(costMs_, 0.5),
-            costMs_.size());
+            demo_.options.budgetMs, render::qualitySteps()[budget_.step()].name, costMs_.quantile(0.5),
+            costMs_.count());
     }
 
     int finish() {
@@ -143,7 +143,7 @@ class HeadlessRun {
     render::FrameCost cost_;
     PassLog passes_;
     ContactSheet sheet_;
-    std::vector<double> frameMs_, costMs_;  // of all frames; of whole frames at this quality
+    TimeHistogram frameMs_, costMs_;  // of all frames; of whole frames at this quality
     double firstMs_ = 0, residentBefore_ = 0;
     uint32_t frames_ = 1;
     ImageHandle shown_;

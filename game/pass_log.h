@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "engine/frame/frame_graph.h"
+#include "game/time_histogram.h"
 
 namespace ag::game {
-
-double quantile(std::vector<double> values, double q);
 
 class PassLog {
   public:
@@ -18,7 +17,7 @@ class PassLog {
 
   private:
     struct Row {
-        std::vector<double> ms;
+        TimeHistogram ms;
         uint64_t frames = 0, ran = 0;
     };
     std::map<std::string, Row> rows_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gi/bounce_steps.h"
+#include "gi/lights_on_points.h"
 
 namespace ag::gi {
 
@@ -38,7 +39,8 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     f.irradiance = f.bounce1;
     const BufferHandle sky =
         addSkyOnPoints(scope, f.emitters, {in.sky, in.occluders, in.world.versions}, s.sky, h.skyOnPoints);
-    addLaterIrradiance(scope, f.emitters, sky, {f.vals, f.isms}, f.firstCount, s.laterBounces);
+    const BufferHandle others = addLightsOnPoints(scope, f.emitters, in.world.otherLights, in.occluders);
+    addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces);
     if (f.vals.count > f.firstCount)
         f.irradiance = addLaterShading(scope, downsampled, f.bounce1, {f.vals, f.isms},
                                        {f.firstCount, s.laterBounces.spacing}, s.valShading);

@@ -92,7 +92,9 @@ constexpr uint32_t kMostMovedThings = 64;  // more are not small, and not looked
 
 struct World {
     std::span<const RsmLight> lights;  // those beyond io::kMaxBounceLights are left out
-    Bounds bounds;                     // of all surfaces
+    // Of more lights what bounces is looked for at points of surfaces, with later bounces alone.
+    std::span<const RsmLight> otherLights;
+    Bounds bounds;  // of all surfaces
     Versions versions;
     // What moved, if that is all that changed and no more than kMostMovedThings; else empty.
     std::span<const MovedThing> moved;

@@ -14,7 +14,7 @@ constexpr float kNearReach = 6;
 
 }  // namespace
 
-void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, BufferHandle sky,
+void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const StraightLight& straight,
                         const ShadowedVals& lights, uint32_t firstLater, const LaterBouncesSettings& s) {
     const Vals& vals = lights.vals;
     const IsmAtlas& isms = lights.isms;
@@ -49,8 +49,10 @@ void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, Buffe
             .constant("kShape", uint32_t(shape))
             .constant("kVisibilityTaps", isms.planes ? 1 : 0)
             .constant("kList", list)
-            .read("sky", sky ? sky : vals.vals)
-            .constant("kSky", bool(sky) && list == io::kFarList)
+            .read("sky", straight.sky ? straight.sky : vals.vals)
+            .constant("kSky", bool(straight.sky) && list == io::kFarList)
+            .read("straight", straight.lights ? straight.lights : vals.vals)
+            .constant("kStraight", bool(straight.lights) && list == io::kFarList)
             .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
             .push(push)
             .dispatchGroups(runs);

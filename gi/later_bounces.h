@@ -39,9 +39,15 @@ struct LaterBouncesSettings {
     bool operator==(const LaterBouncesSettings&) const = default;
 };
 
+// What falls on the points straight: from the sky (addSkyOnPoints), from lights without an RSM
+// (addLightsOnPoints), if anything does.
+struct StraightLight {
+    BufferHandle sky, lights;
+};
+
 // What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
-// for later bounces. `sky`: what falls there from the sky (addSkyOnPoints), if anything does.
-void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, BufferHandle sky,
+// for later bounces.
+void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const StraightLight& straight,
                         const ShadowedVals& lights, uint32_t firstLater,
                         const LaterBouncesSettings& settings);
 

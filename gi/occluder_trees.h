@@ -55,6 +55,9 @@ struct MoverTree {
 // Where the trees stand now: some 10 ms for 10,000 movable instances.
 MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> instances);
 
+// Of a ray to what is outside of everything, in the scene's extent: no surface is farther.
+constexpr float kRayReaches = 4;
+
 // What a pass reads that casts rays into all that is static and all that moves.
 void readTrees(PassBuilder& pass, const TracedOccluders& trees);
 

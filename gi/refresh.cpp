@@ -54,6 +54,7 @@ bool takeIfOtherLights(std::vector<RsmLight>& known, std::span<const RsmLight> l
 bool takeOthers(const World& world, glm::uvec2 size, const BounceLightSettings& settings, RefreshHistory& h) {
     bool other = takeIfOther(h.settings, settings);
     other |= takeIfOtherLights(h.lights, world.lights);
+    other |= takeIfOtherLights(h.otherLights, world.otherLights);
     other |= takeIfOther(h.size, size);
     other |= takeIfOther(h.versions.scene, world.versions.scene);
     other |= takeIfOther(h.versions.camera, world.versions.camera);

@@ -18,7 +18,7 @@ struct RefreshHistory {
         glm::vec3 centre;  // when lights were clustered
     };
     BounceLightSettings settings;
-    std::vector<RsmLight> lights;
+    std::vector<RsmLight> lights, otherLights;
     glm::uvec2 size{0};
     Versions versions{0, 0, 0, 0, 0};
     uint32_t sinceLarge = 0;   // frames since anything but small things changed

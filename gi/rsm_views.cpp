@@ -247,8 +247,10 @@ RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t cl
     }
     if (emitters.reflecting.side > 0) {
         const float power = fluxOf({sharers.data(), sharing}), share = emitters.reflectingShare;
-        sharers[sharing++] = {power * share / std::max(1 - share, 0.01f), layout.mapCount};
-        addPointMap(layout, emitters.reflecting, kReflectingMapId, power);
+        // Of lights without a map all clusters are points'.
+        const float weight = (power * share + emitters.otherFlux) / std::max(1 - share, 0.01f);
+        sharers[sharing++] = {weight, layout.mapCount};
+        addPointMap(layout, emitters.reflecting, kReflectingMapId, power + emitters.otherFlux);
     }
     if (layout.mapCount == 0) return layout;
     placeFaces(layout);

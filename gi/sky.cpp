@@ -21,7 +21,6 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kTexelAngle = 4 * kPi / float(io::kSkySide * io::kSkySide);  // sr
 constexpr float kEvenly = 0.05f;                                             // of the draws within a cell
 constexpr float kKept = 0.9f;             // of what blocks learned, from frame to frame
-constexpr float kReaches = 4;             // in the scene's extent: no surface is farther
 constexpr uint32_t kFramesOfChange = 48;  // means are kept short so long
 constexpr float kMostPointRays = 65536;
 constexpr uint32_t kMostRounds = 4;
@@ -112,7 +111,7 @@ Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uin
         .push(io::SkyCastPush{.step = step,
                               .shift = blueNoiseShift(step),
                               .offset = io::kBvhOffset * in.occluders.extent,
-                              .reach = kReaches * in.occluders.extent,
+                              .reach = kRayReaches * in.occluders.extent,
                               .known = seen.valid,
                               .keep = kKept})
         .step(step)
@@ -263,7 +262,7 @@ BufferHandle addSkyOnPoints(GraphScope scope, const SurfaceEmitters& emitters, c
                                 .rays = s.pointRays,
                                 .step = step,
                                 .offset = io::kBvhOffset * in.occluders.extent,
-                                .reach = kReaches * in.occluders.extent,
+                                .reach = kRayReaches * in.occluders.extent,
                                 .valid = irradiance.valid,
                                 .mostLength = moving ? float(s.movingLength * s.pointRays) : kMostPointRays})
         .step(step)

@@ -5,6 +5,7 @@
 
 #include "engine/core/hash.h"
 #include "gi/later_bounces.h"
+#include "gi/rsm_views.h"
 #include "gi/surface_points.h"
 #include "shaders/rsm/rsm_io.h"
 
@@ -21,14 +22,25 @@ bool anyLight(const World& world, const Occluders& occluders) {
     return occluders.emissiveFlux > 0;
 }
 
+float fluxOf(std::span<const RsmLight> lights, const Bounds& bounds) {
+    float sum = 0;
+    for (const RsmLight& light : lights)
+        sum += emittedFlux(light, bounds);
+    return sum;
+}
+
 }  // namespace
 
 SurfaceEmitters addSurfaceEmitters(GraphScope scope, const World& world, const Occluders& occluders,
                                    uint64_t skyStep, const LaterBouncesSettings& s, Settling& settling) {
     SurfaceEmitters e;
     const Versions& versions = world.versions;
-    if (occluders.bouncePoints && s.enabled && (skyStep != 0 || anyLight(world, occluders)))
-        e.reflecting.side = sideOf(occluders.bouncePointCount), e.reflectingShare = s.share;
+    const float others = fluxOf(world.otherLights, world.bounds);
+    if (occluders.bouncePoints && s.enabled && (skyStep != 0 || others > 0 || anyLight(world, occluders))) {
+        e.reflecting.side = sideOf(occluders.bouncePointCount);
+        e.reflectingShare = s.share;
+        e.otherFlux = others;
+    }
     if (occluders.bouncePoints && occluders.emissiveFlux > 0)
         e.emissive.side = sideOf(occluders.emissivePointCount), e.emissiveFlux = occluders.emissiveFlux;
     const uint32_t count = e.reflecting.count() + e.emissive.count();

@@ -24,6 +24,7 @@ struct SurfaceEmitters {
     PointMap reflecting, emissive;
     float reflectingShare = 0;  // of all clusters
     float emissiveFlux = 0;     // W, mean of the channels
+    float otherFlux = 0;        // the same of World::otherLights
 };
 
 // `skyStep`: another number whenever the sky's light on the points may have changed; 0: no sky.

@@ -103,18 +103,22 @@ gi::Versions versionsOf(const SceneView& scene) {
             .origin = s.originVersion};
 }
 
-gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,
-                  std::vector<gi::MovedThing>& moved) {
+gi::World worldOf(const SceneView& scene, WorldLists& lists) {
     const RenderScene& s = *scene.scene;
-    lights.clear();
+    lists.lights.clear();
+    lists.otherLights.clear();
     for (const RenderLight& light : s.lights)
-        if (light.bounces) lights.push_back(rsmLightOf(light));
-    listMoved(scene, moved);
+        if (light.bounces)
+            lists.lights.push_back(rsmLightOf(light));
+        else if (light.reflects)
+            lists.otherLights.push_back(rsmLightOf(light));
+    listMoved(scene, lists.moved);
     const bool empty = s.instances.empty();
-    return {.lights = lights,
+    return {.lights = lists.lights,
+            .otherLights = lists.otherLights,
             .bounds = empty ? Bounds{} : s.bounds,
             .versions = versionsOf(scene),
-            .moved = moved,
+            .moved = lists.moved,
             .extent = scene.extent};
 }
 
@@ -123,7 +127,7 @@ gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const
     if (std::exchange(h.technique, s.technique) != s.technique) h.bounce.refresh = {};
     const auto draw = [&](GraphScope at, gi::RsmSet& rsm) { drawRsm(at, scene, rsm); };
     const gi::BounceLightInputs in{.surfaces = surfaces,
-                                   .world = worldOf(scene, h.lights, h.moved),
+                                   .world = worldOf(scene, h.world),
                                    .occluders = occludersOf(scene),
                                    .sky = scene.sky,
                                    .drawRsm = draw,

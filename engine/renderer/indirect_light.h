@@ -11,10 +11,9 @@ bool needsMotion(const RenderSettings& settings, bool sky);
 gi::BounceLight addIndirectLight(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces,
                                  const RenderSettings& settings, RenderHistory& history);
 
-// What gi/ knows of the scene; valid as long as the two lists are left alone.
+// What gi/ knows of the scene; valid as long as the lists are left alone.
 gi::Occluders occludersOf(const SceneView& scene);
 gi::Versions versionsOf(const SceneView& scene);
-gi::World worldOf(const SceneView& scene, std::vector<gi::RsmLight>& lights,
-                  std::vector<gi::MovedThing>& moved);
+gi::World worldOf(const SceneView& scene, WorldLists& lists);
 
 }  // namespace ag::render

@@ -13,6 +13,12 @@
 
 namespace ag::render {
 
+// What gi::World is lists of: scratch, so that a steady frame allocates nothing.
+struct WorldLists {
+    std::vector<gi::RsmLight> lights, otherLights;
+    std::vector<gi::MovedThing> moved;
+};
+
 // State that outlives a frame; one per view of the scene.
 struct RenderHistory {
     Technique technique = Technique::kNone;
@@ -26,9 +32,7 @@ struct RenderHistory {
     PunctualShadowHistory punctualShadows;
     PunctualListsHistory punctualLists;
     PunctualRelevance punctualRelevance;
-    // Scratch, so that a steady frame allocates nothing
-    std::vector<gi::RsmLight> lights;
-    std::vector<gi::MovedThing> moved;
+    WorldLists world;
 };
 
 // Everything the frame made: for composition, debug views, tests and captures.

@@ -180,6 +180,12 @@ constexpr auto kPresetNames = [] {
     return names;
 }();
 
+// Whether rays go from points to lights that have no RSM.
+bool castsRaysToLights(const RenderSettings& s, const RenderScene& scene) {
+    if (s.technique != Technique::kAreaLights || !s.bounce.laterBounces.enabled) return false;
+    return std::ranges::any_of(scene.lights, [](const RenderLight& l) { return l.reflects && !l.bounces; });
+}
+
 }  // namespace
 
 std::span<const std::string_view> presetNames() {
@@ -199,10 +205,11 @@ bool castsTexelRays(const RenderSettings& s) {
     return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
 }
 
-std::optional<gi::TreesOf> tracedBy(const RenderSettings& s, bool sky) {
+std::optional<gi::TreesOf> tracedBy(const RenderSettings& s, const RenderScene& scene) {
     constexpr std::array kWithMaps = {Technique::kAreaLights, Technique::kStochastic, Technique::kIsm,
                                       Technique::kRsmc, Technique::kAcrsm};
-    if (castsTexelRays(s) || (sky && s.bounce.sky.enabled)) return gi::TreesOf::kAll;
+    const bool sky = scene.sky && s.bounce.sky.enabled;
+    if (castsTexelRays(s) || sky || castsRaysToLights(s, scene)) return gi::TreesOf::kAll;
     const bool maps = s.bounce.ismAtlas.enabled && s.bounce.ismAtlas.traced;
     if (maps && std::ranges::count(kWithMaps, s.technique) > 0) return gi::TreesOf::kStatic;
     return {};

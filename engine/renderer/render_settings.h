@@ -64,10 +64,9 @@ struct RenderSettings {
 bool applyPreset(std::string_view name, RenderSettings& s);
 std::span<const std::string_view> presetNames();
 
-// Whether rays go to texels, and what rays of any kind are to meet; none: there are none. `sky`: the scene
-// has one.
+// Whether rays go to texels, and what rays of any kind are to meet; none: there are none.
 bool castsTexelRays(const RenderSettings& settings);
-std::optional<gi::TreesOf> tracedBy(const RenderSettings& settings, bool sky);
+std::optional<gi::TreesOf> tracedBy(const RenderSettings& settings, const RenderScene& scene);
 
 // Smaller shadow maps where the device has no images of the size that was asked for.
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s);

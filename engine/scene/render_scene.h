@@ -122,6 +122,7 @@ struct RenderLight {
     float innerConeAngle = 0;       // radians from the axis
     float outerConeAngle = 0.785398f;
     bool bounces = false;          // has a BounceLight: gets an RSM
+    bool reflects = false;         // without: its light goes on from points of surfaces, with later bounces
     uint32_t rsmResolution = 512;  // texels of a square map, or of about as many on six faces
     float budgetShare = 1;         // weight of its share of the cluster budget, times its flux
     bool castsShadow = true;

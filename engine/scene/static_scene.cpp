@@ -174,7 +174,7 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
         if (node.light >= 0) {
             scene.lights.push_back(lightOf(asset.lights[size_t(node.light)], places[i], scene.originWorld,
                                            scene.lights.size() + 1));
-            scene.lights.back().bounces = node.extras.bounces;
+            scene.lights.back().bounces = scene.lights.back().reflects = node.extras.bounces;
             scene.lights.back().castsShadow = node.extras.castsShadow;
         }
         if (node.mesh < 0) continue;

@@ -29,6 +29,22 @@ struct EmitPush {
     uint known;       // 1: there is irradiance of the frame before
 };
 
+struct PointLight {  // whose light is looked for at points alone
+    vec3 position;
+    float range;     // m, 0: no end
+    vec3 intensity;  // W/sr; directional: W/m² on a plane facing it
+    uint directional;
+    vec3 direction;            // the way the light travels, unit
+    float cosInner, cosOuter;  // of a light to all sides below -1
+};
+
+struct PointLightsPush {
+    uint count;  // points
+    uint lightCount;
+    float offset;  // m: rays leave surfaces so far before them
+    float reach;   // m: beyond it nothing stands
+};
+
 const uint kRunPoints = 64;  // one after another, which share lists of near and far lights
 
 struct GatherPush {

@@ -75,7 +75,8 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     RenderScene scene = staticScene(asset);
     setCamera(scene, cameraOf(asset, 0), settings.size);
     scene.instances.back().movable = true;
-    scene.lights.push_back({.kind = LightKind::kDirectional, .direction = {0, -1, 0}, .id = 1000});
+    scene.lights.push_back(
+        {.kind = LightKind::kDirectional, .direction = {0, -1, 0}, .reflects = c.options, .id = 1000});
     if (c.options) scene.sky = std::make_shared<const Sky>(constantSky(glm::vec3(1)));
     scene.probes = {{.position = scene.camera.position, .id = 1}};
     render::Renderer renderer(test::device());

@@ -29,8 +29,7 @@ struct Refreshed {
     DrawLists draws;
     RenderSettings settings;
     RefreshHistory history;
-    std::vector<RsmLight> lights;
-    std::vector<MovedThing> moved;
+    WorldLists lists;
     float step = 0.002f;  // m, of the box in a frame in which it moves
 
     explicit Refreshed(float size = 0.1f) : asset(roomWithBox(size)), scene(staticScene(asset)) {
@@ -50,8 +49,8 @@ struct Refreshed {
         draws.beginFrame(scene, runner);
         SceneView view{.scene = &scene, .draws = &draws, .grid = {.size = {160, 90}}};
         view.moved = scene.changedInstances;
-        const Refresh refresh = chooseRefresh(worldOf(view, lights, moved), scene.camera, view.grid.size,
-                                              settings.bounce, history);
+        const Refresh refresh =
+            chooseRefresh(worldOf(view, lists), scene.camera, view.grid.size, settings.bounce, history);
         scene.allInstancesChanged = false;
         return refresh;
     }
@@ -160,14 +159,13 @@ TEST(Refresh, SharesAreOfDirections) {
     const double cone = 1 - std::cos(std::atan(std::hypot(width, height)));
     const double part = 4 * width * height / (glm::pi<double>() * (width * width + height * height));
     const double ofPicture = ofBall(std::hypot(1.9, 0.5)) / (cone * part);
-    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.grid.size), ofPicture,
+    EXPECT_NEAR(shareSeen(worldOf(view, r.lists), r.scene.camera, view.grid.size), ofPicture,
                 0.02 * ofPicture);
     r.scene.camera.forward = -r.scene.camera.forward;  // looks away
     const double ofLight = ofBall(3) / (1 - std::cos(glm::radians(60.0)));
-    EXPECT_NEAR(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.grid.size), ofLight,
-                0.02 * ofLight);
+    EXPECT_NEAR(shareSeen(worldOf(view, r.lists), r.scene.camera, view.grid.size), ofLight, 0.02 * ofLight);
     r.scene.lights[0].direction = {0, 1, 0};  // and so does the light
-    EXPECT_EQ(shareSeen(worldOf(view, r.lights, r.moved), r.scene.camera, view.grid.size), 0);
+    EXPECT_EQ(shareSeen(worldOf(view, r.lists), r.scene.camera, view.grid.size), 0);
 }
 
 TEST(Refresh, LightsFollowAThingThatLeavesItsLightBehind) {

@@ -49,7 +49,7 @@ for words in "has no light: a sun is added" "has no sky: a clear one is added" "
 done
 run "its report" 0 info dark.gltf --json
 grep -q '"support": "not supported"' "$work/log" || fail "the report says nothing of sheen"
-run "a dark file by render" 0 render dark.gltf --size 160x90 --frames 8 --set val_shading.glossy=off -o dark.exr
+run "a dark file by render" 0 render dark.gltf --preset afterglow --size 160x90 --frames 8 --set val_shading.glossy=off -o dark.exr
 run "its truth" 0 reference dark.gltf --size 160x90 --bounces 1 --spp 64 --filter center -o truth.exr
 run "both see the same from the same place" 0 compare truth.exr dark.exr --max-rel-rmse 0.15
 run "the dark file from straight above" 0 reference dark.gltf --size 32x18 --spp 4 --view 0,5,0,0,0,0 -o above.exr

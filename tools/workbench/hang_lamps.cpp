@@ -34,6 +34,7 @@ uint32_t hangLamps(RenderScene& scene, uint32_t count) {
              .position = places[i],
              .intensity = tint * (0.35f + 0.5f * io::hashToUnit(2 * i)) * strength * strength,
              .range = range,
+             .reflects = true,
              .id = kFirstId + i});
     }
     return uint32_t(places.size());

@@ -1,0 +1,57 @@
+#include "gi/lights_on_points.h"
+
+#include <cmath>
+#include <vector>
+
+#include "gi/occluder_trees.h"
+#include "shaders/bvh/bvh_io.h"
+#include "shaders/later_bounces/later_bounces_io.h"
+
+namespace ag::gi {
+namespace {
+
+io::PointLight rowOf(const RsmLight& light) {
+    io::PointLight row{.position = light.position,
+                       .range = light.range,
+                       .intensity = light.intensity,
+                       .directional = light.kind == LightKind::kDirectional,
+                       .direction = light.direction,
+                       .cosInner = -2,
+                       .cosOuter = -3};
+    if (light.kind == LightKind::kSpot) {
+        row.cosInner = std::cos(light.innerConeAngle);
+        row.cosOuter = std::cos(light.outerConeAngle);
+    }
+    return row;
+}
+
+}  // namespace
+
+BufferHandle addLightsOnPoints(GraphScope scope, const SurfaceEmitters& emitters,
+                               std::span<const RsmLight> lights, const Occluders& occluders) {
+    const uint32_t count = emitters.reflecting.count();
+    if (count == 0 || lights.empty() || !occluders.trees.moverNodes) return {};
+    static thread_local std::vector<io::PointLight> rows;  // keeps its memory from frame to frame
+    rows.clear();
+    for (const RsmLight& light : lights)
+        rows.push_back(rowOf(light));
+    const auto bytes = std::as_bytes(std::span(rows));
+    const BufferHandle buffer = scope.buffer("later_bounces.point_lights", {.sizeBytes = bytes.size()});
+    scope.upload("later_bounces.point_lights", buffer, bytes);
+    const BufferHandle irradiance =
+        scope.buffer("later_bounces.straight",
+                     {.sizeBytes = count * sizeof(glm::vec4), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
+    PassBuilder pass = scope.compute("later_bounces.lights", "later_bounces/lights.comp");
+    pass.read("texels", emitters.texels)
+        .read("lights", buffer)
+        .write("irradiance", irradiance)
+        .push(io::PointLightsPush{.count = count,
+                                  .lightCount = uint32_t(rows.size()),
+                                  .offset = io::kBvhOffset * occluders.extent,
+                                  .reach = kRayReaches * occluders.extent})
+        .dispatchThreads(count);
+    readTrees(pass, occluders.trees);
+    return irradiance;
+}
+
+}  // namespace ag::gi
