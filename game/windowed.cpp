@@ -309,7 +309,8 @@ class WindowedRun {
             key(Action::kLamp), key(Action::kJump), key(Action::kCrouch), key(Action::kUse));
     }
     std::string statusLine() const {
-        const glm::uvec2 size = window_.framebufferSize();
+        const glm::vec2 shown(window_.framebufferSize());
+        const glm::uvec2 size(shown * demo_.gi.antialiasing.scale + 0.5f);  // rendered
         const glm::dvec3 at = demo_.game->player().position;
         return fmt::format("{:.1f} ms  {:.1f}/s  {}x{} {}  at {:.2f} {:.2f}{}", frameMs_,
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y,

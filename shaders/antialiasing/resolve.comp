@@ -36,7 +36,7 @@ Neighbours gather(vec2 place, vec2 scale, ivec2 size) {
     [[unroll]] for (int y = -1; y <= 1; ++y)
         [[unroll]] for (int x = -1; x <= 1; ++x) {
             ivec2 at = clamp(centre + ivec2(x, y), ivec2(0), size - 1);
-            vec4 c = texelFetch(radianceMap, at, 0);
+            vec4 c = min(texelFetch(radianceMap, at, 0), vec4(kMostHalf));
             vec2 off = (vec2(centre + ivec2(x, y)) + 0.5 + push.jitter - place) / scale;
             float weight = filterWeight(off.x) * filterWeight(off.y);
             n.sum += weight * c.rgb;
@@ -77,12 +77,18 @@ vec3 previousAt(vec2 at, vec2 size) {
     return sum.rgb / sum.a;
 }
 
+// As it comes back from the image, so that what stays the same differs by nothing.
+vec3 roundedToHalf(vec3 v) {
+    v = min(v, vec3(kMostHalf));
+    return vec3(unpackHalf2x16(packHalf2x16(v.rg)), unpackHalf2x16(packHalf2x16(v.bb)).x);
+}
+
 void main() {
     ivec2 whole = imageSize(picture), pixel = min(ivec2(gl_GlobalInvocationID.xy), whole - 1);
     ivec2 size = textureSize(radianceMap, 0);
     vec2 scale = vec2(size) / vec2(whole);
     Neighbours n = gather((vec2(pixel) + 0.5) * scale, scale, size);
-    vec3 now = n.sum / max(n.weight, 1e-6);
+    vec3 now = roundedToHalf(n.sum / max(n.weight, 1e-6));
 
     bool elsewhere = push.sameView == 0 || n.moves;
     vec2 at = elsewhere ? placeBefore(pixel, n.front, vec2(whole)) : vec2(pixel);
@@ -97,7 +103,10 @@ void main() {
     if (push.stands == 0) past = clamp(past, n.low, n.high);
     count = min(count, push.most);
     vec3 result = count > 0.0 ? (past * count + n.sum) / (count + n.weight) : now;
-    if (follows) result = max(texelFetch(previousPicture, pixel, 0).rgb + (now - before.rgb), vec3(0.0));
+    if (follows) {
+        vec3 kept = texelFetch(previousPicture, pixel, 0).rgb;
+        result = now == before.rgb ? kept : clamp(kept + (now - before.rgb), n.low, n.high);
+    }
     float stands = follows ? before.a : count + n.weight;
 
     if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), whole))) return;

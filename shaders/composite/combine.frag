@@ -56,5 +56,5 @@ void main() {
     if (kEmissive) result += texelFetch(emissiveMap, pixel, 0).rgb;
     bool surface = texelFetch(depthMap, pixel, 0).x > 0.0;
     vec3 behind = kSkyPicture && !surface ? seenSky(pixel) : vec3(0.0);
-    radiance = surface ? vec4(min(result, vec3(kMostHalf)), 1.0) : vec4(behind, 0.0);
+    radiance = surface ? vec4(min(result, vec3(kMostHalf)), 1.0) : vec4(min(behind, vec3(kMostHalf)), 0.0);
 }

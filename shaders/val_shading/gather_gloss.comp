@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// What gloss adds to the light of one of a tile's lists, at every pixel: where neighbours share light they do not share
-// what it is reflected by. Only workgroups that were listed as having a pixel with a specular lobe.
+// What gloss adds to the light of one of a tile's lists, at the pixels that are gathered. Only workgroups that were listed as having a pixel with a specular lobe.
 #define AG_GLOSSY
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 5) const uint kList = 0;

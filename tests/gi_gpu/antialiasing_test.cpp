@@ -216,6 +216,31 @@ TEST(Antialiasing, WhatMovesLeavesNoTraceAndOtherEdgesSmooth) {
     EXPECT_LT(still, aliased / 2.5);
 }
 
+// However long something else moves: all that stays the same stays so bit for bit.
+TEST(Antialiasing, WhatStaysTheSameDoesNotDrift) {
+    Direct b;
+    b.frames(25);
+    const Image before = b.radiance();
+    const auto move = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            b.step(glm::vec3(0));  // told to have moved
+            b.frame();
+        }
+        return b.radiance();
+    };
+    const Image soon = move(60), late = move(100);
+    size_t same = 0;
+    float most = 0;
+    for (size_t i = 0; i < before.pixels.size(); ++i) {
+        same += before.pixels[i] == late.pixels[i];
+        most = std::max(most, std::abs(luminanceOf(late.pixels[i] - soon.pixels[i])));
+    }
+    std::printf("%.1f %% of the pixels are the same, none is off by more than %.5f\n",
+                100 * double(same) / double(before.pixels.size()), most);
+    EXPECT_GT(double(same), 0.8 * double(before.pixels.size())) << "all but the box and what is about it";
+    EXPECT_LT(most, 0.01 * meanOf(before));
+}
+
 TEST(Antialiasing, LightThatChangesIsFollowed) {
     Direct b;
     b.frames(25);

@@ -305,7 +305,8 @@ int runRender(RenderOptions options) {
         !used)
         return refuse(used.error().message);
     RenderSetup settings;
-    if (layerOf(options) == "final") settings.gi.antialiasing.mode = render::Antialiasing::kTemporal;
+    if (options.session.empty() && layerOf(options) == "final")
+        settings.gi.antialiasing.mode = render::Antialiasing::kTemporal;
     if (const Status set = settings.apply(options.preset, options.assignments); !set)
         return refuse(set.error().message);
     if (options.listSettings) {
