@@ -235,7 +235,7 @@ class Rendering {
         for (uint32_t i = 0; i < options_.turntable; ++i) {
             const CameraPose pose = turned(start, loaded_.scene.bounds, loaded_.scene.originWorld,
                                            double(i) / options_.turntable);
-            setCamera(loaded_.scene, pose, loaded_.size);
+            if (i > 0) setCamera(loaded_.scene, pose, loaded_.size);  // the first is the view itself
             for (uint32_t frame = 0; frame < (i == 0 ? options_.frames : kFramesOfStep); ++frame)
                 renderFrame();
             if (!shown_.missing.empty()) return Error{shown_.missing};
