@@ -40,7 +40,7 @@ void useQuality(Demo& demo, Quality preset, const render::QualityStep& step) {
     applyQuality(!automatic ? preset : small ? Quality::kLow : Quality::kMedium, demo.gi);
     if (automatic) {
         render::applyQualityStep(step, demo.gi);
-        addBounces(demo.gi);
+        render::addBounces(demo.gi);
         demo.gi.antialiasing.scale = step.scale;
     }
     demo.gi.composite.exposure = demo.user.exposure + kMood;

@@ -7,7 +7,6 @@ namespace ag::game {
 namespace {
 
 constexpr std::array<std::string_view, 5> kNames = {"low", "medium", "high", "ultra", "auto"};
-constexpr uint32_t kMostLights = 512;  // that are doubled to
 
 // Less of what a CPU is slow at than the renderer's own low: it has two of them.
 void trim(render::RenderSettings& gi) {
@@ -37,19 +36,12 @@ void openEyes(render::RenderSettings& gi) {
     gi.composite.tonemap = render::Tonemap::kAgx;
 }
 
-void addBounces(render::RenderSettings& gi) {
-    gi.bounce.laterBounces = {.enabled = true, .spacing = 3};
-    const uint32_t count = gi.bounce.valClustering.count;
-    gi.bounce.valClustering.count = std::max(std::min(2 * count, kMostLights), count);
-    if (count < kMostLights / 2) gi.bounce.ismAtlas.tileSize = std::min(gi.bounce.ismAtlas.tileSize, 32u);
-}
-
 void applyQuality(Quality preset, render::RenderSettings& gi) {
     const render::RenderSettings before = gi;
     gi = {};
     render::applyPreset(qualityName(preset), gi);
     if (preset == Quality::kLow) trim(gi);
-    addBounces(gi);
+    render::addBounces(gi);
     gi.composite = before.composite;
     gi.exposure = before.exposure;
     if (preset == Quality::kHigh || preset == Quality::kUltra) gi.bloom.share = 0.05f;

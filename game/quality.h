@@ -17,10 +17,6 @@ std::string_view qualityName(Quality quality);
 // An eye that gets used to dark rooms, within limits: the gallery stays darker than the garden.
 void openEyes(render::RenderSettings& gi);
 
-// Every bounce, with as many area lights for the later ones: out of the first's few, half of their light
-// would be lost in a level of many rooms.
-void addBounces(render::RenderSettings& gi);
-
 // Replaces what presets are about, with every bounce; what the eye does stays.
 void applyQuality(Quality preset, render::RenderSettings& gi);
 

@@ -8,7 +8,7 @@
 namespace ag::gi {
 
 // `gloss`: of `cells`, W/(m² sr), which have albedo and reflectance; comes back as it is if those are all
-// pixels.
+// pixels. `settings`: shape and taps of near lights serve for all of those met so.
 ImageHandle addGlossUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& cells,
                                ImageHandle gloss, const ShadowedVals& lights,
                                const ValShadingSettings& settings);

@@ -4,6 +4,7 @@
 
 #include "gi/upsampling.h"
 #include "gi/val_shading.h"
+#include "gi/val_tiles.h"
 #include "shaders/val_shading/val_shading_io.h"
 
 namespace ag::gi {
@@ -16,8 +17,7 @@ constexpr float kNearReach = 6;
 
 void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const StraightLight& straight,
                         const ShadowedVals& lights, uint32_t firstLater, const LaterBouncesSettings& s) {
-    const Vals& vals = lights.vals;
-    const IsmAtlas& isms = lights.isms;
+    const auto& [vals, isms] = lights;
     const uint32_t count = emitters.reflecting.count();
     if (count == 0 || vals.count == 0) return;
     const ValShadingSettings shading;
@@ -40,20 +40,15 @@ void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const
         .dispatchGroups(runs);
     const auto gather = [&](std::string_view name, uint32_t list, ValShape shape) {
         PassBuilder pass = scope.compute(name, "later_bounces/gather.comp");
+        readLights(pass, lights, shape, 1);
         pass.read("texels", emitters.texels)
-            .read("vals", vals.vals)
-            .read("shapes", vals.shapes)
-            .read("isms", isms.planes ? isms.planes : vals.vals)
             .read("lists", lists)
             .read("counts", counts)
-            .constant("kShape", uint32_t(shape))
-            .constant("kVisibilityTaps", isms.planes ? 1 : 0)
             .constant("kList", list)
             .read("sky", straight.sky ? straight.sky : vals.vals)
             .constant("kSky", bool(straight.sky) && list == io::kFarList)
             .read("straight", straight.lights ? straight.lights : vals.vals)
             .constant("kStraight", bool(straight.lights) && list == io::kFarList)
-            .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
             .push(push)
             .dispatchGroups(runs);
         return pass;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "gi/val_tiles.h"
+
 namespace ag::gi {
 namespace {
 
@@ -61,18 +63,13 @@ void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const
     const BufferHandle points = uploadProbes(scope, probes);
     const uint64_t room = scope.info(points).sizeBytes / sizeof(io::Probe);
     const BufferHandle rows = scope.buffer("probes.rows", {.sizeBytes = room * sizeof(io::ProbeRow)});
-    scope.compute("probes.evaluate", "probes/evaluate_probes.comp")
-        .read("vals", vals.vals)
-        .read("shapes", vals.shapes)
-        .read("isms", isms.planes ? isms.planes : vals.vals)
-        .sample("depthMap", rsm.depth)
+    PassBuilder pass = scope.compute("probes.evaluate", "probes/evaluate_probes.comp");
+    readLights(pass, lights, settings.shape, settings.taps);
+    pass.sample("depthMap", rsm.depth)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
         .read("probes", points)
         .write("rows", rows)
-        .constant("kShape", uint32_t(settings.shape))
-        .constant("kVisibilityTaps", isms.planes ? settings.taps : 0)
-        .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));

@@ -13,12 +13,7 @@ struct Upsampled {
 
 Upsampled addUpsampled(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                        const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
-    const uint32_t spacing = downsampled.spacing / all.spacing;
-    const io::PixelRays rays = pixelRays(all.view, all.size);
-    const io::UpsamplingPush push{.rays = rays,
-                                  .footprint = 2 * float(spacing) * glm::length(rays.down),
-                                  .near = all.view.near,
-                                  .spacing = spacing};
+    const io::UpsamplingPush push = upsamplingPush(all, downsampled);
     const ImageHandle result =
         scope.image(names.irradiance, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size});
     const PixelList lacking = addPixelList(scope, names.lacking, all.size);
@@ -57,6 +52,15 @@ bool isGatheredAtAll(const Surfaces& all, const Surfaces& downsampled, const Irr
 
 }  // namespace
 
+io::UpsamplingPush upsamplingPush(const Surfaces& all, const Surfaces& downsampled) {
+    const uint32_t spacing = downsampled.spacing / all.spacing;
+    const io::PixelRays rays = pixelRays(all.view, all.size);
+    return {.rays = rays,
+            .footprint = 2 * float(spacing) * glm::length(rays.down),
+            .near = all.view.near,
+            .spacing = spacing};
+}
+
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                          const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
     if (isGatheredAtAll(all, downsampled, gathered)) return gathered;
@@ -67,21 +71,16 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
                          const Irradiance& gathered, const UpsamplingNames& names, const LightsOfPixels& of) {
     if (isGatheredAtAll(all, downsampled, gathered)) return gathered;
     const Upsampled up = addUpsampled(scope, all, downsampled, gathered, names, {});
-    const Vals& vals = of.lights.vals;
-    const IsmAtlas& isms = of.lights.isms;
+    const auto& [vals, isms] = of.lights;
     if (!vals.shapes) return up.irradiance;  // samples of RSMs, or points
-    scope.compute(names.gather, "upsampling/gather_alone.comp")
-        .sample("normalMap", all.normal)
+    PassBuilder pass = scope.compute(names.gather, "upsampling/gather_alone.comp");
+    readLights(pass, of.lights, ValShape::kPolygon, of.taps);
+    pass.sample("normalMap", all.normal)
         .sample("depthMap", all.depth)
         .read("camera", all.camera)
-        .read("vals", vals.vals)
-        .read("shapes", vals.shapes)
-        .read("isms", isms.planes ? isms.planes : vals.vals)
         .read("alone", up.alone.pixels)
         .readWrite("result", up.irradiance.image)
-        .constant("kVisibilityTaps", isms.planes ? of.taps : 0)
-        .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid)
-        .push(glm::uvec2(vals.count, isms.tileSize))
+        .push(glm::uvec3(vals.first, vals.count, isms.tileSize))
         .dispatchIndirect(up.alone.groups);
     return up.irradiance;
 }

@@ -6,6 +6,7 @@
 #include "gi/pixel_list.h"
 #include "gi/surfaces.h"
 #include "gi/val_shading.h"
+#include "shaders/upsampling/upsampling_io.h"
 
 namespace ag::gi {
 
@@ -40,6 +41,9 @@ constexpr UpsamplingNames kLaterUpsampling = {
     {"upsampling.alone_later", "upsampling.none_alone_later", "upsampling.alone_groups_later",
      "upsampling.no_alone_groups_later"},
     ""};
+
+// Of passes that bring what was gathered at the pixels of `downsampled` to `all`.
+io::UpsamplingPush upsamplingPush(const Surfaces& all, const Surfaces& downsampled);
 
 // What was gathered at the pixels of `downsampled` = addDownsampled(`all`); comes back as it is if those are
 // all. Added to `base`, if there is one, whose direction stands for both.

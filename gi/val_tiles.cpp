@@ -33,20 +33,25 @@ ValTiles addValTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVa
     return t;
 }
 
+void readLights(PassBuilder& pass, const ShadowedVals& lights, ValShape shape, uint32_t taps) {
+    const auto& [vals, isms] = lights;
+    pass.read("vals", vals.vals)
+        .read("shapes", vals.shapes)
+        .read("isms", isms.planes ? isms.planes : vals.vals)
+        .constant("kShape", uint32_t(shape))
+        .constant("kVisibilityTaps", isms.planes ? taps : 0)
+        .constant("kParaboloid", isms.mapping == IsmMapping::kParaboloid);
+}
+
 PassBuilder gatherPass(const ValTiles& t, std::string_view name, std::string_view shader, ValShape shape,
                        uint32_t taps) {
     PassBuilder pass = t.scope.compute(name, shader);
+    readLights(pass, t.lights, shape, taps);
     pass.sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
         .read("camera", t.gbuffer.camera)
-        .read("vals", t.lights.vals.vals)
-        .read("shapes", t.lights.vals.shapes)
-        .read("isms", t.lights.isms.planes ? t.lights.isms.planes : t.lights.vals.vals)
         .read("lists", t.lists)
         .read("counts", t.counts)
-        .constant("kShape", uint32_t(shape))
-        .constant("kVisibilityTaps", t.lights.isms.planes ? taps : 0)
-        .constant("kParaboloid", t.lights.isms.mapping == IsmMapping::kParaboloid)
         .push(t.push);
     return pass;
 }

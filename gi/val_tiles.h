@@ -36,7 +36,11 @@ struct ValTiles {
 ValTiles addValTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights, float nearReach,
                      uint32_t tileSize, const ValTileNames& names);
 
-// A pass that reads the tiles and their lights; sets kShape, kVisibilityTaps and kParaboloid.
+// Lets a pass read the lights and what each of them sees: vals, shapes, isms, kShape, kVisibilityTaps,
+// kParaboloid.
+void readLights(PassBuilder& pass, const ShadowedVals& lights, ValShape shape, uint32_t taps);
+
+// A pass that reads the tiles and their lights.
 PassBuilder gatherPass(const ValTiles& tiles, std::string_view name, std::string_view shader, ValShape shape,
                        uint32_t taps);
 

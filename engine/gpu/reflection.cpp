@@ -9,10 +9,10 @@
 namespace ag::gpu {
 namespace {
 
-struct ContextDelete {
+struct ReflectionDelete {
     void operator()(spvc_context c) const { spvc_context_destroy(c); }
 };
-using Context = std::unique_ptr<spvc_context_s, ContextDelete>;
+using Reflection = std::unique_ptr<spvc_context_s, ReflectionDelete>;
 
 struct KindRow {
     spvc_resource_type resource;
@@ -144,7 +144,7 @@ void addConstant(spvc_compiler compiler, const spvc_specialization_constant& con
 Result<ShaderModule> reflectShader(std::string path, std::vector<uint32_t> spirv) {
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS) return Error{"SPIRV-Cross cannot start"};
-    const Context context(raw);
+    const Reflection context(raw);
     const auto fail = [&] {
         return Error{"shader " + path + ": " + spvc_context_get_last_error_string(raw)};
     };

@@ -6,6 +6,8 @@
 
 namespace ag::gpu {
 
+constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;  // of buffers that are read as rows of vec4
+
 void uploadBuffer(Device& device, Buffer& buffer, std::span<const std::byte> bytes, uint64_t offset = 0);
 void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> bytes, uint64_t offset = 0);
 // A buffer of just these items (room for one if there are none); `desc` without its size.

@@ -5,19 +5,10 @@
 #include "engine/core/hash.h"
 #include "gi/pixel_rays.h"
 #include "shaders/antialiasing/antialiasing_io.h"
+#include "shaders/common/sampling.h"
 
 namespace ag::render {
 namespace {
-
-// Halton's sequence: any run of it is spread evenly over 0 to 1.
-float radicalInverse(uint32_t index, uint32_t base) {
-    float result = 0, digit = 1;
-    for (; index > 0; index /= base) {
-        digit /= float(base);
-        result += digit * float(index % base);
-    }
-    return result;
-}
 
 // Samples that what was known counts for at most. After other light that is little: at edges the colours
 // about say nothing against what is known.
@@ -48,8 +39,8 @@ PixelGrid choosePixels(const AntialiasingSettings& s, glm::uvec2 output, const R
     const uint64_t still = combineHash(combineHash(version, h.stops), hashValue(output));
     grid.step = h.settling.advance(still, frames);
     if (h.settling.sinceChange < frames) {
-        const uint32_t index = uint32_t(grid.step % frames) + 1;
-        grid.jitter = glm::vec2(radicalInverse(index, 2), radicalInverse(index, 3)) - 0.5f;
+        // Any run of Halton's sequence is spread evenly.
+        grid.jitter = io::halton23(uint32_t(grid.step % frames) + 1) - 0.5f;
     }
     return grid;
 }

@@ -24,7 +24,7 @@ struct AntialiasingSettings {
                          "off|spatial|temporal"},
             SettingField{"scale", &AntialiasingSettings::scale, 0.5, 1, "",
                          "of the picture's width and height, rendered; the rest comes from other frames"},
-            SettingField{"frames", &AntialiasingSettings::frames, 1, 1024, "",
+            SettingField{"frames", &AntialiasingSettings::frames, 1, 256, "",
                          "samples a pixel of a still picture"}};
     }
 

@@ -9,6 +9,8 @@
 namespace ag::render {
 namespace {
 
+constexpr uint32_t kMostLightsOfBounces = 512;  // that are doubled to
+
 void setNone(RenderSettings& s) {
     s.technique = Technique::kNone;
 }
@@ -114,9 +116,7 @@ void setLow(RenderSettings& s) {
 void setAfterglow(RenderSettings&) {}
 
 void setAfterglowBounces(RenderSettings& s) {
-    s.bounce.laterBounces = {.enabled = true, .spacing = 3};
-    s.bounce.valClustering.count = 256;
-    s.bounce.ismAtlas.tileSize = 32;
+    addBounces(s);
 }
 
 void setHigh(RenderSettings& s) {
@@ -187,6 +187,15 @@ bool castsRaysToLights(const RenderSettings& s, const RenderScene& scene) {
 }
 
 }  // namespace
+
+void addBounces(RenderSettings& s) {
+    gi::BounceLightSettings& b = s.bounce;
+    b.laterBounces = {.enabled = true, .spacing = 3};
+    if (b.valClustering.count < kMostLightsOfBounces / 2)
+        b.ismAtlas.tileSize = std::min(b.ismAtlas.tileSize, 32u);
+    b.valClustering.count =
+        std::max(std::min(2 * b.valClustering.count, kMostLightsOfBounces), b.valClustering.count);
+}
 
 std::span<const std::string_view> presetNames() {
     return kPresetNames;

@@ -64,6 +64,10 @@ struct RenderSettings {
 bool applyPreset(std::string_view name, RenderSettings& s);
 std::span<const std::string_view> presetNames();
 
+// Every later bounce, with as many area lights for them: out of the first's few, half of their light would be
+// lost in a level of many rooms.
+void addBounces(RenderSettings& s);
+
 // Whether rays go to texels, and what rays of any kind are to meet; none: there are none.
 bool castsTexelRays(const RenderSettings& settings);
 std::optional<gi::TreesOf> tracedBy(const RenderSettings& settings, const RenderScene& scene);

@@ -13,7 +13,6 @@
 namespace ag::render {
 namespace {
 
-constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr uint32_t kSurfaceSamples = 1u << 17;  // over the whole scene
 constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounces on
 constexpr uint32_t kEmissivePoints = 1u << 12;  // on emissive surfaces
@@ -125,7 +124,7 @@ void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) 
         hasGlossy_ = hasGlossy_ || m.metallic > 0 || m.specular > 0;
         hasNormalMaps_ = hasNormalMaps_ || m.normalLayer >= 0;
     }
-    materials_ = gpu::loadBuffer(device_, {.name = "scene.materials", .texelFormat = kVec4Texels}, rows);
+    materials_ = gpu::loadBuffer(device_, {.name = "scene.materials", .texelFormat = gpu::kVec4Texels}, rows);
     materialsVersion_ = combineHash(geometry.version, hashValue(units.light));
 }
 
@@ -152,10 +151,10 @@ std::unique_ptr<gpu::Buffer> SceneGpu::grown(std::unique_ptr<gpu::Buffer> old, c
 void SceneGpu::reserveBuffers(const RenderScene& scene) {
     const uint64_t rowBytes = std::max<uint64_t>(scene.instances.size(), 1) * sizeof(io::Instance);
     const gpu::Buffer* before = instances_.get();
-    instances_ = grown(std::move(instances_), "scene.instances", rowBytes, kVec4Texels, false);
+    instances_ = grown(std::move(instances_), "scene.instances", rowBytes, gpu::kVec4Texels, false);
     if (instances_.get() != before) instancesVersion_ = 0;
     previousInstances_ =
-        grown(std::move(previousInstances_), "scene.previous_instances", rowBytes, kVec4Texels, false);
+        grown(std::move(previousInstances_), "scene.previous_instances", rowBytes, gpu::kVec4Texels, false);
     reserveDraws(scene);
 }
 
@@ -190,7 +189,7 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
     bouncePointCount_ = emissivePointCount_ = 0;
     emissiveFlux_ = 0;
     if (sampleCount_ == 0) return;
-    samples_ = gpu::loadBuffer(device_, {.name = "scene.surface_samples", .texelFormat = kVec4Texels},
+    samples_ = gpu::loadBuffer(device_, {.name = "scene.surface_samples", .texelFormat = gpu::kVec4Texels},
                                chosen.samples);
     pointAreas_ = gpu::loadBuffer(device_, {.name = "scene.point_areas", .texelFormat = VK_FORMAT_R32_SFLOAT},
                                   chosen.pointAreas);

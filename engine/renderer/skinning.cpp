@@ -9,7 +9,6 @@
 namespace ag::render {
 namespace {
 
-constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 static_assert(io::kSkinGroup == kSkinnedMeshAlignment && sizeof(io::SkinnedVertex) == sizeof(SkinVertex) &&
               sizeof(io::VertexRow) == sizeof(VertexAttributes));
 
@@ -27,9 +26,9 @@ uint32_t deformedCount(const RenderScene& scene) {
 }
 
 std::unique_ptr<gpu::Buffer> jointBuffer(gpu::Device& device, const char* name, size_t joints) {
-    return std::make_unique<gpu::Buffer>(
-        device,
-        gpu::BufferDesc{.name = name, .sizeBytes = joints * sizeof(glm::mat3x4), .texelFormat = kVec4Texels});
+    return std::make_unique<gpu::Buffer>(device, gpu::BufferDesc{.name = name,
+                                                                 .sizeBytes = joints * sizeof(glm::mat3x4),
+                                                                 .texelFormat = gpu::kVec4Texels});
 }
 
 uint64_t hashTable(const RenderScene& scene) {

@@ -9,7 +9,6 @@
 namespace ag::render {
 namespace {
 
-constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 using io::kMostHalf;
 
 // Its texels one by one where they are finer than the table's, else places between them.
@@ -51,7 +50,7 @@ void SkyGpu::load(float lightUnit) {
     for (auto* old : {&texels_, &cells_, &upTo_})
         gpu::retire(device_, std::move(*old));
     texels_ =
-        gpu::loadBuffer(device_, {.name = "scene.sky_texels", .texelFormat = kVec4Texels}, table.texels);
+        gpu::loadBuffer(device_, {.name = "scene.sky_texels", .texelFormat = gpu::kVec4Texels}, table.texels);
     cells_ = gpu::loadBuffer(device_, {.name = "scene.sky_cells"}, table.cells);
     upTo_ = gpu::loadBuffer(device_, {.name = "scene.sky_up_to"}, table.upTo);
     std::vector<uint64_t> halves;

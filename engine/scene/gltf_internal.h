@@ -12,6 +12,8 @@
 
 namespace ag::gltf {
 
+constexpr float kFarthest = 1e12f;  // m: squares stay within the range of floats
+
 using Fault = std::optional<std::string>;  // what is wrong, without the file's name
 
 // Before anything is parsed: the JSON as tinygltf reads it. Buffers without bytes, which compressed files

@@ -10,8 +10,6 @@
 namespace ag::gltf {
 namespace {
 
-constexpr float kFarthest = 1e12f;  // m: squares stay within the range of floats
-
 struct Triangles {
     std::vector<glm::vec3> positions;
     std::vector<VertexAttributes> attributes;

@@ -196,14 +196,13 @@ Fault addInstances(const tinygltf::Model& model, const tinygltf::Node& n, int32_
 
 // Transforms that are fine one by one may leave the range of floats together.
 Fault checkPlaces(const SceneAsset& asset) {
-    constexpr double kFarthest = 1e12;  // m
     const std::vector<WorldPlacement> places = placeNodes(asset);
     for (size_t i = 0; i < places.size(); ++i) {
         bool near = true;
         for (int c = 0; c < 3; ++c) {
-            near = near && std::abs(places[i].translation[c]) < kFarthest;
+            near = near && std::abs(places[i].translation[c]) < double(kFarthest);
             for (int r = 0; r < 3; ++r)
-                near = near && std::abs(places[i].linear[c][r]) < float(kFarthest);
+                near = near && std::abs(places[i].linear[c][r]) < kFarthest;
         }
         if (!near)
             return fmt::format("node '{}' stands farther off or is larger than {:g} m", asset.nodes[i].name,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 #include <utility>
 
@@ -217,6 +218,14 @@ void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size) {
                     .up = top,
                     .verticalFov = pose.verticalFov,
                     .near = pose.near};
+    ++scene.cameraVersion;
+}
+
+void shiftCamera(RenderScene& scene, glm::vec3 step) {
+    RenderCamera& camera = scene.camera;
+    camera.position += step;
+    camera.clipFromWorld = glm::translate(camera.clipFromWorld, -step);
+    camera.worldFromClip = glm::inverse(camera.clipFromWorld);
     ++scene.cameraVersion;
 }
 

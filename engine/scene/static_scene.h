@@ -38,6 +38,7 @@ glm::vec3 rightOf(glm::vec3 forward, glm::vec3 up);
 RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld = glm::dvec3(0));
 void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size);
 bool hasEmissive(const RenderScene& scene);
-CameraPose poseOf(const RenderScene& scene);  // of its camera, in the world
+CameraPose poseOf(const RenderScene& scene);           // of its camera, in the world
+void shiftCamera(RenderScene& scene, glm::vec3 step);  // m, without a turn
 
 }  // namespace ag

@@ -5,13 +5,13 @@
 
 #include "engine/core/floating_origin.h"
 #include "engine/core/hash.h"
+#include "engine/gpu/transfer.h"
 #include "shaders/scene/scene_io.h"
 
 namespace ag::guest {
 namespace {
 
 constexpr VkFormat kWords = VK_FORMAT_R32G32B32A32_UINT;
-constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 at, float perMetre) {
     const glm::mat3 rows = glm::transpose(instance.linear * perMetre);
@@ -110,7 +110,8 @@ void SceneOnDevice::takePoints(GuestScene& scene) {
     bounceCount_ = uint32_t(bounces.size());
     for (auto* buffer : {&samples_, &pointAreas_, &bouncePoints_})
         gpu::retire(context_, std::move(*buffer));
-    samples_ = make("guest.samples", std::span<const io::SurfaceSample>(points.samples.samples), kVec4Texels);
+    samples_ =
+        make("guest.samples", std::span<const io::SurfaceSample>(points.samples.samples), gpu::kVec4Texels);
     pointAreas_ = make("guest.point_areas", std::span<const float>(areas), VK_FORMAT_R32_SFLOAT);
     bouncePoints_ =
         make("guest.bounce_points", std::span<const io::BouncePoint>(bounces), VK_FORMAT_UNDEFINED);
@@ -123,9 +124,10 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
     const uint64_t bytes = std::max<uint64_t>(instances.size(), 1) * sizeof(io::Instance);
     if (!instances_ || instances_->sizeBytes() < bytes) {
         gpu::retire(context_, std::move(instances_));
-        instances_ = std::make_unique<gpu::Buffer>(context_, gpu::BufferDesc{.name = "guest.instances",
-                                                                             .sizeBytes = bytes + bytes / 2,
-                                                                             .texelFormat = kVec4Texels});
+        instances_ =
+            std::make_unique<gpu::Buffer>(context_, gpu::BufferDesc{.name = "guest.instances",
+                                                                    .sizeBytes = bytes + bytes / 2,
+                                                                    .texelFormat = gpu::kVec4Texels});
         allAnew_ = true;
     }
     rowBounds_.resize(instances.size());

@@ -1,5 +1,6 @@
 // What the graph says of a frame: who reads what, how much, and why something did not run.
 #include "engine/frame/frame_description.h"
+#include "tests/frame/kilobyte.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,6 @@
 
 namespace ag {
 namespace {
-
-constexpr BufferInfo kBuffer{.sizeBytes = 1024};
 
 const PassDescription& pass(const FrameDescription& frame, std::string_view name) {
     return *std::ranges::find(frame.passes, name, &PassDescription::name);

@@ -1,5 +1,6 @@
 // The graph's decisions, without a device.
 #include "engine/frame/frame_description.h"
+#include "tests/frame/kilobyte.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,6 @@ namespace {
 constexpr ImageInfo kImage{.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = {64, 64}};
 constexpr ImageInfo kScratchImage{
     .format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = {64, 64}, .lifetime = Lifetime::kScratch};
-constexpr BufferInfo kBuffer{.sizeBytes = 1024};
 
 struct NullGraph : testing::Test {
     FrameGraph g{nullptr, nullptr};

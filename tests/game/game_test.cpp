@@ -5,7 +5,7 @@
 
 #include "engine/core/safe_file.h"
 #include "engine/scene/extract_system.h"
-#include "engine/scene/gltf_import.h"
+#include "tests/game/level.h"
 #include "tests/support/allocation_counter.h"
 #include "tools/scenegen/scenes.h"
 
@@ -13,10 +13,6 @@ namespace ag::game {
 namespace {
 
 constexpr glm::uvec2 kSize(64, 36);
-
-SceneAsset level() {
-    return *importGltf(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
-}
 
 Input scripted(int tick) {
     return {.forward = tick % 90 < 60 ? 1.0f : -0.5f,

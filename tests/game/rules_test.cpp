@@ -7,20 +7,16 @@
 #include "engine/core/safe_file.h"
 #include "engine/physics/physics_system.h"
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
 #include "game/hud.h"
 #include "game/menu.h"
 #include "game/save_game.h"
 #include "game/systems/grow_flowers.h"
 #include "game/systems/walk_player.h"
+#include "tests/game/level.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::game {
 namespace {
-
-SceneAsset level() {
-    return *importGltf(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
-}
 
 render::ProbeLight lightOf(glm::vec3 direct, glm::vec3 bounced) {
     return {direct, bounced, 1};

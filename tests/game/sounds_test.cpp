@@ -7,17 +7,13 @@
 #include <cmath>
 
 #include "engine/renderer/probe_components.h"
-#include "engine/scene/gltf_import.h"
 #include "game/game.h"
 #include "game/systems/grow_flowers.h"
 #include "game/systems/make_sounds.h"
+#include "tests/game/level.h"
 
 namespace ag::game {
 namespace {
-
-SceneAsset level() {
-    return *importGltf(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
-}
 
 // The game with ears: keeps what the mixer would have been given.
 struct Listener {

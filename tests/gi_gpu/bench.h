@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <numbers>
 
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/renderer.h"
@@ -14,6 +15,8 @@
 
 namespace ag::gi {
 using namespace render;
+
+constexpr double kPi = std::numbers::pi;
 
 // A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
 // passes and synchronization validation proves them.

@@ -18,8 +18,6 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 SceneAsset plane(float albedo) {
     scenegen::SceneBuilder b("plane");
     b.quad("floor", {-20, 0, -20}, {0, 0, 40}, {40, 0, 0}, b.material("gray", glm::vec3(albedo)));

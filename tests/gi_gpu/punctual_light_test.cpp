@@ -16,8 +16,6 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::unique_ptr<Bench> directBench(SceneAsset asset, glm::uvec2 size = {160, 96}) {
     auto b = std::make_unique<Bench>(std::move(asset), size);
     b->settings.technique = Technique::kNone;

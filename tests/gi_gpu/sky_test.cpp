@@ -12,8 +12,6 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 SceneAsset floorUnder(Sky sky) {
     scenegen::SceneBuilder b("floor");
     b.quad("floor", {-40, 0, -40}, {0, 0, 80}, {80, 0, 0}, b.material("gray", glm::vec3(0.5f)));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/static_scene.h"
+#include "tests/reference/mean.h"
 #include "tools/reference/reference.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
@@ -17,13 +18,6 @@ Reference trace(const SceneAsset& asset, glm::uvec2 size, const ReferenceSetting
     const RayScene rays(scene);
     JobRunner runner(2);
     return makeReference(rays, size, settings, runner, [](double) {});
-}
-
-double meanOf(const Image& image) {
-    double sum = 0;
-    for (const glm::vec3& p : image.pixels)
-        sum += double(p.x);
-    return sum / double(image.pixels.size());
 }
 
 // A wall seen head-on that ends at a part of the middle pixel's width; a sun lights it evenly.

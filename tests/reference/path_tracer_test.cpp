@@ -1,4 +1,5 @@
 // The reference against closed forms.
+#include "tests/reference/mean.h"
 #include "tools/reference/reference.h"
 
 #include <gtest/gtest.h>
@@ -35,13 +36,6 @@ struct Traced {
     RenderScene scene;
     glm::uvec2 size;
 };
-
-double meanOf(const Image& image) {
-    double sum = 0;
-    for (const glm::vec3& p : image.pixels)
-        sum += double(p.x);
-    return sum / double(image.pixels.size());
-}
 
 // Inside a closed sphere of albedo rho lit from its centre, irradiance is the same everywhere: E0 = I / r²,
 // and each bounce carries rho times the one before.

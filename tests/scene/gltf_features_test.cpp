@@ -19,7 +19,7 @@ namespace ag {
 namespace {
 
 using nlohmann::json;
-using test::addAccessor, test::bufferOf, test::bytesOf, test::triangle, test::write;
+using test::addAccessor, test::bufferOf, test::bytesOf, test::faultOf, test::triangle, test::write;
 
 constexpr int kByte = 5120, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 
@@ -27,11 +27,6 @@ SceneAsset import(const json& document, const char* name = "case.gltf") {
     auto asset = importGltf(write(name, document.dump()));
     EXPECT_TRUE(asset) << (asset ? "" : asset.error().message);
     return asset ? std::move(*asset) : SceneAsset{};
-}
-
-std::string faultOf(const json& document, const ImportLimits& limits = {}) {
-    const auto asset = importGltf(write("bad.gltf", document.dump()), limits);
-    return asset ? "" : asset.error().message;
 }
 
 const SceneFeature* featureOf(const SceneAsset& asset, const std::string& name) {

@@ -90,4 +90,10 @@ inline std::string write(const std::string& name, const std::string& text) {
     return path.string();
 }
 
+// The sentence a document is refused with; empty if it loads.
+inline std::string faultOf(const nlohmann::json& document, const ImportLimits& limits = {}) {
+    const auto asset = importGltf(write("case.gltf", document.dump()), limits);
+    return asset ? "" : asset.error().message;
+}
+
 }  // namespace ag::test

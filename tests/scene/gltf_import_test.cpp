@@ -17,14 +17,8 @@ namespace ag {
 namespace {
 
 using nlohmann::json;
-using test::base64, test::folder, test::triangle, test::write;
+using test::base64, test::faultOf, test::folder, test::triangle, test::write;
 namespace fs = std::filesystem;
-
-// The sentence a document is refused with; empty if it loads.
-std::string faultOf(const json& document) {
-    const auto asset = importGltf(write("case.gltf", document.dump()));
-    return asset ? "" : asset.error().message;
-}
 
 testing::AssertionResult refusedWith(const json& document, const std::string& words) {
     const std::string fault = faultOf(document);

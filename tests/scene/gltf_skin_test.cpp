@@ -13,6 +13,7 @@
 #include "engine/scene/skinned_mesh.h"
 #include "engine/scene/static_scene.h"
 #include "tests/scene/bar.h"
+#include "tests/scene/gltf_files.h"
 #include "tools/scenegen/figures.h"
 
 namespace ag {
@@ -20,13 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-fs::path folder() {
-    const fs::path path = fs::path(testing::TempDir()) / "gltf_skin_test" /
-                          testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(path);
-    return path;
-}
+using test::folder;
 
 // A GLB file taken apart.
 struct Glb {

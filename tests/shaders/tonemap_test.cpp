@@ -36,7 +36,9 @@ TEST(Tonemap, BlackAndNonsenseStayInRange) {
                 EXPECT_GE(shown[k], 0) << mode;
                 EXPECT_LE(shown[k], 1) << mode;
             }
-            if (c == vec3(0)) EXPECT_LT(shown.x, 0.02f) << mode;
+            if (c == vec3(0)) {
+                EXPECT_LT(shown.x, 0.02f) << mode;
+            }
         }
 }
 

@@ -33,9 +33,12 @@ CameraPose lookingDown() {
 
 void expectLight(const RenderLight& is, const RenderLight& was, glm::vec3 origin) {
     EXPECT_EQ(is.kind, was.kind);
-    if (was.kind != LightKind::kDirectional)
+    if (was.kind != LightKind::kDirectional) {
         EXPECT_NEAR(glm::distance(is.position, was.position + origin), 0, 1e-4f);
-    if (was.kind != LightKind::kPoint) EXPECT_NEAR(glm::distance(is.direction, was.direction), 0, 1e-5f);
+    }
+    if (was.kind != LightKind::kPoint) {
+        EXPECT_NEAR(glm::distance(is.direction, was.direction), 0, 1e-5f);
+    }
     EXPECT_NEAR(glm::distance(is.intensity, was.intensity), 0, 1e-4f);
     EXPECT_EQ(is.range, was.range);
     if (was.kind == LightKind::kSpot) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 #include "engine/renderer/renderer.h"
@@ -21,9 +20,9 @@ constexpr std::array<std::string_view, size_t(Change::kCount)> kNames = {"all pa
                                                                          "a small thing out of view",
                                                                          "a light",
                                                                          "the camera, all lights off"};
-constexpr uint32_t kWarmFrames = 48;  // for what settles
-constexpr uint32_t kLateFrames = 4;   // times arrive some frames late
-constexpr uint32_t kRounds = 2;       // of what comes up every so many frames
+constexpr uint32_t kSettlingFrames = 48;  // for what settles
+constexpr uint32_t kLateFrames = 4;       // times arrive some frames late
+constexpr uint32_t kRounds = 2;           // of what comes up every so many frames
 // At most, of the scene's diagonal and of its distance from the camera when it is in view.
 constexpr float kThingOfScene = 1.0f / 40, kThingOfDistance = 1.0f / 20;
 
@@ -89,7 +88,7 @@ class Walkthrough {
         const uint32_t cpuFrames = kRounds * settings_.bounce.refresh.lightFrames;
         const uint32_t timedFrames = kLateFrames + cpuFrames;
         const double part = 1.0 / cpuFrames;
-        for (uint32_t i = 0; i < kWarmFrames; ++i)
+        for (uint32_t i = 0; i < kSettlingFrames; ++i)
             frame(change, {.timing = TimingMode::kBracketed});
         for (uint32_t i = 0; i < timedFrames; ++i) {
             frame(change, {.skip = change != Change::kEverything, .timing = TimingMode::kBracketed});
@@ -158,11 +157,7 @@ class Walkthrough {
         scene_.changedInstances.clear();
         if (walks) {
             const glm::vec3 step(0.0005f * diagonalOf(scene_) * std::sin(float(frame_) * 0.3f + 1), 0, 0);
-            RenderCamera& camera = scene_.camera;
-            camera.position += step;
-            camera.clipFromWorld = glm::translate(camera.clipFromWorld, -step);
-            camera.worldFromClip = glm::inverse(camera.clipFromWorld);
-            ++scene_.cameraVersion;
+            shiftCamera(scene_, step);
         }
         if (change == Change::kSmallThing) placeThing(places_[0], frame_);
         if (change == Change::kUnseenThing) placeThing(places_[1], frame_);

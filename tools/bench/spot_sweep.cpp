@@ -18,7 +18,7 @@ namespace ag::bench {
 namespace {
 
 constexpr glm::uvec2 kSize{96, 54};
-constexpr uint32_t kWarmFrames = 32;
+constexpr uint32_t kFramesBefore = 32;
 constexpr uint32_t kMap = 128;  // texels along the RSM's side
 
 SceneAsset emptyRoom() {
@@ -100,14 +100,14 @@ std::vector<SweepFrame> sweepSpot(gpu::Device& device, const SweepOptions& optio
     truth.settings.bounce.rsm.resolution = kMap;
 
     std::vector<SweepFrame> measured;
-    for (uint32_t i = 0; i < options.frames + kWarmFrames; ++i) {
-        const uint32_t step = i < kWarmFrames ? 0 : i - kWarmFrames;
+    for (uint32_t i = 0; i < options.frames + kFramesBefore; ++i) {
+        const uint32_t step = i < kFramesBefore ? 0 : i - kFramesBefore;
         const double share = double(step) / std::max(options.frames - 1, 1u);
         scene.lights[0].direction = directionAt(share);
         ++scene.lightsVersion;
         for (size_t v = 0; v < kSweepVariants.size(); ++v)
             runs[v]->render(scene);
-        if (i < kWarmFrames || step % options.every != 0) continue;
+        if (i < kFramesBefore || step % options.every != 0) continue;
         truth.render(scene);
         const Image exact = render::readImage(truth.renderer, truth.shown);
         SweepFrame frame{.seconds = share * kSweepSeconds};

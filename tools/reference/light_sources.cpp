@@ -14,10 +14,6 @@ constexpr glm::ivec2 kSkyCells{512, 256};
 constexpr double kEvenShare = 0.05;
 constexpr uint32_t kLooks = 16;  // at a textured triangle
 
-double mean(glm::vec3 v) {
-    return double(v.x + v.y + v.z) / 3;
-}
-
 // Even in a triangle.
 glm::vec2 barycentric(float u, float v) {
     const float root = std::sqrt(u);
@@ -32,7 +28,7 @@ double brightnessOf(const RayScene& scene, uint32_t part, uint32_t triangle, uin
         for (uint32_t bits = i; bits; bits >>= 1, digit /= 2)
             inverse += float(bits & 1) * digit;
         const glm::vec2 b = barycentric((float(i) + 0.5f) / float(looks), inverse);
-        sum += mean(scene.emissionAt(part, triangle, b.x, b.y));
+        sum += double(mean(scene.emissionAt(part, triangle, b.x, b.y)));
     }
     return sum / looks;
 }
@@ -55,7 +51,7 @@ double brightnessOfCell(const Sky& sky, glm::ivec2 cell) {
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
             const glm::vec2 at = glm::vec2(cell) + (glm::vec2(x, y) + 0.5f) / float(kSide);
-            sum += mean(skyRadiance(sky, skyDirection(at / glm::vec2(kSkyCells))));
+            sum += double(mean(skyRadiance(sky, skyDirection(at / glm::vec2(kSkyCells)))));
         }
     return sum / (kSide * kSide);
 }

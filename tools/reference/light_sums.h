@@ -10,6 +10,8 @@
 
 namespace ag::reference {
 
+enum class Shining { kSurface, kSky };  // what sends light of its own beside suns and lamps
+
 // Of the paths of one pixel. Irradiance on the shading normal, before albedo, W/m²; radiance towards the
 // camera, W/(m² sr).
 struct PixelSums {
@@ -21,10 +23,13 @@ struct PixelSums {
         if (bounce > 0) indirect += glm::dvec3(irradiance);
         radiance += glm::dvec3(reflected);
     }
-    // Light of emissive surfaces or of the sky; `straight`: which of both.
-    void addFrom(glm::dvec3 PixelSums::*straight, uint32_t bounce, glm::vec3 irradiance,
-                 glm::vec3 reflected) {
-        (bounce == 0 ? this->*straight : indirect) += glm::dvec3(irradiance);
+    void addFrom(Shining source, uint32_t bounce, glm::vec3 irradiance, glm::vec3 reflected) {
+        if (bounce > 0)
+            indirect += glm::dvec3(irradiance);
+        else if (source == Shining::kSky)
+            sky += glm::dvec3(irradiance);
+        else
+            emissive += glm::dvec3(irradiance);
         radiance += glm::dvec3(reflected);
     }
 };

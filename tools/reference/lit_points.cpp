@@ -18,10 +18,6 @@ constexpr double kLearned = 0.8;  // share of the chances, once there is enough 
 constexpr double kEnoughNotes = 1000;
 constexpr float kGlossOfTarget = 0.1f;  // metals send light, too
 
-float mean(glm::vec3 v) {
-    return (v.x + v.y + v.z) / 3;
-}
-
 // About what a surface sends of what arrives, W/sr.
 float brightnessOf(glm::vec3 arriving, const Surface& s) {
     return mean(arriving * (s.albedo + kGlossOfTarget * s.baseColor)) * std::numbers::inv_pi_v<float>;

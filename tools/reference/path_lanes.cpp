@@ -167,7 +167,7 @@ bool PathLanes::goesOn(uint32_t bounce, Lane& l, glm::vec3& reflected) const {
 // What shines by itself, chosen by how bright it is, where it sees the path's last surface. Directions drawn
 // from that surface find it, too; the balance heuristic weighs both.
 void PathLanes::meetSources(uint32_t bounce, PixelSums& sums) {
-    const auto meet = [&](glm::dvec3 PixelSums::*straight, auto&& draw) {
+    const auto meet = [&](Shining source, auto&& draw) {
         RayLanes rays;
         SourceSample samples[RayLanes::kCount];
         forEachLane(alive_, [&](uint32_t i) {
@@ -186,7 +186,7 @@ void PathLanes::meetSources(uint32_t bounce, PixelSums& sums) {
             const glm::vec3 arrives =
                 s.radiance * (glm::dot(l.at->normal, s.direction) / (s.density + other));
             const glm::vec3 reflected = arrives * brdf(*l.at, l.toViewer, s.direction, settings_.glossy);
-            sums.addFrom(straight, bounce - 1, l.irradianceWeight * (bounce == 1 ? arrives : reflected),
+            sums.addFrom(source, bounce - 1, l.irradianceWeight * (bounce == 1 ? arrives : reflected),
                          l.radianceWeight * reflected);
         });
     };
@@ -196,27 +196,27 @@ void PathLanes::meetSources(uint32_t bounce, PixelSums& sums) {
     });
     const LightSources& sources = scene_.sources();
     if (emission_)
-        meet(&PixelSums::emissive,
+        meet(Shining::kSurface,
              [&](glm::vec3 from, glm::vec3 even) { return sources.drawEmissive(from, even); });
-    if (sky_) meet(&PixelSums::sky, [&](glm::vec3, glm::vec3 even) { return sources.drawSky(even); });
+    if (sky_) meet(Shining::kSky, [&](glm::vec3, glm::vec3 even) { return sources.drawSky(even); });
 }
 
 // What shines by itself, where the paths met it.
 void PathLanes::findSources(uint32_t bounce, uint32_t escaped, Surface* met, PixelSums& sums) const {
     const LightSources& sources = scene_.sources();
-    const auto add = [&](uint32_t i, glm::dvec3 PixelSums::*straight, glm::vec3 radiance, float other) {
+    const auto add = [&](uint32_t i, Shining source, glm::vec3 radiance, float other) {
         const Lane& l = lanes_[i];
         const glm::vec3 counts = radiance * (l.density / (l.density + other));
-        sums.addFrom(straight, bounce - 1, l.irradianceWeight * counts, l.radianceWeight * counts);
+        sums.addFrom(source, bounce - 1, l.irradianceWeight * counts, l.radianceWeight * counts);
     };
     forEachLane(sky_ ? escaped : 0, [&](uint32_t i) {
         const glm::vec3 along = lanes_[i].direction;
-        add(i, &PixelSums::sky, scene_.skyAlong(along), sources.skyDensity(along));
+        add(i, Shining::kSky, scene_.skyAlong(along), sources.skyDensity(along));
     });
     forEachLane(emission_ ? alive_ : 0, [&](uint32_t i) {
         scene_.resolve(met[i]);
         if (met[i].emissive == glm::vec3(0)) return;
-        add(i, &PixelSums::emissive, met[i].emissive,
+        add(i, Shining::kSurface, met[i].emissive,
             sources.emissiveDensity(met[i], leaveSurface(scene_, *lanes_[i].at), lanes_[i].direction));
     });
 }

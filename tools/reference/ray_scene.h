@@ -11,6 +11,10 @@
 
 namespace ag::reference {
 
+inline float mean(glm::vec3 v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
 struct Surface {                         // what a ray met
     glm::vec3 position{0};               // m
     float distance = 0;                  // m, 0: nothing was met

@@ -14,10 +14,6 @@
 namespace ag::reference {
 namespace {
 
-float mean(glm::vec3 v) {
-    return (v.x + v.y + v.z) / 3;
-}
-
 glm::vec3 irradianceFrom(const RayScene& scene, const Surface& at, const Emitter& emitter, uint64_t& rays) {
     const float term = io::vplTerm(at.position, at.normal, emitter.position, emitter.normal);
     if (term <= 0) return glm::vec3(0);

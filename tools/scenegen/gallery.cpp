@@ -47,7 +47,7 @@ void sideWall(Furnisher& f, const Hall& h, float side, float front, float back) 
             f.stone);
 }
 
-void shell(SceneBuilder& b, Furnisher& f, const Hall& h, const char* name) {
+void hallShell(SceneBuilder& b, Furnisher& f, const Hall& h, const char* name) {
     f.floor("floor", {h.left, h.back - kWall}, {h.right, h.front});
     f.ceiling("ceiling", {h.left - kWall, h.back - kWall}, {h.right + kWall, h.front}, kHeight);
     const uint32_t node = b.place(name, {(h.left + h.right) / 2, 0, (h.front + h.back) / 2});
@@ -79,7 +79,7 @@ void corridor(Furnisher& f, uint32_t wall, float front, float back) {
 // Light that has bounced. Two white flowers: one by a wall, one behind a screen.
 void foyer(SceneBuilder& b, Furnisher& f) {
     const Hall h{0, -4, 4, 0, -8, f.plaster};
-    shell(b, f, h, "room of the first light");
+    hallShell(b, f, h, "room of the first light");
     crossWall(f, h, kWall, false);
     crossWall(f, h, h.back, true);
     sideWall(f, h, -1, h.front, h.back);
@@ -112,7 +112,7 @@ void foyer(SceneBuilder& b, Furnisher& f) {
 // Light takes the colour of what it bounces off.
 void colours(SceneBuilder& b, Furnisher& f) {
     const Hall h{1, -5, 5, -11.3f, -20, f.plaster};
-    shell(b, f, h, "room of colours");
+    hallShell(b, f, h, "room of colours");
     crossWall(f, h, h.front + kWall, true);
     crossWall(f, h, h.back, true);
     sideWall(f, h, -1, h.front, h.back);
@@ -141,7 +141,7 @@ void colours(SceneBuilder& b, Furnisher& f) {
 // What stands between: a beam to be shaded, a panel to be opened, a curtain to pass under.
 void shadows(SceneBuilder& b, Furnisher& f) {
     const Hall h{2, -5, 5, -23.3f, -32, f.plaster};
-    shell(b, f, h, "room of shadows");
+    hallShell(b, f, h, "room of shadows");
     crossWall(f, h, h.front + kWall, true);
     crossWall(f, h, h.back, true);
     sideWall(f, h, 1, h.front, h.back);
@@ -205,7 +205,7 @@ MeshParts paintedBoard(uint32_t front, uint32_t back, glm::vec3 middle, glm::vec
 // Paint that moves, between walls that give nothing back.
 void movingPaint(SceneBuilder& b, Furnisher& f) {
     const Hall h{3, -5, 5, -35.3f, -44, f.charcoal};
-    shell(b, f, h, "room of moving paint");
+    hallShell(b, f, h, "room of moving paint");
     crossWall(f, h, h.front + kWall, true);
     crossWall(f, h, h.back, true);
     sideWall(f, h, -1, h.front, h.back);
@@ -250,7 +250,7 @@ void movingPaint(SceneBuilder& b, Furnisher& f) {
 
 void garden(SceneBuilder& b, Furnisher& f) {
     const Hall h{4, -3.5f, 3.5f, -44.3f, -51, f.plaster};
-    shell(b, f, h, "garden");
+    hallShell(b, f, h, "garden");
     crossWall(f, h, h.back, false);
     sideWall(f, h, -1, h.front, h.back);
     sideWall(f, h, 1, h.front, h.back);

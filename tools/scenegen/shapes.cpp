@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtx/rotate_vector.hpp>
 
 namespace ag::scenegen {
 namespace {
 
-constexpr float kTau = 6.2831853f;
 constexpr float kSmoothCosine = 0.766f;
 
 MeshPart& partOf(MeshParts& parts, uint32_t material) {
@@ -34,11 +35,6 @@ void addQuadIndices(MeshPart& part, uint32_t a, uint32_t b, uint32_t c, uint32_t
     addTriangle(part, a, c, d);
 }
 
-glm::vec3 turned(glm::vec3 v, float yaw) {
-    const float c = std::cos(yaw), s = std::sin(yaw);
-    return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
-}
-
 // The outward direction of a profile's piece: (radius, height).
 glm::vec2 outward(glm::vec2 a, glm::vec2 b) {
     return glm::normalize(glm::vec2(b.y - a.y, a.x - b.x));
@@ -57,7 +53,8 @@ void addBox(MeshParts& parts, uint32_t material, glm::vec3 center, glm::vec3 siz
             middle[axis] = side * size[axis] / 2;
             if (side < 0) std::swap(u, v);
             const auto corner = [&](float a, float b) {
-                return addVertex(part, center + turned(middle + u * a + v * b, yaw), turned(normal, yaw));
+                return addVertex(part, center + glm::rotateY(middle + u * a + v * b, yaw),
+                                 glm::rotateY(normal, yaw));
             };
             const uint32_t a = corner(-1, -1), b = corner(1, -1), c = corner(1, 1), d = corner(-1, 1);
             addQuadIndices(part, a, b, c, d);
@@ -80,7 +77,7 @@ void addLathe(MeshParts& parts, uint32_t material, std::span<const glm::vec2> pr
         }
         const uint32_t first = uint32_t(part.positions.size());
         for (uint32_t s = 0; s <= segments; ++s) {
-            const float angle = kTau * float(s) / float(segments);
+            const float angle = glm::two_pi<float>() * float(s) / float(segments);
             const glm::vec3 away(std::cos(angle), 0, -std::sin(angle));
             for (int e = 0; e < 2; ++e) {
                 const glm::vec2 p = profile[i + size_t(e)];

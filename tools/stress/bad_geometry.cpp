@@ -3,7 +3,6 @@
 
 #include "engine/scene/gltf_export.h"
 #include "engine/scene/gltf_import.h"
-#include "tools/scenegen/scenes.h"
 #include "tools/stress/cases.h"
 
 namespace ag::stress {
@@ -21,10 +20,6 @@ Result<SceneAsset> throughFile(const SceneAsset& asset) {
     std::error_code ignored;
     fs::remove_all(folder, ignored);
     return read;
-}
-
-SceneAsset cornell() {
-    return *scenegen::buildScene("cornell", 0);
 }
 
 // Every primitive gets a triangle of one point, and one whose corners lie on a line.

@@ -1,12 +1,17 @@
 // The cases by kind. Private to tools/stress.
 #pragma once
 
+#include "tools/scenegen/scenes.h"
 #include "tools/stress/stage.h"
 #include "tools/stress/stress.h"
 
 namespace ag::stress {
 
 constexpr glm::uvec2 kSize(160, 90);
+
+inline SceneAsset cornell() {
+    return *scenegen::buildScene("cornell", 0);
+}
 
 // What a case is run with.
 struct Bench {

@@ -7,10 +7,6 @@
 namespace ag::stress {
 namespace {
 
-SceneAsset cornell() {
-    return *scenegen::buildScene("cornell", 0);
-}
-
 RenderLight pointLight(glm::vec3 position, float intensity) {
     return {.kind = LightKind::kPoint,
             .position = position,

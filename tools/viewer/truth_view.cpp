@@ -20,6 +20,11 @@ glm::uvec2 sizeOf(const Image& image) {
 
 }  // namespace
 
+reference::PixelFilter filterOf(const render::AntialiasingSettings& s) {
+    const bool filters = s.mode == render::Antialiasing::kTemporal;
+    return filters ? reference::PixelFilter::kBlackmanHarris : reference::PixelFilter::kCenter;
+}
+
 bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, reference::PixelFilter filter, bool on,
                        gpu::Device& device) {
     radiance_ = {};

@@ -12,6 +12,9 @@
 
 namespace ag::viewer {
 
+// The path tracer's filter for a picture that is made so.
+reference::PixelFilter filterOf(const render::AntialiasingSettings& settings);
+
 class TruthView {
   public:
     // Before a frame of the scene. Takes what was traced meanwhile to the device, blocking; true: there is a

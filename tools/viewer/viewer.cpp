@@ -30,11 +30,6 @@ constexpr double kShortestFrame = 1.0 / 144;  // s
 constexpr float kScriptStep = 1.0f / 60;      // s: what a frame of a script stands for
 constexpr float kLongestStep = 0.25f;         // s: a slower frame slows the camera
 
-reference::PixelFilter filterOf(const render::AntialiasingSettings& s) {
-    const bool filters = s.mode == render::Antialiasing::kTemporal;
-    return filters ? reference::PixelFilter::kBlackmanHarris : reference::PixelFilter::kCenter;
-}
-
 class ViewerRun {
   public:
     ViewerRun(Viewing& viewing, const ViewerOptions& options, SaveViewing session, SaveViewing scene,

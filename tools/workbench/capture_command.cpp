@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
 
 #include "engine/capture/diff.h"
@@ -61,14 +60,6 @@ Result<CapturePlan> readPlan(const CaptureOptions& o) {
     return plan;
 }
 
-void moveCamera(RenderScene& scene, glm::vec3 step) {
-    RenderCamera& camera = scene.camera;
-    camera.position += step;
-    camera.clipFromWorld = glm::translate(camera.clipFromWorld, -step);
-    camera.worldFromClip = glm::inverse(camera.clipFromWorld);
-    ++scene.cameraVersion;
-}
-
 std::string settingsText(const CaptureOptions& o) {
     return fmt::format("preset {}{}{}{}", o.preset, o.assignments.empty() ? "" : ", ",
                        fmt::join(o.assignments, ", "), o.walk.empty() ? "" : ", walking " + o.walk);
@@ -124,7 +115,7 @@ Result<capture::Capture> captureScene(const CaptureOptions& o, const CapturePlan
         if (world)
             last = &world->next(systems);
         else if (plan.walk != glm::vec3(0))
-            moveCamera(loaded.scene, plan.walk);
+            shiftCamera(loaded.scene, plan.walk);
         return *last;
     };
     capture::recordFrames(renderer, next, settings, seen);

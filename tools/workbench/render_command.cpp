@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
-#include <map>
 
 #include "engine/core/near_name.h"
 #include "engine/core/safe_file.h"
 #include "engine/core/settings.h"
 #include "engine/renderer/frame_budget.h"
 #include "engine/renderer/renderer.h"
+#include "tools/viewer/truth_view.h"
 #include "tools/workbench/commands.h"
 #include "tools/workbench/layers.h"
+#include "tools/workbench/pass_times.h"
 #include "tools/workbench/progress_line.h"
 #include "tools/workbench/render_setup.h"
 #include "tools/workbench/session.h"
@@ -57,69 +57,6 @@ std::string layerOf(const RenderOptions& options) {
 
 std::string pictureOfTurn(const RenderOptions& options, uint32_t index) {
     return (std::filesystem::path(options.output) / fmt::format("{:03}.png", index)).string();
-}
-
-// Process CPU time of each pass once more with everything run, which also warms the numbers: the first frames
-// compile.
-void printTimes(render::Renderer& renderer, const LoadedScene& loaded, RenderSetup& settings) {
-    FrameGraphOptions options = settings.graph;
-    options.skip = false;
-    options.timing = TimingMode::kProcessCpu;
-    std::vector<double> best;
-    constexpr int kRepeats = 7;
-    for (int i = 0; i < kRepeats; ++i) {
-        renderer.render(loaded.scene, loaded.size, settings.gi, options,
-                        [](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
-                            scope.output(frame.outputs.display);
-                        });
-        best.resize(renderer.graph().report().size(), 1e30);
-        for (size_t p = 0; p < best.size(); ++p)
-            best[p] = std::min(best[p], renderer.graph().report()[p].cpuMs);
-    }
-    double total = 0;
-    std::cout << fmt::format("{}: {}x{}, process CPU ms per pass, least of {}\n",
-                             renderer.device().info().name, loaded.size.x, loaded.size.y, kRepeats);
-    for (size_t p = 0; p < best.size(); ++p) {
-        if (renderer.graph().report()[p].outcome != PassOutcome::kRan) continue;
-        std::cout << fmt::format("{:<36} {:8.2f}\n", renderer.graph().report()[p].name, best[p]);
-        total += best[p];
-    }
-    std::cout << fmt::format("{:<36} {:8.2f}\n{:<36} {:8.1f} MiB\n", "sum", total, "device memory",
-                             double(renderer.deviceBytes()) / 1048576.0);
-}
-
-// The same while the camera walks: passes are skipped as ever, each has its mean over the frames.
-void printTimesOfWalk(render::Renderer& renderer, LoadedScene& loaded, RenderSetup& settings,
-                      glm::vec3 step) {
-    FrameGraphOptions options = settings.graph;
-    options.timing = TimingMode::kProcessCpu;
-    constexpr int kFrames = 40;
-    std::vector<std::string> names;
-    std::map<std::string, double> sums;
-    for (int i = 0; i < kFrames; ++i) {
-        RenderCamera& camera = loaded.scene.camera;
-        camera.position += step;
-        camera.clipFromWorld = glm::translate(camera.clipFromWorld, -step);
-        camera.worldFromClip = glm::inverse(camera.clipFromWorld);
-        ++loaded.scene.cameraVersion;
-        renderer.render(loaded.scene, loaded.size, settings.gi, options,
-                        [](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
-                            scope.output(frame.outputs.display);
-                        });
-        for (const PassReport& pass : renderer.graph().report()) {
-            const auto [entry, added] = sums.try_emplace(std::string(pass.name), 0.0);
-            if (added) names.push_back(entry->first);
-            if (pass.outcome == PassOutcome::kRan) entry->second += pass.cpuMs / kFrames;
-        }
-    }
-    double total = 0;
-    std::cout << fmt::format("{}: {}x{}, process CPU ms per pass, mean of {} frames of a walk\n",
-                             renderer.device().info().name, loaded.size.x, loaded.size.y, kFrames);
-    for (const std::string& name : names) {
-        if (sums[name] > 0) std::cout << fmt::format("{:<36} {:8.2f}\n", name, sums[name]);
-        total += sums[name];
-    }
-    std::cout << fmt::format("{:<36} {:8.2f}\n", "sum", total);
 }
 
 // --budget-ms: the quality follows what frames take.
@@ -256,17 +193,16 @@ class Rendering {
         out.attributes["settings"] = fmt::format("{}", fmt::join(options_.assignments, " "));
         out.attributes["frames"] = std::to_string(options_.frames);
         out.attributes["device"] = renderer_.device().info().name;
-        out.attributes["filter"] = filterName();
+        out.attributes["filter"] = reference::filterName(filter());
         return out;
     }
 
     render::Renderer& renderer() { return renderer_; }
 
   private:
-    std::string filterName() const {
-        const bool filtered = settings_.gi.antialiasing.mode == render::Antialiasing::kTemporal &&
-                              render::isPicture(asked_.layer);
-        return filtered ? "blackman-harris" : "center";
+    reference::PixelFilter filter() const {
+        return render::isPicture(asked_.layer) ? viewer::filterOf(settings_.gi.antialiasing)
+                                               : reference::PixelFilter::kCenter;
     }
     void renderFrame() {
         const bool png = writesPng(options_);

@@ -18,8 +18,6 @@
 namespace ag::workbench {
 namespace {
 
-constexpr double kMostNumber = 1e12;  // m or W/sr: beyond it, products of floats are not finite
-
 // Comma-separated numbers, `least` to `most` of them.
 std::optional<std::vector<double>> parseNumbers(std::string_view text, size_t least, size_t most) {
     std::vector<double> numbers;

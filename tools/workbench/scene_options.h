@@ -12,6 +12,8 @@
 
 namespace ag::workbench {
 
+constexpr double kMostNumber = 1e12;  // m or W/sr: beyond it, products of floats are not finite
+
 struct PlacedLight {
     RenderLight light;
     glm::dvec3 position{0};  // m, in the world

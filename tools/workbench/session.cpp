@@ -15,7 +15,6 @@ using nlohmann::json;
 
 constexpr uint64_t kMostBytes = 1 << 20;
 
-constexpr double kMostNumber = 1e12;                     // beyond it, products of floats are not finite
 constexpr std::array kKinds = {"sun", "point", "spot"};  // as LightKind counts them
 
 template <class V>
