@@ -269,7 +269,7 @@ void checkAssignmentTwin(Bench& b) {
 TEST(ValClustering, KeepsFluxAndMembershipWhileTheLightMoves) {
     Bench b(*scenegen::buildScene("cornell", 0));
     const RenderLight start = b.scene.lights[0];
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 100; ++i) {
         RenderLight& light = b.scene.lights[0];
         light = start;
         light.position.x = 0.6f * std::sin(0.07f * float(i));

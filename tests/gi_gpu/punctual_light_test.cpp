@@ -249,7 +249,7 @@ double changeAlongAWalk(const char* preset, uint32_t clusters) {
     const glm::dvec3 way(0.06, 0, -0.01);  // m a frame
     Image before;
     double change = 0, mean = 0;
-    for (int step = 0; step < 64; ++step) {
+    for (int step = 0; step < 40; ++step) {
         setCamera(b->scene, pose, b->size);
         pose.position += way;
         const Image now = directImage(*b);

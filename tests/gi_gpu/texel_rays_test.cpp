@@ -40,8 +40,8 @@ TEST(TexelRays, WhatMovedStandsInTheWayWhereItIs) {
     at(moved, 0), at(before, 0), at(fresh, 0.5f);
     bounce1After(moved, 8);
     at(moved, 0.5f);
-    const Image truth = bounce1After(fresh, 96), image = bounce1After(moved, 96);
-    const Image old = bounce1After(before, 96);
+    const Image truth = bounce1After(fresh, 64), image = bounce1After(moved, 64);
+    const Image old = bounce1After(before, 64);
     const double mean = meanOf(truth);
     EXPECT_LT(shareOff(image, truth, 0.25 * mean), 0.03);
     EXPECT_GT(shareOff(old, truth, 0.25 * mean), 0.06);  // it makes a difference

@@ -146,7 +146,7 @@ TEST(GuestFaults, OutOfHostMemoryOfOurOwnIsACodeAndTriedAgain) {
     startCounting();
     FaultyHost(AGI_OK, [] {}).live([] {});
     const auto allocations = int(stopCounting());
-    for (const int place : placesAmong(allocations, 40)) {
+    for (const int place : placesAmong(allocations, 24)) {
         SCOPED_TRACE(place);
         FaultyHost host(AGI_ERROR_HOST_MEMORY, never);
         EXPECT_LE(host.live([&] { failAllocationAfter(size_t(place)); }), 1);

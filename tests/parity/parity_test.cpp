@@ -68,7 +68,8 @@ TEST(Parity, EmissiveSurfacesAndSky) {
             RenderSettings settings;
             settings.bounce.laterBounces.enabled = bounces;
             settings.bounce.valClustering.seed = seed;
-            ratio += differ(truth.*term.truth, p.render(term.layer, settings, 80)).meanRatio / seeds;
+            ratio +=
+                differ(truth.*term.truth, p.render(term.layer, settings, bounces ? 56 : 40)).meanRatio / seeds;
         }
         const std::string name(layerInfo(term.layer).name);
         std::printf("%s, %s: %.4f of the truth\n", term.scene, name.c_str(), ratio);
@@ -121,7 +122,7 @@ TEST(Parity, FirstBounceWithoutVisibility) {
 TEST(Parity, SecondBounce) {
     for (const char* name : {"cornell", "corridor"}) {
         Parity p(name);
-        const Image truth = p.trace({.paths = {.bounces = 2}, .samplesPerPixel = 1024}).bounces[2];
+        const Image truth = p.trace({.paths = {.bounces = 2}, .samplesPerPixel = 512}).bounces[2];
         RenderSettings settings;
         settings.bounce.laterBounces.enabled = true;
         settings.bounce.laterBounces.feedback = false;
@@ -203,6 +204,7 @@ TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
     RenderSettings alone, shared;
     for (RenderSettings* s : {&alone, &shared})
         ASSERT_TRUE(applyPreset("acrsm", *s));
+    alone.bounce.valClustering.count = shared.bounce.valClustering.count = 128;
     alone.interleavedShading.side = 1;
     const ImageDifference d =
         differ(p.render(Layer::kBounce1, alone, 17), q.render(Layer::kBounce1, shared, 17));
