@@ -21,6 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint32_t kWarmFrames = 64;                         // for clusters and histories to settle
+constexpr uint32_t kShadedFrames = 24;                       // of those with clusters, for histories
 constexpr double kSlowestMovingMs = 400;                     // what takes longer is no light to move in
 constexpr uint32_t kBudgetFrames = 120, kBudgetJudged = 30;  // within which a budget is met; the last ones
 constexpr uint32_t kEmitterMap = 32;                         // texels along an RSM's side
@@ -53,10 +54,11 @@ struct Frame {
     bool clustered = false;
 
     void render(const RenderScene& scene, const render::RenderSettings& settings,
-                const FrameGraphOptions& options) {
+                const FrameGraphOptions& options, bool onlyClusters = false) {
         renderer.render(
             scene, size, settings, options,
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
+                if (onlyClusters) return scope.output(frame.bounce.clusters.clusters);
                 shown = render::addLayer(scope, view, frame, layer);
                 if (shown) scope.output(shown);
                 emitters = settings.technique == render::Technique::kAreaLights ? frame.bounce.vals.count : 0;
@@ -64,8 +66,9 @@ struct Frame {
             });
     }
     void settle(const RenderScene& scene, const render::RenderSettings& settings) {
-        for (uint32_t i = 0; i < kWarmFrames; ++i)
-            render(scene, settings, {});
+        render(scene, settings, {});
+        for (uint32_t i = 1; i < kWarmFrames; ++i)
+            render(scene, settings, {}, clustered && i < kWarmFrames - kShadedFrames);
     }
     Image image() const {
         return shown ? render::readImage(renderer, shown) : Image(int(size.x), int(size.y));
