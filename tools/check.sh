@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What a change should pass before it is sent: format, warnings, every test under the address and undefined-behaviour
-# sanitizers; the job system, the game, sound, and the threads of the viewer and the reference under the thread sanitizer.
+# sanitizers; the job system, the game, sound, culling, capture, and the threads of the viewer and the reference under the
+# thread sanitizer.
 # --tidy adds clang-tidy (slow); --all adds that, the whole stress table, 100,000 ticks of the game, ten minutes of fuzzing
 # and the long device suite (hours); --devices is that suite alone (tools/devices.sh).
 set -euo pipefail
@@ -19,7 +20,7 @@ export ASAN_OPTIONS=quarantine_size_mb=16  # what is freed shall not look like g
 ctest --test-dir build-asan --output-on-failure -j "$(nproc)" -LE fuzz
 
 cmake -G Ninja -S . -B build-tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DAFTERGLOW_TSAN=ON
-threaded=(test_ecs test_game test_sound test_viewer test_reference)
+threaded=(test_ecs test_game test_sound test_viewer test_reference test_gi test_capture)
 cmake --build build-tsan --target "${threaded[@]}"
 export TSAN_OPTIONS=ignore_noninstrumented_modules=1  # Embree's own threads are not seen to wait for one another
 for program in "${threaded[@]}"; do
