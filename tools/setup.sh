@@ -51,7 +51,7 @@ show_progress() {
 configure_and_build() {
   if [[ ! -f $build/build.ninja ]]; then
     mkdir -p "$build"
-    # Several files at once: half the time. Who works on the code configures a build without.
+    # A unity build takes half the time. For development, configure a build without it.
     cmake -G Ninja -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON >"$build/configure.log" 2>&1 ||
       { cat "$build/configure.log" >&2; stop "cmake could not configure $build"; }
   fi
