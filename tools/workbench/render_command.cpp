@@ -241,8 +241,10 @@ int runRender(RenderOptions options) {
         !used)
         return refuse(used.error().message);
     RenderSetup settings;
-    if (options.session.empty() && layerOf(options) == "final")
+    if (options.session.empty() && layerOf(options) == "final") {
         settings.gi.antialiasing.mode = render::Antialiasing::kTemporal;
+        settings.gi.exposure.automatic = true;
+    }
     if (const Status set = settings.apply(options.preset, options.assignments); !set)
         return refuse(set.error().message);
     if (options.listSettings) {
@@ -292,8 +294,10 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->add_option("--frames", options->frames, "frames to run first")
         ->check(numberFrom(1, 100000))
         ->capture_default_str();
-    command->add_option("--layer", options->layer,
-                        "which intermediate; radiance (exr, pfm) or final (png) by default");
+    command->add_option(
+        "--layer", options->layer,
+        "which intermediate; radiance (exr, pfm) or final (png) by default; final has automatic "
+        "exposure and anti-aliasing unless set otherwise");
     command->footer(layerTable());
     command
         ->add_option("--preset", options->preset, fmt::format("{}", fmt::join(render::presetNames(), ", ")))
