@@ -134,12 +134,15 @@ AG_FUNCTION float rectangleVectorFactor(vec3 x, vec3 n, vec3 c, vec3 m, vec3 u, 
 // gradient.w), less so where the polygon fills the view. Returns the form factor: E = flux / area x factor.
 // Nearer to the plane than `least` [m] counts as that far before it: the receiver is not a point but has some
 // width, and in a crease rounding would decide on which side of the plane it is. Only where it faces the
-// polygon: not in the plane itself, nor beyond a convex edge.
+// polygon: not in the plane itself, nor beyond a convex edge. Behind the plane it counts so only as near as
+// rounding may put it there: what is farther is behind a thin wall.
 AG_FUNCTION float polygonVectorFactor(vec3 p, vec3 n, vec2 corners[8], vec4 gradient, float least) {
     const float kLeastSine = 1e-3f;
-    least = max(least, kLeastSine * sqrt(dot(p, p)));
+    const float kBehindSine = 4e-3f;
+    float away = sqrt(dot(p, p));
+    least = max(least, kLeastSine * away);
     float toward = -(n.x * p.x + n.y * p.y) * inversesqrt(max(p.x * p.x + p.y * p.y, 1e-20f));
-    float before = p.z > least ? 1.0f : p.z > -least ? clamp(20.0f * toward, 0.0f, 1.0f) : 0.0f;
+    float before = p.z > least ? 1.0f : p.z > -kBehindSine * away ? clamp(20.0f * toward, 0.0f, 1.0f) : 0.0f;
     p.z = max(p.z, least);
     vec3 sum = vec3(0.0f);
     vec3 a = vec3(corners[7].x - p.x, corners[7].y - p.y, -p.z);

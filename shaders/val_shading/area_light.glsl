@@ -107,9 +107,10 @@ float shapeTerm(vec3 x, vec3 n, float width, AreaLight l, LightFrame f) {
     vec3 p = toFrame(f, x - l.place.xyz);
     float below = 1.0;
     float thickness = abs(l.thickness);
+    if (l.thickness < 0.0) below = outsideBulge(p, corners, l.power.w, thickness, l.gradient.w);
     if (thickness > 0.25 * width) {
         vec2 layers = layersBelow(p.z, thickness);
-        below = l.thickness < 0.0 ? layers.x * outsideBulge(p, corners, l.power.w, thickness, l.gradient.w) : layers.x;
+        below *= layers.x;
         p.z = layers.y;
     }
     return below * polygonVectorFactor(p, toFrame(f, n), corners, l.gradient, 0.25 * width);

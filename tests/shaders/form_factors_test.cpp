@@ -209,6 +209,8 @@ TEST(FormFactors, CreasesAreAsLightAsWhatIsAPixelAway) {
     for (const float height : {3e-4f, 1e-6f, 0.0f, -1e-6f, -3e-4f})
         EXPECT_FLOAT_EQ(factor(height, {1, 0, 0}), away) << height;
     EXPECT_EQ(factor(-2 * width, {1, 0, 0}), 0) << "behind the plane";
+    EXPECT_EQ(io::polygonVectorFactor({-edge - 1e-4f, 0, -0.04f}, {1, 0, 0}, corners, {0, 0, 1, 0}, 0.1f), 0)
+        << "behind a thin wall, however wide the pixel";
     EXPECT_EQ(factor(-1e-4f, {-1, 0, 0}), 0) << "beyond a convex edge";
     EXPECT_EQ(factor(0, {0, 0, 1}), 0) << "in the plane";
 }
