@@ -20,11 +20,18 @@ const float kEvenly = 0.1;       // of draws, wherever light was found: pixels m
 const float kCellRadius = 0.15;  // sine of the angle within a cell
 shared vec4 normals[kPlaces];    // w: 0: no surface
 
+// One for each 2 x 4 pixels that has any: a block may see little but sky.
 void findNormals(uvec2 origin) {
+    const uint kMiddle = 5;
     ivec2 size = textureSize(depthMap, 0);
     for (uint i = laneIndex(); i < kPlaces; i += kLanes) {
-        ivec2 pixel = min(ivec2(origin + uvec2(i & 3u, i >> 2) * uvec2(2, 4) + uvec2(1, 2)), size - 1);
-        normals[i] = vec4(texelFetch(normalMap, pixel, 0).xyz, texelFetch(depthMap, pixel, 0).x > 0.0 ? 1.0 : 0.0);
+        uvec2 corner = origin + uvec2(i & 3u, i >> 2) * uvec2(2, 4);
+        normals[i] = vec4(0.0);
+        for (uint k = 0; k < 8 && normals[i].w == 0.0; ++k) {
+            uint at = (kMiddle + k) % 8;
+            ivec2 pixel = min(ivec2(corner + uvec2(at & 1u, at >> 1)), size - 1);
+            if (texelFetch(depthMap, pixel, 0).x > 0.0) normals[i] = vec4(texelFetch(normalMap, pixel, 0).xyz, 1.0);
+        }
     }
     laneBarrier();
 }
