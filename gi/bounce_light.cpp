@@ -6,6 +6,7 @@
 
 #include "gi/bounce_steps.h"
 #include "gi/lights_on_points.h"
+#include "gi/upsampling.h"
 
 namespace ag::gi {
 
@@ -72,6 +73,18 @@ BounceLight addStochasticLight(GraphScope scope, const BounceLightInputs& in, co
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, downsampled, s, h, f);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
+    return f;
+}
+
+BounceLight addBounceLightOn(GraphScope scope, const Surfaces& surfaces, const BounceLight& made,
+                             const BounceLightSettings& s) {
+    const Surfaces downsampled = addDownsampled(scope, surfaces, s.spacing);
+    const ShadowedVals lights{made.vals, made.isms};
+    const Irradiance gathered = addValShading(scope, downsampled, lights, s.valShading);
+    BounceLight f;
+    f.irradiance = addUpsampling(scope, surfaces, downsampled, gathered, kUpsampling,
+                                 LightsOfPixels{lights, s.valShading.taps});
+    f.gloss = addValGloss(scope, surfaces, downsampled, lights, s.valShading);
     return f;
 }
 

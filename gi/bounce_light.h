@@ -57,6 +57,11 @@ struct BounceLight {
 BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,
                            BounceLightHistory& history);
 
+// The same light on other surfaces than it was made for, such as glass before them: irradiance of all bounces
+// and gloss alone.
+BounceLight addBounceLightOn(GraphScope scope, const Surfaces& surfaces, const BounceLight& made,
+                             const BounceLightSettings& settings);
+
 // The first bounce from a few samples of the RSMs a pixel, seen through the same shadow maps, denoised.
 BounceLight addStochasticLight(GraphScope scope, const BounceLightInputs& in,
                                const BounceLightSettings& settings, BounceLightHistory& history);

@@ -65,8 +65,20 @@ GraphScope FrameGraph::makeScope(std::string_view name) {
     return {*this, id};
 }
 
+GraphScope GraphScope::nested(std::string_view name) const {
+    std::vector<Scope>& scopes = graph_->impl_->scopes;
+    GraphScope scope = *this;
+    for (scope.id_ = 1; scope.id_ < scopes.size(); ++scope.id_)
+        if (const Scope& s = scopes[scope.id_]; s.used && s.parent == id_ && s.name == name) return scope;
+    scope.id_ = graph_->makeScope(name).id_;
+    scopes[scope.id_].parent = id_;
+    return scope;
+}
+
 void FrameGraph::removeScope(const GraphScope& scope) {
     AG_CHECK(scope.id_ != 0);
+    for (uint32_t id = 1; id < impl_->scopes.size(); ++id)
+        if (impl_->scopes[id].used && impl_->scopes[id].parent == scope.id_) removeScope({*this, id});
     impl_->scopes[scope.id_].used = false;
     for (Slot& slot : impl_->slots) {
         if (slot.scope != scope.id_) continue;
@@ -76,9 +88,10 @@ void FrameGraph::removeScope(const GraphScope& scope) {
 }
 
 std::string FrameGraph::Impl::fullName(uint32_t scope, std::string_view name) const {
-    std::string full(scopes[scope].name);
-    if (!full.empty()) full += '/';
-    return full += name;
+    std::string full(name);
+    for (; scope != 0 && scope != ~0u; scope = scopes[scope].parent)
+        full = std::string(scopes[scope].name) + '/' + full;
+    return full;
 }
 
 // What a slot holds counts for nothing from now on. Histories begin with zeroes.
@@ -93,8 +106,11 @@ void FrameGraph::Impl::forget(Slot& slot) {
 }
 
 void GraphScope::reset() const {
-    for (Slot& slot : graph_->impl_->slots)
-        if (slot.scope == id_) graph_->impl_->forget(slot);
+    FrameGraph::Impl& g = *graph_->impl_;
+    for (Slot& slot : g.slots)
+        if (slot.scope == id_) g.forget(slot);
+    for (uint32_t id = 1; id < g.scopes.size(); ++id)
+        if (g.scopes[id].used && g.scopes[id].parent == id_) GraphScope(*graph_, id).reset();
 }
 
 void GraphScope::resetHistory(std::string_view name) const {

@@ -128,6 +128,10 @@ struct FrameGraphOptions {
 // Views of one graph have a scope each, so that they never meet. A value: hand it on by copy.
 class GraphScope {
   public:
+    // A scope within this one, the same each time: for passes that are declared once more for something else.
+    // `name` as makeScope's. It is reset and removed with this one.
+    GraphScope nested(std::string_view name) const;
+
     // Forgets all that passes of this scope made, histories too: the next frame starts as the first did.
     void reset() const;
     // Forgets one history, e.g. at a camera cut: `valid` is false in the next frame declared.

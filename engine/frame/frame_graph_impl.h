@@ -185,6 +185,7 @@ struct PassStats {
 struct Scope {
     std::string_view name;  // of the outermost: empty
     bool used = true;
+    uint32_t parent = ~0u;  // of a nested one
 };
 
 // How a frame is being split between queues (frame_graph_queues.cpp).

@@ -6,7 +6,8 @@
 
 namespace ag::render {
 
-ImageHandle addRadiance(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light) {
+ImageHandle addRadiance(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light,
+                        Behind behind) {
     const gi::Surfaces& surfaces = gbuffer.surfaces;
     const ImageHandle radiance =
         scope.image("composite.radiance", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = surfaces.size});
@@ -30,7 +31,7 @@ ImageHandle addRadiance(GraphScope scope, const GBuffer& gbuffer, const Composit
         .constant("kHighlights", bool(light.direct.highlights))
         .constant("kSky", bool(light.sky.image))
         .constant("kSkyGloss", bool(light.sky.gloss))
-        .constant("kSkyPicture", bool(light.scene.skyPicture))
+        .constant("kSkyPicture", light.scene.skyPicture && behind == Behind::kSky)
         .constant("kEmissive", bool(gbuffer.emissive))
         .constant("kSpecular", bool(light.bounce.gloss))
         .push(gi::pixelRays(surfaces.view, surfaces.size))

@@ -41,7 +41,10 @@ struct CompositeLight {
     const SceneView& scene;  // whose sky is seen where no surface is
 };
 
-ImageHandle addRadiance(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light);
+// What is seen where no surface is.
+enum class Behind { kSky, kMore };  // kMore: more of the picture, which this is put over
+ImageHandle addRadiance(GraphScope scope, const GBuffer& gbuffer, const CompositeLight& light,
+                        Behind behind = Behind::kSky);
 // `exposure`: see addExposure; where invalid, the settings'.
 ImageHandle addDisplay(GraphScope scope, const GBuffer& gbuffer, ImageHandle radiance, BufferHandle exposure,
                        const CompositeSettings& settings);

@@ -11,7 +11,6 @@
 namespace ag::render {
 namespace {
 
-constexpr uint32_t kNoBucket = ~0u;
 constexpr uint64_t kWorthJobs = 1u << 13;  // instances over all views
 
 bool isMirrored(const RenderInstance& instance) {
@@ -25,7 +24,8 @@ DrawBucket bucketOf(const Material& material, const RenderInstance& instance) {
             .normalMap = material.normalLayer >= 0,
             .vertexColors = material.vertexColors,
             .deformed = instance.skinnedMesh != kNoSkinnedMesh,
-            .mirrored = isMirrored(instance)};
+            .mirrored = isMirrored(instance),
+            .blended = material.alphaMode == AlphaMode::kBlend};
 }
 
 // Of what an instance draws and where that stands.
@@ -64,12 +64,11 @@ void ViewDraws::add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, 
     rows.push_back(row);
 }
 
-// Blended materials have no bucket.
 void DrawLists::rebuildBuckets(const RenderScene& scene) {
     const GeometryArrays& geometry = *scene.geometry;
     const size_t count = scene.instances.size();
     buckets_.clear();
-    instanceBucket_.assign(count, kNoBucket);
+    instanceBucket_.resize(count);
     instancePrimitive_.resize(count);
     instanceSkinnedMesh_.resize(count);
     instanceMovable_.resize(count);
@@ -79,7 +78,6 @@ void DrawLists::rebuildBuckets(const RenderScene& scene) {
         instanceSkinnedMesh_[i] = instance.skinnedMesh;
         instanceMovable_[i] = instance.movable;
         const Material& material = geometry.materials[geometry.primitives[instance.primitive].material];
-        if (material.alphaMode == AlphaMode::kBlend) continue;
         const DrawBucket bucket = bucketOf(material, instance);
         const auto found = std::find(buckets_.begin(), buckets_.end(), bucket);
         instanceBucket_[i] = uint32_t(found - buckets_.begin());
@@ -99,13 +97,15 @@ void DrawLists::rankInstances(const RenderScene& scene) {
     order_.resize(count);
     std::iota(order_.begin(), order_.end(), 0u);
     const auto key = [&](uint32_t i) {
-        return std::tuple(instanceBucket_[i], instanceMovable_[i], instancePrimitive_[i], i);
+        const uint32_t bucket = instanceBucket_[i];
+        return std::tuple(buckets_[bucket].blended, bucket, instanceMovable_[i], instancePrimitive_[i], i);
     };
     std::ranges::sort(order_, {}, key);
     rankOf_.resize(count);
     for (uint32_t rank = 0; rank < count; ++rank)
         rankOf_[order_[rank]] = rank;
-    drawnRanks_ = uint32_t(std::ranges::count_if(instanceBucket_, [](uint32_t b) { return b != kNoBucket; }));
+    const auto blended = [&](uint32_t bucket) { return buckets_[bucket].blended; };
+    firstBlended_ = count - uint32_t(std::ranges::count_if(instanceBucket_, blended));
 }
 
 // False if an instance was turned over or changed its layer: its rank is another one now.
@@ -119,9 +119,8 @@ bool DrawLists::refreshBounds(const RenderScene& scene, bool all) {
             bounds_.set(rank, instance, boundsLocal(scene, instance));
             transformHash_[rank] = shapeHash(scene, instance);
             changed_[rank / 64] |= uint64_t(1) << (rank % 64);
-            const uint32_t bucket = instanceBucket_[i];
             inPlace &= bool(instanceMovable_[i]) == instance.movable;
-            inPlace &= bucket == kNoBucket || buckets_[bucket].mirrored == isMirrored(instance);
+            inPlace &= buckets_[instanceBucket_[i]].mirrored == isMirrored(instance);
         }
     };
     if (all || scene.allInstancesChanged)
@@ -166,21 +165,25 @@ void DrawLists::cullAll(const RenderScene& scene, std::span<const ViewRequest> v
     });
 }
 
-const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld) {
+const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld,
+                                 DrawnSurfaces surfaces) {
     ensureView(slot);
-    cullView(scene, {slot, clipFromWorld});
+    cullView(scene, {slot, clipFromWorld, surfaces});
     place(views_[slot]);
     return views_[slot].draws;
 }
 
-void DrawLists::addInSight(const RenderScene& scene, const glm::mat4& clipFromWorld, View& view) const {
+void DrawLists::addInSight(const RenderScene& scene, const ViewRequest& request, View& view) const {
+    const bool blended = request.surfaces == DrawnSurfaces::kBlended;
+    const uint32_t first = blended ? firstBlended_ : 0,
+                   end = blended ? uint32_t(order_.size()) : firstBlended_;
     ViewDraws& draws = view.draws;
     draws.staticVersion = draws.movableVersion = combineHash(geometryVersion_, generation_);
-    for (uint32_t word = 0; word < view.inSight.size(); ++word)
+    for (uint32_t word = first / 64; word < view.inSight.size(); ++word)
         for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
             const uint32_t rank = word * 64 + uint32_t(std::countr_zero(bits));
-            if (rank >= drawnRanks_) return;
-            if (beyondFar(bounds_.of(rank), clipFromWorld)) continue;
+            if (rank >= end) return;
+            if (rank < first || beyondFar(bounds_.of(rank), request.clipFromWorld)) continue;
             const uint32_t i = order_[rank];
             const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
             const int32_t firstVertex = firstVertexOf(scene, scene.instances[i]);
@@ -195,18 +198,19 @@ void DrawLists::addInSight(const RenderScene& scene, const glm::mat4& clipFromWo
 void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
     View& view = views_[request.slot];
     if (view.generation == generation_ && view.instancesVersion == instancesVersion_ &&
-        view.clipFromWorld == request.clipFromWorld)
+        view.clipFromWorld == request.clipFromWorld && view.surfaces == request.surfaces)
         return;
     ViewDraws& draws = view.draws;
     draws.commands.clear();
     draws.rows.clear();
     std::ranges::fill(draws.buckets, BucketRange{});
     bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
-    addInSight(scene, request.clipFromWorld, view);
+    addInSight(scene, request, view);
     const uint64_t version = combineHash(draws.staticVersion, draws.movableVersion);
     view.dirty = view.dirty || version != draws.version;
     draws.version = version;
     view.clipFromWorld = request.clipFromWorld;
+    view.surfaces = request.surfaces;
     view.instancesVersion = instancesVersion_;
     view.generation = generation_;
 }

@@ -26,6 +26,7 @@ struct DrawBucket {
     bool vertexColors = false;
     bool deformed = false;  // of skinned meshes: their own vertices
     bool mirrored = false;  // of instances whose transform turns triangles over
+    bool blended = false;
 
     bool operator==(const DrawBucket&) const = default;
 };
@@ -58,10 +59,14 @@ struct ViewDraws {
     void add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t row, bool movable);
 };
 
+// Which surfaces: what blends with what is behind it is seen by the camera alone.
+enum class DrawnSurfaces : uint8_t { kOpaque, kBlended };
+
 // Slots keep their lists from frame to frame; ViewSlots says whose they are.
 struct ViewRequest {
     uint32_t slot = 0;
     glm::mat4 clipFromWorld{1};
+    DrawnSurfaces surfaces = DrawnSurfaces::kOpaque;
 };
 
 class DrawLists {
@@ -76,12 +81,14 @@ class DrawLists {
     Bounds boundsOf(uint32_t instance) const { return bounds_.of(rankOf_[instance]); }  // world
 
     // The result stays in place and is valid until the next cull of that slot.
-    const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
+    const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld,
+                          DrawnSurfaces surfaces = DrawnSurfaces::kOpaque);
 
     // Into slot `slot` of what `from` draws the instances in `rows` (ascending) alone.
     const ViewDraws& pick(uint32_t slot, const ViewDraws& from, std::span<const RenderScene::Range> rows);
 
     std::span<const DrawBucket> buckets() const { return buckets_; }
+    bool hasBlended() const { return firstBlended_ < order_.size(); }
     const ViewDraws& draws(uint32_t slot) const { return views_[slot].draws; }
     uint32_t viewCount() const { return uint32_t(views_.size()); }
     // Elements of all views' ranges.
@@ -94,6 +101,7 @@ class DrawLists {
     struct View {
         ViewDraws draws;
         glm::mat4 clipFromWorld{0};
+        DrawnSurfaces surfaces = DrawnSurfaces::kOpaque;
         uint64_t instancesVersion = 0;
         uint64_t generation = 0;
         bool dirty = true;
@@ -104,18 +112,18 @@ class DrawLists {
     bool refreshBounds(const RenderScene& scene, bool all);
     void ensureView(uint32_t slot);
     void cullView(const RenderScene& scene, const ViewRequest& request);
-    void addInSight(const RenderScene& scene, const glm::mat4& clipFromWorld, View& view) const;
+    void addInSight(const RenderScene& scene, const ViewRequest& request, View& view) const;
     void place(View& view);
 
     std::vector<DrawBucket> buckets_;
     // By instance.
-    std::vector<uint32_t> instanceBucket_;  // kNoBucket: drawn by no opaque bucket (blended)
+    std::vector<uint32_t> instanceBucket_;
     std::vector<uint32_t> instancePrimitive_, instanceSkinnedMesh_;
     std::vector<uint8_t> instanceMovable_;
     std::vector<uint32_t> rankOf_;
     // By rank: instances in the order of buckets, layers and primitives. Blended ones come last.
     std::vector<uint32_t> order_;
-    uint32_t drawnRanks_ = 0;
+    uint32_t firstBlended_ = 0;  // rank
     InstanceBounds bounds_;
     std::vector<uint64_t> changed_;  // a bit a rank whose bounds were set anew
     std::vector<uint64_t> transformHash_;

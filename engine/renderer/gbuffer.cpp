@@ -12,37 +12,70 @@ std::string_view fillShader(const SceneView& scene) {
     return scene.hasEmissive ? "gbuffer/fill_emissive.frag" : "gbuffer/fill.frag";
 }
 
+ImageHandle target(GraphScope scope, const SceneView& scene, std::string_view name) {
+    return scope.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = scene.grid.size});
+}
+
+GBuffer targets(GraphScope scope, const SceneView& scene, bool emissive, bool glossy) {
+    GBuffer g{.surfaces = {.depth = scope.image("gbuffer.depth",
+                                                {.format = VK_FORMAT_D32_SFLOAT, .size = scene.grid.size}),
+                           .normal = target(scope, scene, "gbuffer.normal"),
+                           .albedo = target(scope, scene, "gbuffer.albedo"),
+                           .size = scene.grid.size,
+                           .normalMapped = scene.hasNormalMaps,
+                           .view = scene.eye,
+                           .camera = scene.camera}};
+    if (emissive) g.emissive = target(scope, scene, "gbuffer.emissive");
+    if (glossy) g.surfaces.reflectance = target(scope, scene, "gbuffer.reflectance");
+    return g;
+}
+
+void drawCameras(PassBuilder& pass, const SceneView& scene, const ViewDraws& draws,
+                 std::span<const std::byte> push) {
+    pass.geometry(scene.geometry).read("instances", scene.instances).read("drawnRows", scene.drawnRows);
+    bindMaterials(pass, scene);
+    drawView(pass, scene, draws, push, {.viewer = Viewer::kCamera});
+}
+
+PassBuilder fillPass(GraphScope scope, const GBuffer& g, std::string_view shader) {
+    PassBuilder pass =
+        scope.raster("gbuffer.fill", "gbuffer/fill.vert", shader, gpu::VertexLayout::kPositionsAndAttributes);
+    pass.colorClear(g.surfaces.normal, glm::vec4(0)).colorClear(g.surfaces.albedo, glm::vec4(0));
+    if (g.emissive) pass.colorClear(g.emissive, glm::vec4(0));
+    if (g.surfaces.reflectance) pass.colorClear(g.surfaces.reflectance, glm::vec4(0));
+    pass.depthClear(g.surfaces.depth);
+    return pass;
+}
+
 }  // namespace
 
 GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
-    const auto target = [&](const char* name, VkFormat format) {
-        return scope.image(name, {.format = format, .size = scene.grid.size});
-    };
-    gi::Surfaces g{.depth = target("gbuffer.depth", VK_FORMAT_D32_SFLOAT),
-                   .normal = target("gbuffer.normal", VK_FORMAT_R16G16B16A16_SFLOAT),
-                   .albedo = target("gbuffer.albedo", VK_FORMAT_R16G16B16A16_SFLOAT),
-                   .size = scene.grid.size,
-                   .normalMapped = scene.hasNormalMaps,
-                   .view = scene.eye,
-                   .camera = scene.camera};
-    ImageHandle emissive;
-    if (scene.hasEmissive) emissive = target("gbuffer.emissive", VK_FORMAT_R16G16B16A16_SFLOAT);
-    if (scene.hasGlossy) g.reflectance = target("gbuffer.reflectance", VK_FORMAT_R16G16B16A16_SFLOAT);
+    const GBuffer g = targets(scope, scene, scene.hasEmissive, scene.hasGlossy);
+    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.slots.camera, scene.eye.clipFromWorld);
+    PassBuilder pass = fillPass(scope, g, fillShader(scene));
+    drawCameras(pass, scene, draws, std::as_bytes(std::span(&scene.eye.clipFromWorld, 1)));
+    return g;
+}
 
-    const glm::mat4& clipFromWorld = scene.eye.clipFromWorld;
-    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.slots.camera, clipFromWorld);
-    PassBuilder pass = scope.raster("gbuffer.fill", "gbuffer/fill.vert", fillShader(scene),
+BlendedSurfaces addBlendedSurfaces(GraphScope scope, const SceneView& scene, const ViewDraws& draws,
+                                   const PeeledBetween& between) {
+    const struct Push {
+        glm::mat4 clipFromWorld;
+        glm::ivec2 origin;
+    } push{scene.eye.clipFromWorld, glm::ivec2(between.origin)};
+    const BlendedSurfaces b{targets(scope, scene, true, true), target(scope, scene, "gbuffer.veil")};
+    PassBuilder fill = fillPass(scope, b.gbuffer, "gbuffer/fill_blended.frag");
+    fill.sample("opaqueDepth", between.opaque)
+        .sample("nearerDepth", between.nearer ? between.nearer : between.opaque)
+        .constant("kFollows", bool(between.nearer));
+    drawCameras(fill, scene, draws, std::as_bytes(std::span(&push, 1)));
+    PassBuilder veil = scope.raster("gbuffer.veil", "gbuffer/fill.vert", "gbuffer/veil.frag",
                                     gpu::VertexLayout::kPositionsAndAttributes);
-    pass.colorClear(g.normal, glm::vec4(0)).colorClear(g.albedo, glm::vec4(0));
-    if (scene.hasEmissive) pass.colorClear(emissive, glm::vec4(0));
-    if (scene.hasGlossy) pass.colorClear(g.reflectance, glm::vec4(0));
-    pass.depthClear(g.depth)
-        .geometry(scene.geometry)
-        .read("instances", scene.instances)
-        .read("drawnRows", scene.drawnRows);
-    bindMaterials(pass, scene);
-    drawView(pass, scene, draws, clipFromWorld, {.viewer = Viewer::kCamera});
-    return {g, emissive};
+    veil.colorClear(b.veil, glm::vec4(1, 1, 1, 0))
+        .depthEqual(b.gbuffer.surfaces.depth)
+        .read("camera", scene.camera);
+    drawCameras(veil, scene, draws, std::as_bytes(std::span(&push.clipFromWorld, 1)));
+    return b;
 }
 
 ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces) {

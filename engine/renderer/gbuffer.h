@@ -1,5 +1,5 @@
-// What the camera sees, rasterised once: depth, shading normal, diffuse albedo, emission. Alpha-blended
-// surfaces are not in it.
+// What the camera sees, rasterised once: depth, shading normal, diffuse albedo, emission. What blends with
+// what is behind it is apart, a layer after another.
 #pragma once
 
 #include "engine/renderer/scene_gpu.h"
@@ -13,6 +13,20 @@ struct GBuffer {
 };
 
 GBuffer addGBuffer(GraphScope scope, const SceneView& scene);
+
+struct BlendedSurfaces {
+    GBuffer gbuffer;   // as if they were opaque, but that what passes through glass is not reflected
+    ImageHandle veil;  // rgba16f: what they let through of the light behind them; how much they cover
+};
+
+struct PeeledBetween {
+    ImageHandle opaque;    // depth of what is opaque, of the whole picture
+    ImageHandle nearer;    // depth of the layer before; none: this one is the nearest
+    glm::uvec2 origin{0};  // of scene.grid in the whole picture
+};
+// Of what `draws` has the nearest surface at each pixel that lies between.
+BlendedSurfaces addBlendedSurfaces(GraphScope scope, const SceneView& scene, const ViewDraws& draws,
+                                   const PeeledBetween& between);
 
 // Where the surfaces that moved since the frame before were then; only what moved is drawn. None: invalid.
 ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces);

@@ -2,6 +2,7 @@
 // picture.
 #pragma once
 
+#include "engine/renderer/blended_layers.h"
 #include "engine/renderer/composite.h"
 #include "engine/renderer/direct_lighting.h"
 #include "engine/renderer/exposure.h"
@@ -32,6 +33,7 @@ struct RenderHistory {
     PunctualShadowHistory punctualShadows;
     PunctualListsHistory punctualLists;
     PunctualRelevance punctualRelevance;
+    BlendedHistory blended;
     WorldLists world;
 };
 

@@ -249,6 +249,7 @@ void registerSettings(Settings& settings, RenderSettings& s) {
     registerFields(settings, "light_clusters", s.lightClusters);
     registerFields(settings, "punctual_shadows", s.punctualShadows);
     registerFields(settings, "punctual_lighting", s.punctualLighting);
+    registerFields(settings, "blending", s.blending);
     registerFields(settings, "antialiasing", s.antialiasing);
     registerFields(settings, "bloom", s.bloom);
     registerFields(settings, "composite", s.composite);

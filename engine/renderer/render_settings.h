@@ -8,6 +8,7 @@
 
 #include "engine/gpu/functions.h"
 #include "engine/renderer/antialiasing.h"
+#include "engine/renderer/blended_layers.h"
 #include "engine/renderer/bloom.h"
 #include "engine/renderer/composite.h"
 #include "engine/renderer/punctual_lighting.h"
@@ -46,6 +47,7 @@ struct RenderSettings {
     LightClusterSettings lightClusters;
     PunctualShadowSettings punctualShadows;
     PunctualLightingSettings punctualLighting;
+    BlendingSettings blending;
     AntialiasingSettings antialiasing;
     BloomSettings bloom;
     CompositeSettings composite;

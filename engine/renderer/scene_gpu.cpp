@@ -37,7 +37,7 @@ io::Material materialRow(const Material& m, RenderUnits units) {
             .layers = {m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer},
             .uvRow0 = {m.uvTransform[0][0], m.uvTransform[1][0], m.uvTransform[2][0],
                        m.doubleSided ? 1.0f : 0.0f},
-            .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], 0.0f}};
+            .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], m.transmission}};
 }
 
 // A class without textures still needs something bound: one black texel.
@@ -218,7 +218,7 @@ ViewSlots viewSlots(const RenderScene& scene) {
         if (light.bounces) rsms += light.kind == LightKind::kPoint ? 6 : 1;
         if (light.kind == LightKind::kDirectional) cascades += io::kMaxCascades;
     }
-    ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .firstRsm = 3};
+    ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .blended = 3, .firstRsm = 4};
     s.firstCascade = s.firstRsm + rsms;
     s.firstLight = s.firstCascade + cascades;
     s.count = s.firstLight + 6 * mostClustersNeeded(scene, kMostLightClusters);

@@ -26,7 +26,7 @@ namespace ag::render {
 // Of DrawLists, by what is drawn into them: the same from frame to frame as long as lights are, so that what
 // is culled for them lasts.
 struct ViewSlots {
-    uint32_t camera = 0, moved = 0, everything = 0;
+    uint32_t camera = 0, moved = 0, everything = 0, blended = 0;
     uint32_t firstRsm = 0, firstCascade = 0, firstLight = 0;  // a row each
     uint32_t count = 0;
 };

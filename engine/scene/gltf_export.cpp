@@ -164,6 +164,10 @@ tinygltf::Material materialOf(const Material& m) {
     if (m.specular != 1)
         out.extensions["KHR_materials_specular"] =
             tinygltf::Value(tinygltf::Value::Object{{"specularFactor", number(double(m.specular))}});
+    if (m.alphaMode == AlphaMode::kBlend && m.baseColor.w < 1) out.alphaMode = "BLEND";
+    if (m.transmission > 0)
+        out.extensions["KHR_materials_transmission"] =
+            tinygltf::Value(tinygltf::Value::Object{{"transmissionFactor", number(double(m.transmission))}});
     out.doubleSided = m.doubleSided;
     return out;
 }
@@ -283,8 +287,8 @@ Status exportGlb(const SceneAsset& asset, const std::string& path) {
         model.lights.push_back(lightOf(l));
     for (const SceneCamera& c : asset.cameras)
         model.cameras.push_back(cameraOf(c));
-    for (const char* name :
-         {"KHR_lights_punctual", "KHR_materials_specular", "KHR_materials_emissive_strength"})
+    for (const char* name : {"KHR_lights_punctual", "KHR_materials_specular",
+                             "KHR_materials_emissive_strength", "KHR_materials_transmission"})
         model.extensionsUsed.push_back(name);
     model.scenes.push_back(scene);
     model.defaultScene = 0;

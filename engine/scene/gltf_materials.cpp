@@ -43,13 +43,17 @@ float specularOf(const tinygltf::ExtensionMap& extensions) {
     return std::clamp(floatOf(specular), 0.0f, kMost);
 }
 
-bool isGlass(const tinygltf::Material& m) {
+float transmissionOf(const tinygltf::Material& m) {
     const tinygltf::Value* e = extensionOf(m.extensions, "KHR_materials_transmission");
-    return e && numberOf(*e, "transmissionFactor", 0) > 0.5;
+    return e ? std::clamp(floatOf(*e, "transmissionFactor", 0), 0.0f, 1.0f) : 0.0f;
 }
 
-// Nothing is drawn half. What blends is drawn where its texture covers more than half of it; without a
-// texture it is glass: not drawn, and light passes.
+bool isGlass(const tinygltf::Material& m) {
+    return transmissionOf(m) > 0.5f;
+}
+
+// What blends by a texture is mostly leaves and decals, and is drawn where that covers more than half of it:
+// so it blocks light and reflects it on. Otherwise it is drawn over what is behind it, and light passes.
 AlphaMode alphaModeOf(const tinygltf::Model& model, const tinygltf::Material& m, float alpha) {
     if (isGlass(m)) return AlphaMode::kBlend;
     if (m.alphaMode == "MASK") return AlphaMode::kMask;
@@ -101,6 +105,8 @@ Material materialOf(const tinygltf::Model& model, const tinygltf::Material& m) {
     out.specular = specularOf(m.extensions);
     out.normalScale = floatOf(m.normalTexture.scale);
     out.alphaMode = alphaModeOf(model, m, out.baseColor.w);
+    if (out.alphaMode == AlphaMode::kBlend) out.transmission = transmissionOf(m);
+    if (isGlass(m) && m.alphaMode != "BLEND") out.baseColor.w = 1;
     out.alphaCutoff = m.alphaMode == "BLEND" ? 0.5f : floatOf(m.alphaCutoff);
     out.doubleSided = m.doubleSided;
     out.uvTransform = uvTransformOf(pbr.baseColorTexture.extensions);

@@ -24,6 +24,21 @@ layout(location = 2) out vec4 outReflectance;  // rgb: head on; w: at grazing an
 #endif
 #endif
 
+#ifdef AG_BLENDED
+#include "gbuffer/blended.glsl"
+layout(constant_id = 4) const bool kFollows = false;  // a layer that is nearer
+layout(set = 0, binding = 12) uniform sampler2D opaqueDepth;
+layout(set = 0, binding = 13) uniform sampler2D nearerDepth;
+layout(push_constant, scalar) uniform Push { layout(offset = 64) ivec2 origin; } push;  // after clipFromWorld
+
+bool isPeeled(Blend b) {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool behind = gl_FragCoord.z <= texelFetch(opaqueDepth, push.origin + pixel, 0).x;
+    bool before = kFollows && gl_FragCoord.z >= texelFetch(nearerDepth, pixel, 0).x;
+    return behind || before || b.coverage < kLeastCoverage;
+}
+#endif
+
 void main() {
     SurfaceMaterial m = tintedMaterial(material, uv, color);
     vec3 n = unitNormal(normal);
@@ -38,5 +53,10 @@ void main() {
 #endif
 #ifdef AG_GLOSSY
     outReflectance = vec4(specularF0(m.baseColor.rgb, m.metallic, m.specular), specularF90(m.metallic, m.specular));
+#endif
+#ifdef AG_BLENDED
+    Blend b = blendOf(material, m);
+    if (isPeeled(b)) discard;
+    outAlbedo.rgb *= 1.0 - b.transmission;
 #endif
 }

@@ -36,7 +36,7 @@ struct Material {       // 6 vec4
     float normalScale;
     ivec4 layers;  // base colour, emissive, normal, metallic-roughness; -1: none
     vec4 uvRow0;   // u' = dot(row.xy, uv) + row.z; row0.w: 1 if double sided
-    vec4 uvRow1;
+    vec4 uvRow1;   // w: transmission
 };
 
 const uint kLightDirectional = 0;

@@ -299,6 +299,29 @@ TEST_F(NullGraph, ScopesShareNothingButTheFrame) {
     EXPECT_EQ(g.report().front().outcome, kRan);
 }
 
+TEST_F(NullGraph, NestedScopesAreResetAndRemovedWithTheirs) {
+    const GraphScope outer = g.makeScope("outer"), other = g.makeScope("other");
+    bool inner = false, same = false;
+    const auto frame = [&] {
+        g.beginFrame(options);
+        inner = declareSum(outer.nested("inner"), 1).valid;
+        same = declareSum(other.nested("inner"), 1).valid;
+        run();
+        return std::pair(inner, same);
+    };
+    EXPECT_EQ(frame(), std::pair(false, false));
+    EXPECT_EQ(g.describe().passes[0].name, "outer/inner/step");
+    EXPECT_EQ(frame(), std::pair(true, true)) << "the same scope by its name";
+    outer.reset();
+    EXPECT_EQ(frame(), std::pair(false, true));
+    g.removeScope(outer);
+    const GraphScope next = g.makeScope("next"), last = g.makeScope("last");
+    g.beginFrame(options);
+    EXPECT_FALSE(declareSum(next, 1).valid);
+    EXPECT_FALSE(declareSum(last, 1).valid) << "in the places of both that were removed";
+    run();
+}
+
 TEST_F(NullGraph, ResetForgetsAllThatAScopeMade) {
     const auto frame = [&] {
         g.beginFrame(options);

@@ -61,6 +61,34 @@ struct Lists {
     }
 };
 
+// What blends is the camera's alone: no list of what is opaque has it, and the other has nothing else.
+TEST(DrawLists, BlendedSurfacesHaveAListOfTheirOwn) {
+    Lists l("panes", 0);
+    const GeometryArrays& g = l.asset.geometry;
+    const auto blends = [&](uint32_t row) {
+        return g.materials[g.primitives[l.scene.instances[row].primitive].material].alphaMode ==
+               AlphaMode::kBlend;
+    };
+    const ViewDraws& opaque = l.seenByCamera();
+    const ViewDraws& blended =
+        l.lists.cull(l.scene, 1, l.scene.camera.clipFromWorld, DrawnSurfaces::kBlended);
+    EXPECT_TRUE(l.lists.hasBlended());
+    EXPECT_TRUE(std::ranges::none_of(opaque.rows, blends));
+    EXPECT_TRUE(std::ranges::all_of(blended.rows, blends));
+    EXPECT_EQ(blended.rows.size(), 4u);
+    EXPECT_FALSE(opaque.rows.empty());
+    const uint64_t before = opaque.version;
+    const uint32_t moved = blended.rows.front();
+    l.scene.instances[moved].worldFromLocal[3].x += 0.1f;
+    l.scene.changedInstances = {{moved, moved + 1}};
+    l.scene.allInstancesChanged = false;
+    ++l.scene.instancesVersion;
+    EXPECT_EQ(l.seenByCamera().version, before) << "nothing that others draw has changed";
+    Lists plain("cornell", 0);
+    plain.seenByCamera();
+    EXPECT_FALSE(plain.lists.hasBlended());
+}
+
 TEST(DrawLists, JobsCullWhatTheCallerCulls) {
     const SceneAsset asset = *scenegen::buildScene("crowd", 6000);
     RenderScene scene = staticScene(asset);

@@ -68,13 +68,48 @@ TEST(Parity, EmissiveSurfacesAndSky) {
             RenderSettings settings;
             settings.bounce.laterBounces.enabled = bounces;
             settings.bounce.valClustering.seed = seed;
-            ratio +=
-                differ(truth.*term.truth, p.render(term.layer, settings, bounces ? 56 : 40)).meanRatio / seeds;
+            ratio += differ(truth.*term.truth, p.render(term.layer, settings, bounces ? 56 : 40)).meanRatio /
+                     seeds;
         }
         const std::string name(layerInfo(term.layer).name);
         std::printf("%s, %s: %.4f of the truth\n", term.scene, name.c_str(), ratio);
         EXPECT_NEAR(ratio, 1, term.tolerance) << term.scene << ' ' << name;
     }
+}
+
+// A block of pixels that sees little but sky chooses directions for the few surfaces in it, too.
+TEST(Parity, NoSurfaceBesideTheSkyIsDark) {
+    Parity p("panes");
+    p.size = {320, 180};
+    setCamera(p.scene, cameraOf(p.asset, 0), p.size);
+    const Image truth = p.trace({.paths = {.bounces = 0}, .samplesPerPixel = 64, .layer = "sky"}).sky;
+    const Image sky = p.render(Layer::kSky, {}, 40);
+    const float usual = 5;  // W/m², a fifth of what open ground has
+    int dark = 0;
+    for (size_t i = 0; i < truth.pixels.size(); ++i)
+        dark += truth.pixels[i].x > usual && sky.pixels[i].x < 0.5f * truth.pixels[i].x;
+    EXPECT_LE(dark, 1);
+}
+
+// One behind another, in order, with light of their own: what is seen is what paths find. With one layer what
+// is behind the nearest is missing.
+TEST(Parity, SurfacesThatBlend) {
+    Parity p("panes");
+    const reference::Reference truth =
+        p.trace({.paths = {.bounces = 8, .glossy = true}, .samplesPerPixel = 256});
+    RenderSettings settings;
+    ASSERT_TRUE(applyPreset("afterglow-bounces", settings));
+    const auto off = [&](uint32_t layers) {
+        settings.blending.layers = layers;
+        return differ(truth.radiance, p.render(Layer::kRadiance, settings, 60));
+    };
+    const ImageDifference all = off(4), one = off(1), none = off(0);
+    std::printf("panes: %.4f of the truth, relative RMSE %.3f; one layer %.3f, none %.3f\n", all.meanRatio,
+                all.relativeRmse, one.relativeRmse, none.relativeRmse);
+    EXPECT_NEAR(all.meanRatio, 1, 0.02);
+    EXPECT_LT(all.relativeRmse, 0.06);
+    EXPECT_GT(one.relativeRmse, all.relativeRmse + 0.01);
+    EXPECT_GT(none.relativeRmse, one.relativeRmse + 0.02);
 }
 
 TEST(Parity, GBuffer) {

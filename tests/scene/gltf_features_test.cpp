@@ -134,6 +134,13 @@ TEST(GltfFeatures, GlassAndBlendedSurfaces) {
     };
     EXPECT_EQ(modeOf(glass(0.9)), AlphaMode::kBlend);
     EXPECT_EQ(modeOf(glass(0.2)), AlphaMode::kOpaque);
+    const Material pane = import(withMaterial(glass(0.9))).geometry.materials[0];
+    EXPECT_FLOAT_EQ(pane.transmission, 0.9f);
+    EXPECT_FLOAT_EQ(import(withMaterial(blended(0.3))).geometry.materials[0].baseColor.w, 0.3f);
+    json opaqueGlass = glass(0.9);
+    opaqueGlass["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 1, 1, 0.2}}};
+    EXPECT_FLOAT_EQ(import(withMaterial(opaqueGlass)).geometry.materials[0].baseColor.w, 1)
+        << "alpha counts where the mode says so";
 
     json leaf = withMaterial({{"alphaMode", "BLEND"},
                               {"alphaCutoff", 0.9},

@@ -33,7 +33,8 @@ uint64_t hashMaterial(const Material& m, uint64_t h) {
     for (const int32_t v : {int32_t(m.alphaMode), int32_t(m.doubleSided), int32_t(m.textureClass),
                             m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer})
         h = hashValue(v, h);
-    return hashValue(m.uvTransform, h);
+    h = hashValue(m.uvTransform, h);
+    return m.alphaMode == AlphaMode::kBlend ? hashValue(m.transmission, h) : h;
 }
 
 uint64_t hashLight(const RenderLight& l, uint64_t h) {

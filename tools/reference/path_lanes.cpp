@@ -51,7 +51,8 @@ void PathLanes::begin(uint32_t lane, const PathStart& start) {
     Lane& l = lanes_[lane];
     l.at = start.surface, l.toViewer = start.toViewer, l.uv = start.uv, l.source = start.source;
     l.random = start.random;
-    l.irradianceWeight = l.radianceWeight = glm::vec3(1);
+    l.irradianceWeight = glm::vec3(1);
+    l.radianceWeight = start.seenAs;
     alive_ |= 1u << lane;
 }
 

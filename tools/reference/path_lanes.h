@@ -13,6 +13,7 @@ namespace ag::reference {
 struct PathStart {
     const Surface* surface = nullptr;
     glm::vec3 toViewer{0};
+    glm::vec3 seenAs{1};  // by how much its radiance counts
     glm::vec2 uv{0};      // in [0, 1)², chooses the first direction
     glm::vec3 source{0};  // in [0, 1)³, chooses what shines on the first surface
     Random random;        // for all other choices

@@ -15,6 +15,12 @@ struct PathSettings {
     bool emission = true;     // emissive surfaces light others, too
     PixelFilter filter = PixelFilter::kCenter;
     bool litPoints = true;  // bounced light is looked for from the lights, too
+    // Camera rays meet surfaces that blend with what is behind them, each by chance; no others do. For
+    // radiance: irradiance is that of what is opaque.
+    bool blended = false;
+
+    // Places of a pixel are drawn, each with direct light of its own.
+    bool drawsPlaces() const { return blended || filter != PixelFilter::kCenter; }
 };
 
 // Bounces that are kept apart; further ones only count in `indirect`.

@@ -118,7 +118,7 @@ class PixelTracer {
 
     void add(uint32_t x, uint32_t y, LightSums& sums) {
         const size_t i = size_t(y) * hits_.size.x + x;
-        const bool centers = settings_.filter == PixelFilter::kCenter;
+        const bool centers = !settings_.drawsPlaces();
         if (centers && hits_.surfaces[i].distance <= 0) return;
         key_ = io::hashUint(uint32_t(i) ^ io::hashUint(round_.seed));
         for (uint32_t left = round_.count; left > 0;) {
@@ -162,6 +162,30 @@ class PixelTracer {
         sums.counts[i].paths.add(paths, sums.measured.ofPaths(packet) / float(paths));
     }
 
+    // The camera's ray goes on through surfaces that blend with what is behind them, or ends at one, by
+    // chance. What it sees then, and by how much that counts. False: the sky, or nothing.
+    bool passBlended(const RayLanes& rays, uint32_t lane, bool opaque, Random random, glm::vec3& counts) {
+        glm::vec3 from = rays.origin[lane];
+        const glm::vec3 along = rays.direction[lane];
+        const float end = opaque ? glm::distance(from, seen_[lane].position) : INFINITY;
+        for (Surface s; ++rays_, scene_.intersectBlended(from, along, s);) {
+            from = s.position + along * scene_.offset();
+            if (glm::distance(rays.origin[lane], s.position) >= end) break;
+            if (s.hidden) continue;
+            const Veil veil = scene_.veilOf(s, along, settings_.glossy);
+            const float passing = mean(veil.transmitted), passes = passing / (passing + veil.coverage);
+            if (random.next() < passes) {
+                counts *= veil.transmitted / passes;
+                continue;
+            }
+            counts *= veil.coverage / (1 - passes);
+            seen_[lane] = s;
+            seen_[lane].distance = glm::distance(scene_.scene().camera.position, s.position);
+            return true;
+        }
+        return opaque;
+    }
+
     void throughSurfaces(size_t i, uint32_t first, uint32_t count, PixelSums& packet) {
         for (uint32_t s = first; s < first + count; ++s)
             traceThrough(scene_, startAt(i, s), settings_.glossy, packet, rays_);
@@ -174,9 +198,9 @@ class PixelTracer {
     }
 
     // Direct light at `count` places of a pixel, numbers `first` on of a sequence; bits of those that see a
-    // surface.
+    // surface. `seenAs`: by how much what is seen counts.
     uint32_t addDirect(glm::uvec2 at, uint32_t first, uint32_t count, glm::uvec2 shift, glm::vec3* toViewer,
-                       LightSums& sums) {
+                       glm::vec3* seenAs, LightSums& sums) {
         const RenderCamera& camera = scene_.scene().camera;
         RayLanes rays;
         for (uint32_t s = 0; s < count; ++s) {
@@ -185,7 +209,13 @@ class PixelTracer {
             rays.set(s, nearPoint(camera, direction), direction, INFINITY);
             toViewer[s] = -direction;
         }
-        const uint32_t seen = seeSurfaces(scene_, rays, seen_, rays_);
+        uint32_t seen = seeSurfaces(scene_, rays, seen_, rays_);
+        std::fill_n(seenAs, count, glm::vec3(1));
+        for (uint32_t s = 0; s < count && settings_.blended; ++s) {
+            const Random random{uint64_t(shift.x) << 32 | io::hashUint(shift.y ^ io::hashUint(first + s))};
+            const bool opaque = seen >> s & 1;
+            seen |= uint32_t(passBlended(rays, s, opaque, random, seenAs[s])) << s;
+        }
         Lit lit[RayLanes::kCount];
         directLight(scene_, {.active = seen, .surfaces = seen_, .toViewer = toViewer, .lit = lit},
                     settings_.glossy, rays_, kAllCounts);
@@ -193,6 +223,7 @@ class PixelTracer {
         glm::vec3 measured(0);
         for (uint32_t s = 0; s < count; ++s) {
             lit[s].radiance += seen >> s & 1 ? seen_[s].emissive : scene_.skyAlong(-toViewer[s]);
+            lit[s].radiance *= seenAs[s];
             sums.directIrradiance.pixels[i] += lit[s].irradiance;
             sums.directRadiance.pixels[i] += lit[s].radiance;
             measured += sums.measured.ofDirect(lit[s]);
@@ -208,13 +239,14 @@ class PixelTracer {
         const uint32_t first = sums.counts[i].paths.samples, further = sums.counts[i].places.samples - first;
         const uint32_t places = round_.plan ? round_.plan->of(i).places : 1;
         const glm::uvec2 otherShift = shift() * 5u + 1u;
-        glm::vec3 toViewer[RayLanes::kCount];
+        glm::vec3 toViewer[RayLanes::kCount], seenAs[RayLanes::kCount];
         for (uint32_t p = 0; p + 1 < places; ++p)
-            addDirect(at, further + p * count, count, otherShift, toViewer, sums);
-        const uint32_t seen = addDirect(at, first, count, shift(), toViewer, sums);
+            addDirect(at, further + p * count, count, otherShift, toViewer, seenAs, sums);
+        const uint32_t seen = addDirect(at, first, count, shift(), toViewer, seenAs, sums);
         forEachLane(seen, [&](uint32_t s) {
             paths_.begin(s, {.surface = &seen_[s],
                              .toViewer = toViewer[s],
+                             .seenAs = seenAs[s],
                              .uv = evenPair(first + s, shift()).direction,
                              .source = evenPlace(first + s, shift()),
                              .random = randomOf(first + s)});

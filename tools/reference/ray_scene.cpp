@@ -60,40 +60,24 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformSk
     device_ = rtcNewDevice(nullptr);
     if (!device_) endProgram("Embree cannot begin: out of memory");
     rtcSetDeviceErrorFunction(device_, onEmbreeError, nullptr);
-    rtc_ = rtcNewScene(device_);
-    rtcSetSceneFlags(rtc_, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(rtc_, RTC_BUILD_QUALITY_HIGH);
+    const auto makeScene = [&] {
+        RTCScene scene3d = rtcNewScene(device_);
+        rtcSetSceneFlags(scene3d, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene3d, RTC_BUILD_QUALITY_HIGH);
+        return scene3d;
+    };
+    rtc_ = makeScene();
+    blended_ = makeScene();
     const GeometryArrays& g = *scene.geometry;
-    for (const RenderInstance& instance : scene.instances) {
-        const Primitive& p = g.primitives[instance.primitive];
-        const Material& material = g.materials[p.material];
-        if (material.alphaMode == AlphaMode::kBlend) continue;
-        uint32_t vertices = 0;
-        for (uint32_t i = 0; i < p.indexCount; ++i)
-            vertices = std::max(vertices, g.indices[p.firstIndex + i] + 1);
-        const VertexPointers local = verticesOf(scene, deformed_, instance);
-        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertices));
-        for (uint32_t v = 0; v < vertices; ++v)
-            positions[v] = instance.worldFromLocal * glm::vec4(local.positions[v], 1);
-        auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, p.indexCount / 3));
-        std::copy_n(g.indices.begin() + p.firstIndex, p.indexCount, indices);
-        const glm::mat3 linear(instance.worldFromLocal[0], instance.worldFromLocal[1],
-                               instance.worldFromLocal[2]);
-        parts_.push_back(
-            std::make_unique<Part>(Part{&instance, &p, local, linear, glm::transpose(glm::inverse(linear)),
-                                        glm::determinant(linear) < 0, material.doubleSided}));
-        if (material.alphaMode == AlphaMode::kMask) {
-            rtcSetGeometryUserData(geometry, this);
-            rtcSetGeometryIntersectFilterFunction(geometry, filterMasked);
-            rtcSetGeometryOccludedFilterFunction(geometry, filterMasked);
-        }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(rtc_, geometry, uint32_t(parts_.size() - 1));
-        rtcReleaseGeometry(geometry);
-    }
+    const auto isBlended = [&](const RenderInstance& instance) {
+        return g.materials[g.primitives[instance.primitive].material].alphaMode == AlphaMode::kBlend;
+    };
+    for (const RenderInstance& instance : scene.instances)
+        if (!isBlended(instance)) addPart(rtc_, instance);
+    opaqueParts_ = uint32_t(parts_.size());
+    for (const RenderInstance& instance : scene.instances)
+        if (isBlended(instance)) addPart(blended_, instance);
+    rtcCommitScene(blended_);
     rtcCommitScene(rtc_);
     for (const RenderLight& light : scene.lights)
         lights_.push_back({light, std::cos(light.innerConeAngle), std::cos(light.outerConeAngle)});
@@ -102,7 +86,39 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformSk
     sources_ = std::make_unique<LightSources>(*this);
 }
 
+void RayScene::addPart(RTCScene rtc, const RenderInstance& instance) {
+    const GeometryArrays& g = *scene_.geometry;
+    const Primitive& p = g.primitives[instance.primitive];
+    const Material& material = g.materials[p.material];
+    uint32_t vertices = 0;
+    for (uint32_t i = 0; i < p.indexCount; ++i)
+        vertices = std::max(vertices, g.indices[p.firstIndex + i] + 1);
+    const VertexPointers local = verticesOf(scene_, deformed_, instance);
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertices));
+    for (uint32_t v = 0; v < vertices; ++v)
+        positions[v] = instance.worldFromLocal * glm::vec4(local.positions[v], 1);
+    auto* indices = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, p.indexCount / 3));
+    std::copy_n(g.indices.begin() + p.firstIndex, p.indexCount, indices);
+    const glm::mat3 linear(instance.worldFromLocal[0], instance.worldFromLocal[1],
+                           instance.worldFromLocal[2]);
+    parts_.push_back(
+        std::make_unique<Part>(Part{&instance, &p, local, linear, glm::transpose(glm::inverse(linear)),
+                                    glm::determinant(linear) < 0, material.doubleSided}));
+    if (material.alphaMode == AlphaMode::kMask) {
+        rtcSetGeometryUserData(geometry, this);
+        rtcSetGeometryIntersectFilterFunction(geometry, filterMasked);
+        rtcSetGeometryOccludedFilterFunction(geometry, filterMasked);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(rtc, geometry, uint32_t(parts_.size() - 1));
+    rtcReleaseGeometry(geometry);
+}
+
 RayScene::~RayScene() {
+    rtcReleaseScene(blended_);
     rtcReleaseScene(rtc_);
     rtcReleaseDevice(device_);
 }
@@ -186,6 +202,14 @@ void RayScene::filterMasked(const RTCFilterFunctionNArguments* arguments) {
 }
 
 bool RayScene::intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface) const {
+    return intersectIn(rtc_, origin, direction, surface);
+}
+
+bool RayScene::intersectBlended(glm::vec3 origin, glm::vec3 direction, Surface& surface) const {
+    return intersectIn(blended_, origin, direction, surface);
+}
+
+bool RayScene::intersectIn(RTCScene rtc, glm::vec3 origin, glm::vec3 direction, Surface& surface) const {
     RTCRayHit ray{};
     ray.ray = {origin.x,    origin.y, origin.z, 0,   direction.x, direction.y,
                direction.z, 0,        INFINITY, ~0u, 0,           0};
@@ -193,7 +217,7 @@ bool RayScene::intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(rtc_, &context, &ray);
+    rtcIntersect1(rtc, &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
     takeHit(origin, direction, ray.ray.tfar, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, ray.hit.geomID,
@@ -243,6 +267,26 @@ void RayScene::resolve(Surface& s) const {
     }
     if (m.vertexColors) s.baseColor *= colorAt(part, s.triangle, s.u, s.v);
     s.albedo = io::diffuseAlbedo(s.baseColor, s.metallic);
+}
+
+Veil RayScene::veilOf(Surface& s, glm::vec3 direction, bool glossy) const {
+    resolve(s);
+    const Part& part = *parts_[s.part];
+    const GeometryArrays& g = *scene_.geometry;
+    const Material& m = g.materials[part.primitive->material];
+    const float alpha =
+        m.baseColor.w * sampleTexture(g, m, m.baseColorLayer, uvAt(part, s.triangle, s.u, s.v), true).w;
+    Veil veil{.coverage = std::clamp(alpha, 0.0f, 1.0f)};
+    const glm::vec3 reflected = glossy
+                                    ? io::fresnelSchlick(io::specularF0(s.baseColor, s.metallic, s.specular),
+                                                         glm::vec3(io::specularF90(s.metallic, s.specular)),
+                                                         std::abs(glm::dot(direction, s.geometricNormal)))
+                                    : glm::vec3(0);
+    const glm::vec3 glass = m.transmission * (1 - s.metallic) * s.baseColor * (1.0f - reflected);
+    veil.transmitted = 1.0f - veil.coverage * (1.0f - glass);
+    s.baseColor *= 1 - m.transmission * (1 - s.metallic);
+    s.albedo = io::diffuseAlbedo(s.baseColor, s.metallic);
+    return veil;
 }
 
 // The interpolated normal on the ray's side, bent by the normal map as the G-buffer does it.

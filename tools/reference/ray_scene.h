@@ -33,6 +33,12 @@ struct Surface {                         // what a ray met
     glm::vec3 emissive{0};  // W/(m² sr)
 };
 
+// How a surface blends with what is behind it.
+struct Veil {
+    glm::vec3 transmitted{1};  // of the light from behind
+    float coverage = 0;        // of the surface's own
+};
+
 // A light with what every ray to it would work out again.
 struct PreparedLight {
     RenderLight light;
@@ -58,7 +64,7 @@ class LightSources;
 class RayScene {
   public:
     // The scene and its geometry must outlive this. Alpha-masked holes let rays through; blended surfaces are
-    // not there.
+    // there for intersectBlended() alone.
     explicit RayScene(const RenderScene& scene);
     ~RayScene();
     RayScene(const RayScene&) = delete;
@@ -74,8 +80,13 @@ class RayScene {
     uint32_t intersect(const RayLanes& rays, Surface* surfaces) const;
     uint32_t visible(const RayLanes& rays) const;
 
+    bool hasBlended() const { return parts_.size() > opaqueParts_; }
+    bool intersectBlended(glm::vec3 origin, glm::vec3 direction, Surface& surface) const;
+    // Of a blended surface; resolves it, without what of its albedo is transmitted instead.
+    Veil veilOf(Surface& surface, glm::vec3 direction, bool glossy) const;
+
     // Of the triangles: parts are instances that rays meet. `from`: the side it is seen from.
-    uint32_t partCount() const { return uint32_t(parts_.size()); }
+    uint32_t partCount() const { return opaqueParts_; }
     uint32_t triangleCount(uint32_t part) const { return parts_[part]->primitive->indexCount / 3; }
     const Material& materialOf(uint32_t part) const;
     // Unit; zero where it has two sides or no area.
@@ -102,6 +113,8 @@ class RayScene {
         glm::mat3 worldFromLocal, normalFromLocal;
         bool mirrored, doubleSided;
     };
+    void addPart(RTCScene rtc, const RenderInstance& instance);
+    bool intersectIn(RTCScene rtc, glm::vec3 origin, glm::vec3 direction, Surface& surface) const;
     void takeHit(glm::vec3 origin, glm::vec3 direction, float distance, glm::vec3 normal, uint32_t part,
                  Surface& s) const;
     std::array<glm::vec3, 3> cornersOf(const Part& part, uint32_t triangle) const;
@@ -115,8 +128,9 @@ class RayScene {
     const RenderScene& scene_;
     const DeformedVertices deformed_;
     RTCDevice device_ = nullptr;
-    RTCScene rtc_ = nullptr;
-    std::vector<std::unique_ptr<Part>> parts_;  // by geometry id
+    RTCScene rtc_ = nullptr, blended_ = nullptr;
+    std::vector<std::unique_ptr<Part>> parts_;  // by geometry id; blended ones come last
+    uint32_t opaqueParts_ = 0;
     std::vector<PreparedLight> lights_;
     std::unique_ptr<LightSources> sources_;
     float offset_ = 1e-4f;

@@ -42,7 +42,7 @@ Reference assemble(const RayScene& scene, const FirstHits& hits, const LightSums
                    const PathSettings& settings) {
     Reference r;
     const glm::vec3 forward = scene.scene().camera.forward;
-    const bool centers = settings.filter == PixelFilter::kCenter;
+    const bool centers = !settings.drawsPlaces();
     const auto ofPaths = [&](const Image& image) { return meansOf(image, sums.counts, &PixelCount::paths); };
     const auto ofPlaces = [&](const Image& image) {
         return meansOf(image, sums.counts, &PixelCount::places);
@@ -136,6 +136,12 @@ double noiseOf(const Image& a, const Image& b) {
 
 namespace {
 
+ReferenceSettings withBlended(const RayScene& scene, ReferenceSettings settings) {
+    settings.paths.blended = scene.hasBlended() && settings.layer == "radiance" &&
+                             settings.method == Method::kPaths && !settings.paths.unshadowed;
+    return settings;
+}
+
 constexpr uint32_t kLeastPoints = 2048, kMostPoints = 8192;  // drawn for each round of samples
 constexpr double kSamplesToLearnFrom = 64;                   // a pixel of each half
 constexpr double kSamplesToPlanBy = 32;                      // then whenever there are four times as many
@@ -182,7 +188,7 @@ class Half {
 // Samples a pixel of each half; one is enough where there is nothing to draw.
 uint32_t samplesOfHalf(const RayScene& scene, const ReferenceSettings& s) {
     const PathSettings& p = s.paths;
-    const bool draws = p.bounces > 0 || !scene.sources().empty() || p.filter != PixelFilter::kCenter;
+    const bool draws = p.bounces > 0 || !scene.sources().empty() || p.drawsPlaces();
     return draws ? std::max(s.samplesPerPixel / 2, 1u) : 0;
 }
 
@@ -239,7 +245,7 @@ struct Refinement::Impl {
 
 Refinement::Refinement(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
                        JobRunner& runner)
-    : impl_(new Impl{scene, settings, runner, FirstHits(size)}) {
+    : impl_(new Impl{scene, withBlended(scene, settings), runner, FirstHits(size)}) {
     Impl& r = *impl_;
     traceFirstHits(scene, r.settings.paths, {}, runner, r.hits, r.rays);
     if (usesLitPoints(r.settings)) r.points.emplace(scene);
@@ -280,7 +286,7 @@ Reference Refinement::mean() const {
 Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceSettings& settings,
                         JobRunner& runner, FunctionRef<void(double)> progress) {
     Refinement picture(scene, size, settings, runner);
-    const double target = samplesOfHalf(scene, settings);
+    const double target = samplesOfHalf(scene, withBlended(scene, settings));
     double done = 0, nextCheck = 8;
     while (done < target &&
            picture.add(uint32_t(std::min(std::ceil(target - done), double(RayLanes::kCount))))) {

@@ -261,7 +261,7 @@ struct Entry {
 
 // Percent below a hundred, so that light in a closed box comes to an end; things within what an import
 // allows.
-constexpr std::array<Entry, 18> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 19> kScenes = {{{"cornell", cornell},
                                             {"corner", corner},
                                             {"occluder", occluder},
                                             {"corridor", corridor},
@@ -278,7 +278,8 @@ constexpr std::array<Entry, 18> kScenes = {{{"cornell", cornell},
                                             {"nave", nave},
                                             {"neon", neon},
                                             {"courtyard", courtyard},
-                                            {"showroom", showroom}}};
+                                            {"showroom", showroom},
+                                            {"panes", panes}}};
 constexpr auto kNames = [] {
     std::array<std::string_view, kScenes.size()> names;
     for (size_t i = 0; i < names.size(); ++i)

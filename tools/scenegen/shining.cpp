@@ -166,4 +166,43 @@ SceneAsset showroom(uint32_t) {
     return b.finish();
 }
 
+SceneAsset panes(uint32_t) {
+    SceneBuilder b("panes");
+    const uint32_t floor = b.material("floor", {0.62f, 0.60f, 0.56f}),
+                   back = b.material("back", {0.70f, 0.56f, 0.34f}),
+                   side = b.material("side", {0.36f, 0.44f, 0.60f}),
+                   block = b.material("block", {0.66f, 0.30f, 0.22f});
+    slab(b, "floor", {-3, -0.2f, -3}, {3, 0, 3}, floor);
+    slab(b, "back", {-3, 0, -3.2f}, {3, 3, -3}, back);
+    slab(b, "side", {-3.2f, 0, -3}, {-3, 3, 3}, side);
+    slab(b, "block", {-0.4f, 0, -2.4f}, {0.5f, 1.2f, -1.6f}, block);
+    const auto pane = [&](const char* name, glm::vec2 least, glm::vec2 most, float z, uint32_t material) {
+        b.materialAt(material).alphaMode = AlphaMode::kBlend;
+        b.materialAt(material).doubleSided = true;
+        b.quad(name, {least.x, least.y, z}, {most.x - least.x, 0, 0}, {0, most.y - least.y, 0}, material);
+    };
+    const auto glass = [&](const char* name, glm::vec3 tint, float roughness) {
+        const uint32_t m = b.material(name, tint);
+        b.materialAt(m).alphaMode = AlphaMode::kBlend;
+        b.materialAt(m).transmission = 1;
+        b.materialAt(m).specular = 1;
+        b.materialAt(m).roughness = roughness;
+        return m;
+    };
+    const uint32_t veil = b.material("veil", {0.80f, 0.16f, 0.12f}),
+                   sign = b.emissive("sign", glm::vec3(0), {0.6f, 2.4f, 0.9f});
+    b.materialAt(veil).baseColor.w = 0.4f;
+    b.materialAt(sign).baseColor.w = 0.5f;
+    pane("veil", {-2.2f, 0.3f}, {-0.2f, 2.2f}, 0.4f, veil);
+    pane("blue glass", {-1.2f, 0.5f}, {0.9f, 2.5f}, -0.6f, glass("blue", {0.45f, 0.75f, 0.95f}, 0.2f));
+    pane("sign", {1.0f, 0.4f}, {2.1f, 1.5f}, 0.2f, sign);
+    b.model("ball", sphere(glass("green", {0.70f, 0.95f, 0.75f}, 0.3f), 0.5f), {1.5f, 0.5f, -1.2f});
+    b.point("lamp", {0.3f, 2.6f, 1.6f}, {9, 8, 7});
+    const glm::vec3 sun = glm::normalize(glm::vec3(-0.5f, -0.7f, -0.45f));
+    b.sun("sun", sun, glm::vec3(20, 19, 17));
+    b.sky(analyticSky(sun, 3));
+    b.camera("camera", {0.2f, 1.5f, 4.6f}, {0, 1.2f, -1}, 45);
+    return b.finish();
+}
+
 }  // namespace ag::scenegen

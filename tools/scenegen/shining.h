@@ -14,4 +14,8 @@ SceneAsset courtyard(uint32_t param);
 // sign.
 SceneAsset showroom(uint32_t param);
 
+// Panes of tinted glass and of half-covering sheets one behind another, and a ball of glass, under sky, sun
+// and a lamp.
+SceneAsset panes(uint32_t param);
+
 }  // namespace ag::scenegen
