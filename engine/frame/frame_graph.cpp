@@ -94,6 +94,11 @@ std::string FrameGraph::Impl::fullName(uint32_t scope, std::string_view name) co
     return full;
 }
 
+std::string FrameGraph::Impl::fullName(const Pass& pass) const {
+    const uint32_t scope = stats[pass.stats].scope;
+    return isNested(scope) ? std::string(pass.name) : fullName(scope, pass.name);
+}
+
 // What a slot holds counts for nothing from now on. Histories begin with zeroes.
 void FrameGraph::Impl::forget(Slot& slot) {
     for (Memory& half : slot.halves) {
@@ -291,17 +296,22 @@ BufferHandle GraphScope::findBuffer(std::string_view name) const {
 
 uint32_t FrameGraph::Impl::statsFor(uint32_t scope, std::string_view name) {
     const auto [entry, added] = statsOfName.try_emplace(hashName(scope, name), uint32_t(stats.size()));
-    if (added) stats.push_back({.nameHash = entry->first, .scope = scope, .name = name});
+    if (!added) return entry->second;
+    PassStats& made = stats.emplace_back(PassStats{.nameHash = entry->first, .scope = scope, .name = name});
+    if (isNested(scope)) {
+        made.ofNested = std::make_unique<const std::string>(fullName(scope, name));
+        made.name = *made.ofNested;
+    }
     return entry->second;
 }
 
 uint32_t FrameGraph::Impl::addPass(const GraphScope& scope, std::string_view name, PassKind kind) {
     Pass pass;
-    pass.name = name;
     pass.kind = kind;
     pass.firstUse = uint32_t(uses.size());
     pass.firstDraw = uint32_t(draws.size());
     pass.stats = statsFor(scope.id_, name);
+    pass.name = stats[pass.stats].name;
     pass.held = scope.held_;
     const bool compute = kind == PassKind::kCompute || kind == PassKind::kFill || kind == PassKind::kUpload ||
                          kind == PassKind::kCopyBuffer;

@@ -8,11 +8,6 @@
 namespace ag {
 namespace {
 
-// Of memory that other images used before: all of their work, and no contents.
-constexpr SyncState kTakenOver{.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                               .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                               .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
-
 // Whether the access waits for reads, too.
 bool changes(const Resource& r, const SyncState& s, const Access& access) {
     return access.writes != 0 || (r.isImage && s.layout != access.layout);

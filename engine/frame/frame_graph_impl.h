@@ -25,6 +25,10 @@ struct SyncState {
     VkAccessFlags2 visibleAccess = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
+// Of memory that others used before: all of their work, and no contents.
+inline constexpr SyncState kTakenOver{.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                      .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                      .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
 
 // A rectangle of an atlas and what was drawn there.
 struct Patch {
@@ -172,7 +176,8 @@ struct Pass {
 struct PassStats {
     uint64_t nameHash = 0;  // of scope and name
     uint32_t scope = 0;
-    std::string_view name;
+    std::string_view name;                        // with its scope's where that is nested
+    std::unique_ptr<const std::string> ofNested;  // what `name` is a view of then
     double gpuMs = 0, cpuMs = 0;
     uint64_t runCount = 0;
     uint64_t checkedPipeline = 0;  // bindings were checked against it
@@ -251,6 +256,8 @@ struct FrameGraph::Impl {
     uint32_t statsFor(uint32_t scope, std::string_view name);
     void forget(Slot& slot);
     std::string fullName(uint32_t scope, std::string_view name) const;
+    std::string fullName(const Pass& pass) const;
+    bool isNested(uint32_t scope) const { return scopes[scope].parent != ~0u; }
 
     // Planning (frame_graph_plan.cpp)
     void plan();

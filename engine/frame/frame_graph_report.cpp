@@ -117,8 +117,8 @@ std::string FrameGraph::graphviz() const {
     for (size_t p = 0; p < impl_->passes.size(); ++p) {
         const Pass& pass = impl_->passes[p];
         const char* color = pass.runs ? "palegreen" : pass.wanted ? "lightgrey" : "white";
-        out += fmt::format("  p{} [label=\"{}\", style=filled, fillcolor={}];\n", p,
-                           impl_->fullName(impl_->stats[pass.stats].scope, pass.name), color);
+        out += fmt::format("  p{} [label=\"{}\", style=filled, fillcolor={}];\n", p, impl_->fullName(pass),
+                           color);
         for (const Use& use : impl_->usesOf(pass)) {
             if (writes(use.kind)) out += fmt::format("  p{} -> r{};\n", p, use.resource);
             if (readsOld(use.kind)) out += fmt::format("  r{} -> p{};\n", use.resource, p);

@@ -147,6 +147,9 @@ void FrameGraph::Impl::createResources() {
             else
                 slot.halves[half].buffer = std::make_unique<gpu::Buffer>(*context, descOf(slot, slot.buffer));
             slot.halves[half].needsZero = slot.isHistory;
+            // What was freed there has ended, as the host has waited for it; validation does not follow
+            // timelines.
+            slot.halves[half].sync.fill(kTakenOver);
         }
         slot.fresh = false;
     }

@@ -24,7 +24,7 @@ class Context;
 
 class FrameTimer {
   public:
-    static constexpr uint32_t kMaxPasses = 256;
+    static constexpr uint32_t kMaxPasses = 1024;
 
     explicit FrameTimer(gpu::Context& context);
     ~FrameTimer();

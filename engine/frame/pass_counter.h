@@ -25,7 +25,7 @@ struct PassCount {
 
 class PassCounter {
   public:
-    static constexpr uint32_t kMaxPasses = 256;
+    static constexpr uint32_t kMaxPasses = 1024;
 
     explicit PassCounter(gpu::Context& context);  // whose DeviceInfo::counts is true
     ~PassCounter();

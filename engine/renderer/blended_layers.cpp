@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 #include "engine/renderer/indirect_light.h"
 
@@ -46,35 +47,43 @@ PictureWindow chooseWindow(const SceneView& scene, const ViewDraws& draws, Blend
     glm::uvec2 origin = glm::uvec2(box.low) / kGrid * kGrid;
     const glm::uvec2 least = glm::max(glm::uvec2(box.high), origin + 1u) - origin;
     const glm::uvec2 fitting = glm::min((least + step - 1u) / step * step, picture);
-    const bool fits =
-        glm::all(glm::greaterThanEqual(h.size, fitting)) && glm::all(glm::lessThanEqual(h.size, picture));
-    h.smallerFor = fits && h.size != fitting ? h.smallerFor + 1 : 0;
-    if (!fits || h.smallerFor > kFramesToShrink) h.size = fitting;
+    const glm::uvec2 before = h.size;
+    const bool moved =
+        std::exchange(h.cameraVersion, scene.scene->cameraVersion) != scene.scene->cameraVersion;
+    h.size = glm::min(glm::max(before, fitting), picture);
+    if (h.size == fitting)
+        h.smallerFor = 0;
+    else if (moved && ++h.smallerFor > kFramesToShrink)
+        h.size = fitting;
+    if (h.size != before) h.layers = {};  // their images are new
     origin = glm::min(origin, picture - h.size);
     return {origin, h.size};
 }
 
 // How many may lie one behind another: one where each is flat and alone on the screen.
 uint32_t layersNeeded(const SceneView& scene, const ViewDraws& draws, uint32_t most) {
-    if (draws.rows.size() > 1) return most;
     const RenderScene& s = *scene.scene;
-    const Bounds& b = s.geometry->primitives[s.instances[draws.rows.front()].primitive].boundsLocal;
+    const RenderInstance& first = s.instances[draws.rows.front()];
+    if (draws.rows.size() > 1 || first.skinnedMesh != kNoSkinnedMesh) return most;
+    const Bounds& b = s.geometry->primitives[first.primitive].boundsLocal;
     const glm::vec3 size = b.max - b.min;
     const bool flat = std::min({size.x, size.y, size.z}) < 1e-4f * std::max({size.x, size.y, size.z});
     return flat ? 1u : most;
 }
 
 struct BlendedLayer {
-    GraphScope scope;
     BlendedSurfaces surfaces;
     ImageHandle radiance;
 };
+struct BlendedLayers {
+    std::array<BlendedLayer, kMostBlendedLayers> items;  // the nearest first
+    uint32_t count = 0;
+};
 
 // Of a layer's surfaces, as addFrame() has it of the opaque ones'.
-ImageHandle addLight(const BlendedLayer& layer, const SceneView& scene, const RenderFrame& f,
+ImageHandle addLight(GraphScope scope, const GBuffer& gbuffer, const SceneView& scene, const RenderFrame& f,
                      const LightClusters& clusters, const RenderSettings& s, BlendedLayerHistory& h) {
-    const GraphScope scope = layer.scope;
-    const gi::Surfaces& surfaces = layer.surfaces.gbuffer.surfaces;
+    const gi::Surfaces& surfaces = gbuffer.surfaces;
     const bool glossy = s.bounce.valShading.glossy;
     gi::BounceLight bounce;
     if (s.technique == Technique::kAreaLights)
@@ -87,20 +96,19 @@ ImageHandle addLight(const BlendedLayer& layer, const SceneView& scene, const Re
     const gi::Occluders occluders = occludersOf(scene);
     const gi::SkyLight sky = gi::addSkyLight(scope, surfaces, s.bounce.spacing,
                                              {scene.sky, occluders, versionsOf(scene)}, s.bounce.sky, h.sky);
-    return addRadiance(scope, layer.surfaces.gbuffer, {direct, sky, bounce, scene}, Behind::kMore);
+    return addRadiance(scope, gbuffer, {direct, sky, bounce, scene}, Behind::kMore);
 }
 
 // From the farthest to the nearest.
-ImageHandle addOver(GraphScope scope, std::span<const BlendedLayer> layers, ImageHandle behind,
-                    glm::uvec2 origin) {
+ImageHandle addOver(GraphScope scope, const BlendedLayers& layers, ImageHandle behind, glm::uvec2 origin) {
     const ImageHandle result = scope.image("composite.seen_through", scope.info(behind));
     PassBuilder pass = scope.fullscreen("composite.over", "composite/over.frag");
     pass.sample("behindMap", behind)
-        .constant("kLayers", uint32_t(layers.size()))
+        .constant("kLayers", layers.count)
         .push(glm::ivec2(origin))
         .colorClear(result, glm::vec4(0));
-    for (size_t i = 0; i < kMostBlendedLayers; ++i) {  // further ones are not read
-        const BlendedLayer& layer = layers[std::min(i, layers.size() - 1)];
+    for (uint32_t i = 0; i < kMostBlendedLayers; ++i) {  // further ones are not read
+        const BlendedLayer& layer = layers.items[std::min(i, layers.count - 1)];
         pass.sample(kLayerMaps[i], layer.radiance).sample(kVeilMaps[i], layer.surfaces.veil);
     }
     return result;
@@ -133,15 +141,16 @@ ImageHandle addBlendedLayers(GraphScope scope, const SceneView& scene, const Ren
     seen.grid.size = window.size;
     seen.eye = windowed(scene.eye, scene.grid.size, window);
     seen.camera = gi::addCamera(scope.nested(kLayerScopes[0]), "scene.camera", seen.eye, window.size);
-    const uint32_t count = layersNeeded(scene, draws, settings.blending.layers);
-    std::vector<BlendedLayer> layers;
-    for (uint32_t i = 0; i < count; ++i) {
-        const GraphScope own = scope.nested(kLayerScopes[i]);
-        const PeeledBetween between{frame.gbuffer.surfaces.depth,
-                                    i > 0 ? layers.back().surfaces.gbuffer.surfaces.depth : ImageHandle{},
-                                    window.origin};
-        layers.push_back({own, addBlendedSurfaces(own, seen, draws, between)});
-        layers.back().radiance = addLight(layers.back(), seen, frame, lights, settings, history.layers[i]);
+    BlendedLayers layers;
+    ImageHandle nearer;
+    for (uint32_t count = layersNeeded(scene, draws, settings.blending.layers); layers.count < count;) {
+        BlendedLayer& layer = layers.items[layers.count];
+        const GraphScope own = scope.nested(kLayerScopes[layers.count]);
+        const PeeledBetween between{frame.gbuffer.surfaces.depth, nearer, window.origin};
+        layer.surfaces = addBlendedSurfaces(own, seen, draws, between, settings.bounce.valShading.glossy);
+        layer.radiance = addLight(own, layer.surfaces.gbuffer, seen, frame, lights, settings,
+                                  history.layers[layers.count++]);
+        nearer = layer.surfaces.gbuffer.surfaces.depth;
     }
     return addOver(scope, layers, behind, window.origin);
 }

@@ -42,8 +42,9 @@ struct BlendedLayerHistory {
 };
 struct BlendedHistory {
     std::array<BlendedLayerHistory, kMostBlendedLayers> layers;
-    glm::uvec2 size{0};       // of the window
-    uint32_t smallerFor = 0;  // frames in which a smaller one would have done
+    glm::uvec2 size{0};  // of the window
+    uint64_t cameraVersion = 0;
+    uint32_t smallerFor = 0;  // frames of a moving camera in which a smaller one would have done
 };
 
 // `behind`, the radiance of what is opaque in `frame`, W/(m² sr), seen through them; itself where none is in

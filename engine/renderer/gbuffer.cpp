@@ -58,7 +58,7 @@ GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
 }
 
 BlendedSurfaces addBlendedSurfaces(GraphScope scope, const SceneView& scene, const ViewDraws& draws,
-                                   const PeeledBetween& between) {
+                                   const PeeledBetween& between, bool glossy) {
     const struct Push {
         glm::mat4 clipFromWorld;
         glm::ivec2 origin;
@@ -73,6 +73,7 @@ BlendedSurfaces addBlendedSurfaces(GraphScope scope, const SceneView& scene, con
                                     gpu::VertexLayout::kPositionsAndAttributes);
     veil.colorClear(b.veil, glm::vec4(1, 1, 1, 0))
         .depthEqual(b.gbuffer.surfaces.depth)
+        .constant("kGlossy", glossy)
         .read("camera", scene.camera);
     drawCameras(veil, scene, draws, std::as_bytes(std::span(&push.clipFromWorld, 1)));
     return b;

@@ -24,9 +24,10 @@ struct PeeledBetween {
     ImageHandle nearer;    // depth of the layer before; none: this one is the nearest
     glm::uvec2 origin{0};  // of scene.grid in the whole picture
 };
-// Of what `draws` has the nearest surface at each pixel that lies between.
+// Of what `draws` has the nearest surface at each pixel that lies between. `glossy`: what a sheet reflects
+// does not pass it.
 BlendedSurfaces addBlendedSurfaces(GraphScope scope, const SceneView& scene, const ViewDraws& draws,
-                                   const PeeledBetween& between);
+                                   const PeeledBetween& between, bool glossy);
 
 // Where the surfaces that moved since the frame before were then; only what moved is drawn. None: invalid.
 ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces);

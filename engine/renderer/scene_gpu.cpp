@@ -29,7 +29,9 @@ io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& g
 io::Material materialRow(const Material& m, RenderUnits units) {
     return {.baseColor = m.baseColor,
             .emissive = m.emissive / units.light,
-            .alphaCutoff = m.alphaMode == AlphaMode::kMask ? m.alphaCutoff : 0.0f,
+            .alphaCutoff = m.alphaMode == AlphaMode::kMask ? m.alphaCutoff
+                           : m.coversWholly                ? -1.0f
+                                                           : 0.0f,
             .metallic = m.metallic,
             .roughness = m.roughness,
             .specular = m.specular,

@@ -173,7 +173,8 @@ std::vector<SceneFeature> coreFeatures(const Model& model) {
         {"animations", model.animations.size()},
         {"alpha masks", materials([](const Material& m) { return m.alphaMode == "MASK"; })},
         {"alpha blending", materials([](const Material& m) { return m.alphaMode == "BLEND"; }), kApproximated,
-         "with a texture drawn where that covers more than half; else over what is behind, and light passes"},
+         "what a texture cuts out is drawn where it covers more than half; the rest over what is behind, "
+         "and light passes"},
         {"occlusion textures", materials([](const Material& m) { return m.occlusionTexture.index >= 0; }),
          kNotSupported, "occlusion is found from the geometry"},
         {"samplers that clamp or mirror", countSamplers(model, wrapsOtherwise), kApproximated,

@@ -52,14 +52,30 @@ bool isGlass(const tinygltf::Material& m) {
     return transmissionOf(m) > 0.5f;
 }
 
+// Whether most of what an image shows at all covers in part, as a lens does and a leaf does not. `alpha`:
+// what its own is multiplied by.
+bool coversInPart(const tinygltf::Image& image, float alpha) {
+    constexpr float kNothing = 0.03f, kAll = 0.9f;
+    if (image.component % 2 == 1) return alpha < kAll;
+    const size_t bytes = size_t(std::max(image.bits, 8) / 8), texel = bytes * size_t(image.component);
+    size_t seen = 0, inPart = 0;
+    for (size_t at = texel - 1; at < image.image.size(); at += texel) {  // the high byte of 16-bit texels
+        const float covers = alpha * float(image.image[at]) / 255;
+        seen += covers > kNothing, inPart += covers > kNothing && covers < kAll;
+    }
+    return 2 * inPart > seen;
+}
+
 // What blends by a texture is mostly leaves and decals, and is drawn where that covers more than half of it:
-// so it blocks light and reflects it on. Otherwise it is drawn over what is behind it, and light passes.
+// so it blocks light and reflects it on. What covers in part is drawn over what is behind it, and light
+// passes.
 AlphaMode alphaModeOf(const tinygltf::Model& model, const tinygltf::Material& m, float alpha) {
     if (isGlass(m)) return AlphaMode::kBlend;
     if (m.alphaMode == "MASK") return AlphaMode::kMask;
     if (m.alphaMode != "BLEND") return AlphaMode::kOpaque;
-    if (imageOf(model, m.pbrMetallicRoughness.baseColorTexture.index) >= 0) return AlphaMode::kMask;
-    return alpha < 1 ? AlphaMode::kBlend : AlphaMode::kOpaque;
+    const int image = imageOf(model, m.pbrMetallicRoughness.baseColorTexture.index);
+    if (image < 0) return alpha < 1 ? AlphaMode::kBlend : AlphaMode::kOpaque;
+    return coversInPart(model.images[size_t(image)], alpha) ? AlphaMode::kBlend : AlphaMode::kMask;
 }
 
 // KHR_materials_unlit: the base colour is what is seen, whatever the light: it is emitted, and nothing
@@ -106,7 +122,7 @@ Material materialOf(const tinygltf::Model& model, const tinygltf::Material& m) {
     out.normalScale = floatOf(m.normalTexture.scale);
     out.alphaMode = alphaModeOf(model, m, out.baseColor.w);
     if (out.alphaMode == AlphaMode::kBlend) out.transmission = transmissionOf(m);
-    if (isGlass(m) && m.alphaMode != "BLEND") out.baseColor.w = 1;
+    out.coversWholly = isGlass(m) && m.alphaMode == "OPAQUE";
     out.alphaCutoff = m.alphaMode == "BLEND" ? 0.5f : floatOf(m.alphaCutoff);
     out.doubleSided = m.doubleSided;
     out.uvTransform = uvTransformOf(pbr.baseColorTexture.extensions);

@@ -61,7 +61,8 @@ struct Material {
     float specular = 1;  // KHR_materials_specular factor
     float normalScale = 1;
     float alphaCutoff = 0.5f;
-    float transmission = 0;  // of blended ones: share of what is not reflected that passes, tinted
+    bool coversWholly = false;  // of blended ones: glass whatever its alpha
+    float transmission = 0;     // of blended ones: share of what is not reflected that passes, tinted
     AlphaMode alphaMode = AlphaMode::kOpaque;
     bool doubleSided = false;
     bool vertexColors = false;  // its vertices have colours

@@ -26,6 +26,14 @@ AG_FUNCTION vec3 fresnelSchlick(vec3 f0, vec3 f90, float cosine) {
     return f0 + (f90 - f0) * (m * m * m * m * m);
 }
 
+// What a thin sheet lets through of the light behind it: past it where alpha (coverage) leaves it open,
+// tinted where it transmits (KHR_materials_transmission), but for what it reflects.
+AG_FUNCTION vec3 sheetTransmits(vec3 baseColor, float metallic, float coverage, float transmission,
+                                vec3 reflected) {
+    vec3 glass = transmission * (1.0f - metallic) * baseColor * (vec3(1.0f) - reflected);
+    return vec3(1.0f) - coverage * (vec3(1.0f) - glass);
+}
+
 // Trowbridge-Reitz distribution of half vectors, alpha = roughness².
 AG_FUNCTION float ggxDistribution(float nh, float alpha) {
     float a2 = alpha * alpha;

@@ -142,7 +142,9 @@ AG_FUNCTION float polygonVectorFactor(vec3 p, vec3 n, vec2 corners[8], vec4 grad
     float away = sqrt(dot(p, p));
     least = max(least, kLeastSine * away);
     float toward = -(n.x * p.x + n.y * p.y) * inversesqrt(max(p.x * p.x + p.y * p.y, 1e-20f));
-    float before = p.z > least ? 1.0f : p.z > -kBehindSine * away ? clamp(20.0f * toward, 0.0f, 1.0f) : 0.0f;
+    float before = p.z > least                             ? 1.0f
+                   : p.z > -min(least, kBehindSine * away) ? clamp(20.0f * toward, 0.0f, 1.0f)
+                                                           : 0.0f;
     p.z = max(p.z, least);
     vec3 sum = vec3(0.0f);
     vec3 a = vec3(corners[7].x - p.x, corners[7].y - p.y, -p.z);

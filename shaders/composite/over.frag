@@ -25,11 +25,12 @@ vec3 over(vec3 behind, vec3 own, vec4 veil) { return min(veil.a * own + veil.rgb
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy), at = pixel - push.origin;
     vec4 behind = texelFetch(behindMap, pixel, 0);
+    radiance = behind;
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, textureSize(layer0, 0)))) return;
     vec3 seen = behind.rgb;
     if (kLayers > 3) seen = over(seen, texelFetch(layer3, at, 0).rgb, texelFetch(veil3, at, 0));
     if (kLayers > 2) seen = over(seen, texelFetch(layer2, at, 0).rgb, texelFetch(veil2, at, 0));
     if (kLayers > 1) seen = over(seen, texelFetch(layer1, at, 0).rgb, texelFetch(veil1, at, 0));
     seen = over(seen, texelFetch(layer0, at, 0).rgb, texelFetch(veil0, at, 0));
-    bool within = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, textureSize(layer0, 0)));
-    radiance = within ? vec4(seen, behind.a) : behind;
+    radiance = vec4(seen, behind.a);
 }

@@ -7,5 +7,6 @@ struct Blend {
 };
 
 Blend blendOf(uint material, SurfaceMaterial m) {
-    return Blend(clamp(m.baseColor.a, 0.0, 1.0), fetchTexel(materials, int(material) * 6 + 5).w);
+    bool coversWholly = fetchTexel(materials, int(material) * 6 + 1).w < 0.0;
+    return Blend(coversWholly ? 1.0 : clamp(m.baseColor.a, 0.0, 1.0), fetchTexel(materials, int(material) * 6 + 5).w);
 }

@@ -9,6 +9,7 @@
 
 layout(set = 0, binding = 12, scalar) uniform Camera { CameraConstants camera; } camera;
 
+layout(constant_id = 4) const bool kGlossy = true;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 3) in vec2 uv;
@@ -23,6 +24,6 @@ void main() {
     float cosine = abs(dot(unitNormal(normal), normalize(camera.camera.position - position)));
     vec3 reflected = fresnelSchlick(specularF0(m.baseColor.rgb, m.metallic, m.specular),
                                     vec3(specularF90(m.metallic, m.specular)), cosine);
-    vec3 glass = b.transmission * (1.0 - m.metallic) * m.baseColor.rgb * (1.0 - reflected);
-    veil = vec4(1.0 - b.coverage * (1.0 - glass), b.coverage);
+    if (!kGlossy) reflected = vec3(0.0);
+    veil = vec4(sheetTransmits(m.baseColor.rgb, m.metallic, b.coverage, b.transmission, reflected), b.coverage);
 }

@@ -29,7 +29,7 @@ const uint kNoSkinnedMesh = 0xffffffffu;
 struct Material {       // 6 vec4
     vec4 baseColor;     // linear factor
     vec3 emissive;      // W/(m² sr)
-    float alphaCutoff;  // 0 unless masked
+    float alphaCutoff;  // 0 unless masked; -1: blended, and covers whatever its alpha
     float metallic;
     float roughness;
     float specular;

@@ -311,6 +311,7 @@ TEST_F(NullGraph, NestedScopesAreResetAndRemovedWithTheirs) {
     };
     EXPECT_EQ(frame(), std::pair(false, false));
     EXPECT_EQ(g.describe().passes[0].name, "outer/inner/step");
+    EXPECT_EQ(g.report()[0].name, "outer/inner/step") << "so that times of both are apart";
     EXPECT_EQ(frame(), std::pair(true, true)) << "the same scope by its name";
     outer.reset();
     EXPECT_EQ(frame(), std::pair(false, true));

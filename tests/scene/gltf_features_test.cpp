@@ -139,8 +139,10 @@ TEST(GltfFeatures, GlassAndBlendedSurfaces) {
     EXPECT_FLOAT_EQ(import(withMaterial(blended(0.3))).geometry.materials[0].baseColor.w, 0.3f);
     json opaqueGlass = glass(0.9);
     opaqueGlass["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 1, 1, 0.2}}};
-    EXPECT_FLOAT_EQ(import(withMaterial(opaqueGlass)).geometry.materials[0].baseColor.w, 1)
+    EXPECT_TRUE(import(withMaterial(opaqueGlass)).geometry.materials[0].coversWholly)
         << "alpha counts where the mode says so";
+    opaqueGlass["alphaMode"] = "BLEND";
+    EXPECT_FALSE(import(withMaterial(opaqueGlass)).geometry.materials[0].coversWholly);
 
     json leaf = withMaterial({{"alphaMode", "BLEND"},
                               {"alphaCutoff", 0.9},
@@ -151,6 +153,8 @@ TEST(GltfFeatures, GlassAndBlendedSurfaces) {
     EXPECT_EQ(asset.geometry.materials[0].alphaMode, AlphaMode::kMask);
     EXPECT_FLOAT_EQ(asset.geometry.materials[0].alphaCutoff, 0.5f) << "the cut-off is that of masks alone";
     EXPECT_TRUE(reports(asset, "alpha blending", FeatureSupport::kApproximated));
+    leaf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.6};
+    EXPECT_EQ(import(leaf).geometry.materials[0].alphaMode, AlphaMode::kBlend) << "covers in part everywhere";
 }
 
 TEST(GltfFeatures, TexturesOfOtherFormats) {

@@ -44,11 +44,11 @@ glm::vec3 polygonIrradiance(const AreaLightRead& light, const Receiver& at) {
     std::copy(std::begin(light.shape.corners), std::end(light.shape.corners), corners);
     float below = 1;
     const float thickness = std::abs(light.val.thickness);
+    if (light.val.thickness < 0)
+        below = io::outsideBulge(p, corners, light.val.before, thickness, light.shape.gradient.w);
     if (thickness > 0.25f * at.width) {
         const glm::vec2 layers = io::layersBelow(p.z, thickness);
-        below = layers.x;
-        if (light.val.thickness < 0)
-            below *= io::outsideBulge(p, corners, light.val.before, thickness, light.shape.gradient.w);
+        below *= layers.x;
         p.z = layers.y;
     }
     const float factor =

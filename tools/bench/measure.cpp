@@ -291,7 +291,8 @@ Result<std::vector<Row>> SceneBench::measurePathTracing(std::string_view term) {
     const auto truth = reference(term);
     if (!truth) return truth.error();
     const std::string layer(layerOfTerm(term));
-    auto rows = tracePathCurve(rays_, referenceSettings(term).paths, layer, (*truth)->both(), runner_);
+    auto rows = tracePathCurve(rays_, withBlended(rays_, referenceSettings(term)).paths, layer,
+                               (*truth)->both(), runner_);
     for (Row& row : rows) {
         row.scene = name_;
         row.term = term;

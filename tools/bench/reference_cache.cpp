@@ -34,7 +34,7 @@ uint64_t hashMaterial(const Material& m, uint64_t h) {
                             m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer})
         h = hashValue(v, h);
     h = hashValue(m.uvTransform, h);
-    return m.alphaMode == AlphaMode::kBlend ? hashValue(m.transmission, h) : h;
+    return m.alphaMode == AlphaMode::kBlend ? hashValue(m.transmission + float(m.coversWholly), h) : h;
 }
 
 uint64_t hashLight(const RenderLight& l, uint64_t h) {

@@ -16,7 +16,7 @@ struct PathSettings {
     PixelFilter filter = PixelFilter::kCenter;
     bool litPoints = true;  // bounced light is looked for from the lights, too
     // Camera rays meet surfaces that blend with what is behind them, each by chance; no others do. For
-    // radiance: irradiance is that of what is opaque.
+    // radiance alone: irradiance is then a mixture of sheets and what is behind them.
     bool blended = false;
 
     // Places of a pixel are drawn, each with direct light of its own.

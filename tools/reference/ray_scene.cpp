@@ -276,14 +276,14 @@ Veil RayScene::veilOf(Surface& s, glm::vec3 direction, bool glossy) const {
     const Material& m = g.materials[part.primitive->material];
     const float alpha =
         m.baseColor.w * sampleTexture(g, m, m.baseColorLayer, uvAt(part, s.triangle, s.u, s.v), true).w;
-    Veil veil{.coverage = std::clamp(alpha, 0.0f, 1.0f)};
+    Veil veil{.coverage = m.coversWholly ? 1.0f : std::clamp(alpha, 0.0f, 1.0f)};
     const glm::vec3 reflected = glossy
                                     ? io::fresnelSchlick(io::specularF0(s.baseColor, s.metallic, s.specular),
                                                          glm::vec3(io::specularF90(s.metallic, s.specular)),
                                                          std::abs(glm::dot(direction, s.geometricNormal)))
                                     : glm::vec3(0);
-    const glm::vec3 glass = m.transmission * (1 - s.metallic) * s.baseColor * (1.0f - reflected);
-    veil.transmitted = 1.0f - veil.coverage * (1.0f - glass);
+    veil.transmitted = io::sheetTransmits(s.baseColor, s.metallic, veil.coverage, m.transmission, reflected);
+    // Right for metals and for what is none.
     s.baseColor *= 1 - m.transmission * (1 - s.metallic);
     s.albedo = io::diffuseAlbedo(s.baseColor, s.metallic);
     return veil;

@@ -98,6 +98,12 @@ glm::uvec2 spreadOffset(uint32_t index) {
 
 }  // namespace
 
+ReferenceSettings withBlended(const RayScene& scene, ReferenceSettings settings) {
+    settings.paths.blended = scene.hasBlended() && settings.layer == "radiance" &&
+                             settings.method == Method::kPaths && !settings.paths.unshadowed;
+    return settings;
+}
+
 const Image* layerOf(const Reference& r, std::string_view name) {
     if (name == "radiance") return &r.radiance;
     if (name == "irradiance") return &r.irradiance;
@@ -135,12 +141,6 @@ double noiseOf(const Image& a, const Image& b) {
 }
 
 namespace {
-
-ReferenceSettings withBlended(const RayScene& scene, ReferenceSettings settings) {
-    settings.paths.blended = scene.hasBlended() && settings.layer == "radiance" &&
-                             settings.method == Method::kPaths && !settings.paths.unshadowed;
-    return settings;
-}
 
 constexpr uint32_t kLeastPoints = 2048, kMostPoints = 8192;  // drawn for each round of samples
 constexpr double kSamplesToLearnFrom = 64;                   // a pixel of each half

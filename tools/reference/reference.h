@@ -23,6 +23,9 @@ struct ReferenceSettings {
     std::string layer = "radiance";
 };
 
+// The same, and for radiance surfaces that blend with what is behind them are seen, where the scene has such.
+ReferenceSettings withBlended(const RayScene& scene, ReferenceSettings settings);
+
 struct Reference {
     // Irradiance in W/m² before albedo, [n] of suns and lamps by exactly n bounces, `indirect` all that
     // bounced; radiance in W/(m² sr); depth in m along the camera's axis.

@@ -241,7 +241,8 @@ int runRender(RenderOptions options) {
         !used)
         return refuse(used.error().message);
     RenderSetup settings;
-    if (options.session.empty() && layerOf(options) == "final") {
+    const bool asViewed = options.session.empty() && layerOf(options) == "final";
+    if (asViewed) {
         settings.gi.antialiasing.mode = render::Antialiasing::kTemporal;
         settings.gi.exposure.automatic = true;
     }
@@ -257,7 +258,7 @@ int runRender(RenderOptions options) {
     settings.gi = render::settingsOf(asked->layer, settings.gi);
     const auto walk = parseStep(options.walk);
     if (!walk) return refuse(walk.error().message);
-    auto loaded = loadScene(options.scene);
+    auto loaded = loadScene(options.scene, asViewed ? MissingLight::kSunAndSky : MissingLight::kSun);
     if (!loaded) return refuse(loaded.error().message);
     const auto fault = gpu::parseFaultPlan(options.fault);
     if (!fault) return refuse(fault.error().message);
