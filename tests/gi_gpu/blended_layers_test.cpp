@@ -65,10 +65,10 @@ TEST(BlendedLayers, AStillFrameComesToRestAndSkippingChangesNoBit) {
     std::array<Image, 2> images;
     for (const bool skip : {true, false}) {
         Bench b(*scenegen::buildScene("panes", 0), {96, 54});
-        b.settings.bounce.sky.settleFrames = 12;
-        b.settings.bounce.valClustering.settleFrames = 12;
+        b.settings.bounce.sky.settleFrames = 6;
+        b.settings.bounce.valClustering.settleFrames = 6;
         b.options.skip = skip;
-        for (int i = 0; i < 60; ++i)
+        for (int i = 0; i < 30; ++i)
             b.frame();
         images[skip] = readImage(b.renderer, b.last.outputs.radiance);
         if (skip) {

@@ -96,12 +96,12 @@ TEST(Parity, NoSurfaceBesideTheSkyIsDark) {
 TEST(Parity, SurfacesThatBlend) {
     Parity p("panes");
     const reference::Reference truth =
-        p.trace({.paths = {.bounces = 8, .glossy = true}, .samplesPerPixel = 256});
+        p.trace({.paths = {.bounces = 8, .glossy = true}, .samplesPerPixel = 128});
     RenderSettings settings;
     ASSERT_TRUE(applyPreset("afterglow-bounces", settings));
     const auto off = [&](uint32_t layers) {
         settings.blending.layers = layers;
-        return differ(truth.radiance, p.render(Layer::kRadiance, settings, 60));
+        return differ(truth.radiance, p.render(Layer::kRadiance, settings, 24));
     };
     const ImageDifference all = off(4), one = off(1), none = off(0);
     std::printf("panes: %.4f of the truth, relative RMSE %.3f; one layer %.3f, none %.3f\n", all.meanRatio,
