@@ -49,7 +49,7 @@ TEST(BlendedLayers, CoverAndTintAsTheirMaterialsSay) {
     bench.settings.technique = Technique::kNone;
     bench.frame();
     const Image image = readImage(bench.renderer, bench.last.outputs.radiance);
-    const auto near = [](glm::vec3 a, glm::vec3 b) { return glm::length(a - b) < 0.01f; };
+    const auto near = [](glm::vec3 seen, glm::vec3 wanted) { return glm::length(seen - wanted) < 0.01f; };
     const auto at = [&](int x) { return image.pixels[size_t(32 * 96 + x)]; };
     EXPECT_TRUE(near(at(34), 0.75f * glm::vec3(2, 3, 4) + 0.25f * glm::vec3(8, 0, 0)));
     EXPECT_TRUE(near(at(62), glm::vec3(2, 3, 4) * glm::vec3(0.5f, 0.8f, 1)));
