@@ -83,7 +83,7 @@ FrameDescription FrameGraph::describe() const {
     for (size_t p = 0; p < g.report.size(); ++p) {
         const Pass& pass = g.passes[p];
         PassDescription& d = out.passes.emplace_back();
-        d.name = impl_->fullName(pass);
+        d.name = std::string(pass.name);
         d.shader = pass.shader;
         d.uploads = pass.kind == PassKind::kUpload;
         d.outcome = g.report[p].outcome;

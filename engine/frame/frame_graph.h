@@ -58,7 +58,7 @@ enum class PassReason : uint8_t {
 };
 
 struct PassReport {
-    std::string_view name, scope;
+    std::string_view name;  // after those of its scopes: "scope/pass"
     PassOutcome outcome = PassOutcome::kDropped;
     PassReason reason = PassReason::kUnread;
     std::string_view changed;  // kInput, kHistory: the first such resource

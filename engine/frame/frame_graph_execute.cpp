@@ -193,7 +193,7 @@ void FrameGraph::Impl::readTimes(VkCommandBuffer commands) {
         timer->beginFrame(commands, frame, bracketed, [&](uint32_t tag, uint64_t begin, uint64_t end) {
             if (count++ == 0) spans.clear();
             stats[tag].gpuMs = timer->milliseconds(end - begin);
-            spans.push_back({stats[tag].name, begin, end});
+            spans.push_back({*stats[tag].fullName, begin, end});
         });
     if (read) spansFrame = read;
 }

@@ -176,8 +176,7 @@ struct Pass {
 struct PassStats {
     uint64_t nameHash = 0;  // of scope and name
     uint32_t scope = 0;
-    std::string_view name;                        // with its scope's where that is nested
-    std::unique_ptr<const std::string> ofNested;  // what `name` is a view of then
+    std::unique_ptr<const std::string> fullName;  // stays where it is; none: the scope is no more
     double gpuMs = 0, cpuMs = 0;
     uint64_t runCount = 0;
     uint64_t checkedPipeline = 0;  // bindings were checked against it
@@ -203,6 +202,11 @@ struct Batches {
     gpu::Queue queue = gpu::Queue::kMain;  // of the pass being recorded
     std::vector<OwnerChange> ownerChanges;
 };
+
+// What the outermost scope's names hash to is what they would without scopes.
+inline uint64_t hashName(uint32_t scope, std::string_view name) {
+    return hashText(name, scope);
+}
 
 struct FrameGraph::Impl {
     gpu::Context* context = nullptr;
@@ -256,8 +260,6 @@ struct FrameGraph::Impl {
     uint32_t statsFor(uint32_t scope, std::string_view name);
     void forget(Slot& slot);
     std::string fullName(uint32_t scope, std::string_view name) const;
-    std::string fullName(const Pass& pass) const;
-    bool isNested(uint32_t scope) const { return scopes[scope].parent != ~0u; }
 
     // Planning (frame_graph_plan.cpp)
     void plan();

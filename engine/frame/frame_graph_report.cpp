@@ -17,7 +17,7 @@ std::string_view reasonText(PassReason reason) {
 
 // Before the pass is noted as run: compares it with how it ran last.
 PassReport FrameGraph::Impl::reportOf(const Pass& pass) const {
-    PassReport out{.name = pass.name, .scope = scopes[stats[pass.stats].scope].name};
+    PassReport out{.name = pass.name};
     if (!pass.runs) {
         out.outcome = pass.wanted ? PassOutcome::kSkipped : PassOutcome::kDropped;
         out.reason = !pass.wanted ? PassReason::kUnread
@@ -117,8 +117,7 @@ std::string FrameGraph::graphviz() const {
     for (size_t p = 0; p < impl_->passes.size(); ++p) {
         const Pass& pass = impl_->passes[p];
         const char* color = pass.runs ? "palegreen" : pass.wanted ? "lightgrey" : "white";
-        out += fmt::format("  p{} [label=\"{}\", style=filled, fillcolor={}];\n", p, impl_->fullName(pass),
-                           color);
+        out += fmt::format("  p{} [label=\"{}\", style=filled, fillcolor={}];\n", p, pass.name, color);
         for (const Use& use : impl_->usesOf(pass)) {
             if (writes(use.kind)) out += fmt::format("  p{} -> r{};\n", p, use.resource);
             if (readsOld(use.kind)) out += fmt::format("  r{} -> p{};\n", use.resource, p);

@@ -22,8 +22,11 @@ struct Box {
     glm::vec2 low{1e30f}, high{-1e30f};  // pixels
 };
 
-// Of what is drawn. Wholly the picture where something reaches behind the near plane.
+// Of what is drawn, wherever jitter moves it. The whole picture where something reaches behind the near
+// plane.
 Box boxOnScreen(const SceneView& scene, const ViewDraws& draws) {
+    constexpr float kJitter = 1;  // pixels, at most
+    const RenderCamera& camera = scene.scene->camera;
     const glm::vec2 picture(scene.grid.size);
     Box box;
     for (const uint32_t row : draws.rows) {
@@ -31,14 +34,14 @@ Box boxOnScreen(const SceneView& scene, const ViewDraws& draws) {
         for (uint32_t corner = 0; corner < 8; ++corner) {
             const glm::vec3 p(corner & 1 ? b.max.x : b.min.x, corner & 2 ? b.max.y : b.min.y,
                               corner & 4 ? b.max.z : b.min.z);
-            const glm::vec4 h = scene.eye.clipFromWorld * glm::vec4(p, 1);
-            if (h.w < scene.eye.near) return {glm::vec2(0), picture};
+            const glm::vec4 h = camera.clipFromWorld * glm::vec4(p, 1);
+            if (h.w < camera.near) return {glm::vec2(0), picture};
             const glm::vec2 at = (glm::vec2(h) / h.w * 0.5f + 0.5f) * picture;
             box.low = glm::min(box.low, at), box.high = glm::max(box.high, at);
         }
     }
-    return {glm::clamp(glm::floor(box.low), glm::vec2(0), picture),
-            glm::clamp(glm::ceil(box.high), glm::vec2(0), picture)};
+    return {glm::clamp(glm::floor(box.low - kJitter), glm::vec2(0), picture),
+            glm::clamp(glm::ceil(box.high + kJitter), glm::vec2(0), picture)};
 }
 
 PictureWindow chooseWindow(const SceneView& scene, const ViewDraws& draws, BlendedHistory& h) {
@@ -133,8 +136,7 @@ ImageHandle addBlendedLayers(GraphScope scope, const SceneView& scene, const Ren
                              const LightClusters& lights, ImageHandle behind, const RenderSettings& settings,
                              BlendedHistory& history) {
     if (!scene.draws->hasBlended() || settings.blending.layers == 0) return behind;
-    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.slots.blended, scene.eye.clipFromWorld,
-                                               DrawnSurfaces::kBlended);
+    const ViewDraws& draws = scene.draws->blendedOf(*scene.scene, scene.slots.blended, scene.slots.camera);
     if (draws.rows.empty()) return behind;
     const PictureWindow window = chooseWindow(scene, draws, history);
     SceneView seen = scene;
@@ -149,8 +151,9 @@ ImageHandle addBlendedLayers(GraphScope scope, const SceneView& scene, const Ren
         const PeeledBetween between{frame.gbuffer.surfaces.depth, nearer, window.origin};
         layer.surfaces = addBlendedSurfaces(own, seen, draws, between, settings.bounce.valShading.glossy);
         layer.radiance = addLight(own, layer.surfaces.gbuffer, seen, frame, lights, settings,
-                                  history.layers[layers.count++]);
+                                  history.layers[layers.count]);
         nearer = layer.surfaces.gbuffer.surfaces.depth;
+        ++layers.count;
     }
     return addOver(scope, layers, behind, window.origin);
 }

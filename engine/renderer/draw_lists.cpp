@@ -165,25 +165,51 @@ void DrawLists::cullAll(const RenderScene& scene, std::span<const ViewRequest> v
     });
 }
 
-const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld,
-                                 DrawnSurfaces surfaces) {
+const ViewDraws& DrawLists::cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld) {
     ensureView(slot);
-    cullView(scene, {slot, clipFromWorld, surfaces});
+    cullView(scene, {slot, clipFromWorld});
     place(views_[slot]);
     return views_[slot].draws;
 }
 
-void DrawLists::addInSight(const RenderScene& scene, const ViewRequest& request, View& view) const {
-    const bool blended = request.surfaces == DrawnSurfaces::kBlended;
-    const uint32_t first = blended ? firstBlended_ : 0,
-                   end = blended ? uint32_t(order_.size()) : firstBlended_;
+const ViewDraws& DrawLists::blendedOf(const RenderScene& scene, uint32_t slot, uint32_t seenBy) {
+    ensureView(slot);
+    View& view = views_[slot];
+    const View& whole = views_[seenBy];
+    if (isCulled(view, whole.clipFromWorld)) return view.draws;
+    addInSight(scene, whole, {firstBlended_, uint32_t(order_.size())}, view);
+    noteCulled(view, whole.clipFromWorld);
+    place(view);
+    return view.draws;
+}
+
+bool DrawLists::isCulled(const View& view, const glm::mat4& clipFromWorld) const {
+    return view.generation == generation_ && view.instancesVersion == instancesVersion_ &&
+           view.clipFromWorld == clipFromWorld;
+}
+
+void DrawLists::noteCulled(View& view, const glm::mat4& clipFromWorld) const {
     ViewDraws& draws = view.draws;
+    const uint64_t version = combineHash(draws.staticVersion, draws.movableVersion);
+    view.dirty = view.dirty || version != draws.version;
+    draws.version = version;
+    view.clipFromWorld = clipFromWorld;
+    view.instancesVersion = instancesVersion_;
+    view.generation = generation_;
+}
+
+// Those of the ranks.
+void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks ranks, View& view) const {
+    ViewDraws& draws = view.draws;
+    draws.commands.clear();
+    draws.rows.clear();
+    std::ranges::fill(draws.buckets, BucketRange{});
     draws.staticVersion = draws.movableVersion = combineHash(geometryVersion_, generation_);
-    for (uint32_t word = first / 64; word < view.inSight.size(); ++word)
-        for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
+    for (uint32_t word = ranks.begin / 64; word < seenBy.inSight.size(); ++word)
+        for (uint64_t bits = seenBy.inSight[word]; bits; bits &= bits - 1) {
             const uint32_t rank = word * 64 + uint32_t(std::countr_zero(bits));
-            if (rank >= end) return;
-            if (rank < first || beyondFar(bounds_.of(rank), request.clipFromWorld)) continue;
+            if (rank >= ranks.end) return;
+            if (rank < ranks.begin || beyondFar(bounds_.of(rank), seenBy.clipFromWorld)) continue;
             const uint32_t i = order_[rank];
             const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
             const int32_t firstVertex = firstVertexOf(scene, scene.instances[i]);
@@ -197,22 +223,11 @@ void DrawLists::addInSight(const RenderScene& scene, const ViewRequest& request,
 // Writes only what is the view's own: several may run at once.
 void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
     View& view = views_[request.slot];
-    if (view.generation == generation_ && view.instancesVersion == instancesVersion_ &&
-        view.clipFromWorld == request.clipFromWorld && view.surfaces == request.surfaces)
-        return;
-    ViewDraws& draws = view.draws;
-    draws.commands.clear();
-    draws.rows.clear();
-    std::ranges::fill(draws.buckets, BucketRange{});
+    if (isCulled(view, request.clipFromWorld)) return;
     bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
-    addInSight(scene, request, view);
-    const uint64_t version = combineHash(draws.staticVersion, draws.movableVersion);
-    view.dirty = view.dirty || version != draws.version;
-    draws.version = version;
     view.clipFromWorld = request.clipFromWorld;
-    view.surfaces = request.surfaces;
-    view.instancesVersion = instancesVersion_;
-    view.generation = generation_;
+    addInSight(scene, view, {0, firstBlended_}, view);
+    noteCulled(view, request.clipFromWorld);
 }
 
 void DrawLists::place(View& view) {

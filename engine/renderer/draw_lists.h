@@ -59,14 +59,10 @@ struct ViewDraws {
     void add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t row, bool movable);
 };
 
-// Which surfaces: what blends with what is behind it is seen by the camera alone.
-enum class DrawnSurfaces : uint8_t { kOpaque, kBlended };
-
 // Slots keep their lists from frame to frame; ViewSlots says whose they are.
 struct ViewRequest {
     uint32_t slot = 0;
     glm::mat4 clipFromWorld{1};
-    DrawnSurfaces surfaces = DrawnSurfaces::kOpaque;
 };
 
 class DrawLists {
@@ -81,8 +77,10 @@ class DrawLists {
     Bounds boundsOf(uint32_t instance) const { return bounds_.of(rankOf_[instance]); }  // world
 
     // The result stays in place and is valid until the next cull of that slot.
-    const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld,
-                          DrawnSurfaces surfaces = DrawnSurfaces::kOpaque);
+    const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
+    // Into slot `slot` what blends with what is behind it, of what the view in slot `seenBy`, just culled,
+    // sees. No other list has any of that.
+    const ViewDraws& blendedOf(const RenderScene& scene, uint32_t slot, uint32_t seenBy);
 
     // Into slot `slot` of what `from` draws the instances in `rows` (ascending) alone.
     const ViewDraws& pick(uint32_t slot, const ViewDraws& from, std::span<const RenderScene::Range> rows);
@@ -101,7 +99,6 @@ class DrawLists {
     struct View {
         ViewDraws draws;
         glm::mat4 clipFromWorld{0};
-        DrawnSurfaces surfaces = DrawnSurfaces::kOpaque;
         uint64_t instancesVersion = 0;
         uint64_t generation = 0;
         bool dirty = true;
@@ -112,7 +109,12 @@ class DrawLists {
     bool refreshBounds(const RenderScene& scene, bool all);
     void ensureView(uint32_t slot);
     void cullView(const RenderScene& scene, const ViewRequest& request);
-    void addInSight(const RenderScene& scene, const ViewRequest& request, View& view) const;
+    struct Ranks {
+        uint32_t begin = 0, end = 0;
+    };
+    void addInSight(const RenderScene& scene, const View& seenBy, Ranks ranks, View& view) const;
+    bool isCulled(const View& view, const glm::mat4& clipFromWorld) const;
+    void noteCulled(View& view, const glm::mat4& clipFromWorld) const;
     void place(View& view);
 
     std::vector<DrawBucket> buckets_;

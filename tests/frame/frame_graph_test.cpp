@@ -281,8 +281,8 @@ TEST_F(NullGraph, ScopesShareNothingButTheFrame) {
     };
     using enum PassOutcome;
     EXPECT_EQ(frame(1, 1), std::pair(kRan, kRan));
-    EXPECT_EQ(g.report()[0].scope, "left");
-    EXPECT_EQ(g.report()[1].scope, "right");
+    EXPECT_EQ(g.report()[0].name, "left/step");
+    EXPECT_EQ(g.report()[1].name, "right/step");
     EXPECT_EQ(g.describe().passes[1].name, "right/step");
     EXPECT_EQ(frame(2, 1), std::pair(kRan, kSkipped)) << "what changes in one does not touch the other";
     right.reset();
@@ -296,6 +296,7 @@ TEST_F(NullGraph, ScopesShareNothingButTheFrame) {
     g.beginFrame(options);
     EXPECT_FALSE(declareSum(again, 1).valid);
     run();
+    EXPECT_EQ(g.report().front().name, "again/step");
     EXPECT_EQ(g.report().front().outcome, kRan);
 }
 

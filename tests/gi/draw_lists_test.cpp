@@ -70,8 +70,7 @@ TEST(DrawLists, BlendedSurfacesHaveAListOfTheirOwn) {
                AlphaMode::kBlend;
     };
     const ViewDraws& opaque = l.seenByCamera();
-    const ViewDraws& blended =
-        l.lists.cull(l.scene, 1, l.scene.camera.clipFromWorld, DrawnSurfaces::kBlended);
+    const ViewDraws& blended = l.lists.blendedOf(l.scene, 1, 0);
     EXPECT_TRUE(l.lists.hasBlended());
     EXPECT_TRUE(std::ranges::none_of(opaque.rows, blends));
     EXPECT_TRUE(std::ranges::all_of(blended.rows, blends));

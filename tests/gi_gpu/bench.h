@@ -101,4 +101,23 @@ inline void expectAlike(const Image& image, const Image& truth, uint32_t spacing
     EXPECT_NEAR(meanOf(image) / mean, 1, 0.002);
 }
 
+// A still scene's picture after `frames` frames: nothing runs any more, and no bit differs from that without
+// skipping.
+inline void expectRestAndNoBitSkipped(const SceneAsset& asset, glm::uvec2 size,
+                                      const RenderSettings& settings, int frames) {
+    std::array<Image, 2> images;
+    for (const bool skip : {true, false}) {
+        Bench b(asset, size);
+        b.settings = settings;
+        b.options.skip = skip;
+        for (int i = 0; i < frames; ++i)
+            b.frame();
+        images[skip] = readImage(b.renderer, b.last.outputs.radiance);
+        if (skip) {
+            EXPECT_EQ(b.passesRun(), 0);
+        }
+    }
+    EXPECT_EQ(images[0].pixels, images[1].pixels);
+}
+
 }  // namespace ag::gi

@@ -6,49 +6,12 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
-#include "common/brdf.h"
-#include "common/tonemap.h"
 #include "engine/core/program.h"
 #include "tools/reference/light_sources.h"
 
 namespace ag::reference {
 namespace {
-
-// Linear values of the 256 sRGB codes.
-const std::array<float, 256>& linearOfCode() {
-    static const auto table = [] {
-        std::array<float, 256> values{};
-        for (size_t i = 0; i < values.size(); ++i)
-            values[i] = io::linearFromSrgb1(float(i) / 255.0f);
-        return values;
-    }();
-    return table;
-}
-
-// Bilinear, repeating, of one layer's finest level.
-glm::vec4 sampleLayer(const std::vector<uint8_t>& texels, uint32_t size, glm::vec2 uv, bool srgb) {
-    const glm::vec2 at = (uv - glm::floor(uv)) * float(size) - 0.5f;
-    const glm::vec2 low = glm::floor(at), f = at - low;
-    const auto texel = [&](int dx, int dy) {
-        const uint32_t x = uint32_t(int(low.x) + dx + int(size)) % size,
-                       y = uint32_t(int(low.y) + dy + int(size)) % size;
-        const uint8_t* t = &texels[(size_t(y) * size + x) * 4];
-        if (!srgb) return glm::vec4(t[0], t[1], t[2], t[3]) / 255.0f;
-        const auto& linear = linearOfCode();
-        return glm::vec4(linear[t[0]], linear[t[1]], linear[t[2]], float(t[3]) / 255.0f);
-    };
-    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
-}
-
-glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t layer, glm::vec2 uv, bool srgb) {
-    if (layer < 0) return glm::vec4(1);
-    const TextureLayers& layers = g.textures[size_t(m.textureClass)];
-    const glm::vec2 at = m.uvTransform * glm::vec3(uv, 1);
-    return sampleLayer((srgb ? layers.srgb : layers.linear)[size_t(layer)], textureClassSize(m.textureClass),
-                       at, srgb);
-}
 
 void onEmbreeError(void*, RTCError, const char* what) {
     endProgram(fmt::format("Embree failed: {}", what));
@@ -123,72 +86,6 @@ RayScene::~RayScene() {
     rtcReleaseDevice(device_);
 }
 
-glm::vec2 RayScene::uvAt(const Part& part, uint32_t triangle, float u, float v) const {
-    const GeometryArrays& g = *scene_.geometry;
-    const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
-    const VertexAttributes* a = part.vertices.attributes;
-    return a[i[0]].uv * (1 - u - v) + a[i[1]].uv * u + a[i[2]].uv * v;
-}
-
-glm::vec3 RayScene::colorAt(const Part& part, uint32_t triangle, float u, float v) const {
-    const uint32_t* i = &scene_.geometry->indices[part.primitive->firstIndex + 3 * triangle];
-    const auto color = [&](uint32_t corner) {
-        return glm::vec3(glm::unpackUnorm3x10_1x2(part.vertices.attributes[i[corner]].color));
-    };
-    return color(0) * (1 - u - v) + color(1) * u + color(2) * v;
-}
-
-const Material& RayScene::materialOf(uint32_t part) const {
-    return scene_.geometry->materials[parts_[part]->primitive->material];
-}
-
-std::array<glm::vec3, 3> RayScene::cornersOf(const Part& part, uint32_t triangle) const {
-    const uint32_t* i = &scene_.geometry->indices[part.primitive->firstIndex + 3 * triangle];
-    std::array<glm::vec3, 3> corners;
-    for (size_t c = 0; c < 3; ++c)
-        corners[c] = part.instance->worldFromLocal * glm::vec4(part.vertices.positions[i[c]], 1);
-    return corners;
-}
-
-glm::vec3 RayScene::frontNormal(uint32_t part, uint32_t triangle) const {
-    if (parts_[part]->doubleSided) return glm::vec3(0);
-    const auto c = cornersOf(*parts_[part], triangle);
-    const glm::vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]) * (parts_[part]->mirrored ? -1.0f : 1.0f);
-    const float length = glm::length(n);
-    return length > 0 ? n / length : glm::vec3(0);
-}
-
-float RayScene::triangleArea(uint32_t part, uint32_t triangle) const {
-    const auto c = cornersOf(*parts_[part], triangle);
-    return 0.5f * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-}
-
-glm::vec3 RayScene::emissionAt(uint32_t part, uint32_t triangle, float u, float v) const {
-    const Material& m = materialOf(part);
-    if (m.textureClass == TextureClass::kNone || m.emissiveLayer < 0) return m.emissive;
-    const glm::vec2 uv = uvAt(*parts_[part], triangle, u, v);
-    return m.emissive * glm::vec3(sampleTexture(*scene_.geometry, m, m.emissiveLayer, uv, true));
-}
-
-Surface RayScene::placeOn(uint32_t part, uint32_t triangle, float u, float v, glm::vec3 from) const {
-    const auto c = cornersOf(*parts_[part], triangle);
-    Surface s;
-    const glm::vec3 position = c[0] * (1 - u - v) + c[1] * u + c[2] * v;
-    const float distance = glm::distance(position, from);
-    const glm::vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
-    takeHit(from, (position - from) / std::max(distance, 1e-20f), distance, normal, part, s);
-    s.triangle = triangle, s.u = u, s.v = v;
-    return s;
-}
-
-bool RayScene::masked(const Part& part, uint32_t triangle, float u, float v) const {
-    const GeometryArrays& g = *scene_.geometry;
-    const Material& m = g.materials[part.primitive->material];
-    const float alpha =
-        m.baseColor.w * sampleTexture(g, m, m.baseColorLayer, uvAt(part, triangle, u, v), true).w;
-    return alpha < m.alphaCutoff;
-}
-
 void RayScene::filterMasked(const RTCFilterFunctionNArguments* arguments) {
     const auto& self = *static_cast<const RayScene*>(arguments->geometryUserPtr);
     for (uint32_t i = 0; i < arguments->N; ++i) {
@@ -238,94 +135,6 @@ void RayScene::takeHit(glm::vec3 origin, glm::vec3 direction, float distance, gl
     s.part = part;
     s.hidden = behind != parts_[part]->mirrored && !parts_[part]->doubleSided;
     s.resolved = false;
-}
-
-void RayScene::resolve(Surface& s) const {
-    if (s.resolved) return;
-    s.resolved = true;
-    const Part& part = *parts_[s.part];
-    const GeometryArrays& g = *scene_.geometry;
-    const Material& m = g.materials[part.primitive->material];
-    s.normal = shadingNormal(part, s.triangle, s.u, s.v, s.geometricNormal);
-    if (s.hidden) {
-        s.albedo = s.baseColor = s.emissive = glm::vec3(0);
-        s.metallic = s.specular = 0;
-        return;
-    }
-    s.baseColor = glm::vec3(m.baseColor);
-    s.metallic = m.metallic;
-    s.roughness = m.roughness;
-    s.specular = m.specular;
-    s.emissive = m.emissive;
-    if (m.textureClass != TextureClass::kNone) {
-        const glm::vec2 uv = uvAt(part, s.triangle, s.u, s.v);
-        s.baseColor *= glm::vec3(sampleTexture(g, m, m.baseColorLayer, uv, true));
-        const glm::vec4 mr = sampleTexture(g, m, m.metallicRoughnessLayer, uv, false);
-        s.metallic *= mr.z;
-        s.roughness *= mr.y;
-        s.emissive *= glm::vec3(sampleTexture(g, m, m.emissiveLayer, uv, true));
-    }
-    if (m.vertexColors) s.baseColor *= colorAt(part, s.triangle, s.u, s.v);
-    s.albedo = io::diffuseAlbedo(s.baseColor, s.metallic);
-}
-
-Veil RayScene::veilOf(Surface& s, glm::vec3 direction, bool glossy) const {
-    resolve(s);
-    const Part& part = *parts_[s.part];
-    const GeometryArrays& g = *scene_.geometry;
-    const Material& m = g.materials[part.primitive->material];
-    const float alpha =
-        m.baseColor.w * sampleTexture(g, m, m.baseColorLayer, uvAt(part, s.triangle, s.u, s.v), true).w;
-    Veil veil{.coverage = m.coversWholly ? 1.0f : std::clamp(alpha, 0.0f, 1.0f)};
-    const glm::vec3 reflected = glossy
-                                    ? io::fresnelSchlick(io::specularF0(s.baseColor, s.metallic, s.specular),
-                                                         glm::vec3(io::specularF90(s.metallic, s.specular)),
-                                                         std::abs(glm::dot(direction, s.geometricNormal)))
-                                    : glm::vec3(0);
-    veil.transmitted = io::sheetTransmits(s.baseColor, s.metallic, veil.coverage, m.transmission, reflected);
-    // Right for metals and for what is none.
-    s.baseColor *= 1 - m.transmission * (1 - s.metallic);
-    s.albedo = io::diffuseAlbedo(s.baseColor, s.metallic);
-    return veil;
-}
-
-// The interpolated normal on the ray's side, bent by the normal map as the G-buffer does it.
-glm::vec3 RayScene::shadingNormal(const Part& part, uint32_t triangle, float u, float v,
-                                  glm::vec3 geometricNormal) const {
-    const GeometryArrays& g = *scene_.geometry;
-    const Material& m = g.materials[part.primitive->material];
-    const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
-    const VertexAttributes* a = part.vertices.attributes;
-    const float w = 1 - u - v;
-    glm::vec3 n =
-        glm::normalize(part.normalFromLocal * (a[i[0]].normal * w + a[i[1]].normal * u + a[i[2]].normal * v));
-    if (glm::dot(n, geometricNormal) < 0) n = -n;
-    if (m.normalLayer < 0) return n;
-
-    const glm::vec4 tangent = a[i[0]].tangent * w + a[i[1]].tangent * u + a[i[2]].tangent * v;
-    glm::vec3 t = part.worldFromLocal * glm::vec3(tangent), b;
-    if (glm::dot(t, t) > 1e-12f) {
-        t = glm::normalize(t - n * glm::dot(n, t));
-        b = glm::cross(n, t) * tangent.w;
-    } else {  // along the triangle's own texture coordinates
-        const glm::vec3* p = part.vertices.positions;
-        const glm::vec3 e1 = part.worldFromLocal * (p[i[1]] - p[i[0]]),
-                        e2 = part.worldFromLocal * (p[i[2]] - p[i[0]]);
-        const glm::vec2 d1 = a[i[1]].uv - a[i[0]].uv, d2 = a[i[2]].uv - a[i[0]].uv;
-        const float sign = d1.x * d2.y - d1.y * d2.x < 0 ? -1.0f : 1.0f;
-        t = (e1 * d2.y - e2 * d1.y) * sign;
-        b = (e2 * d1.x - e1 * d2.x) * sign;
-        const float scale = std::sqrt(std::max(glm::dot(t, t), glm::dot(b, b)));
-        if (!(scale > 0)) return n;
-        t /= scale;
-        b /= scale;
-    }
-    glm::vec3 mapped =
-        glm::vec3(sampleTexture(g, m, m.normalLayer, uvAt(part, triangle, u, v), false)) * 2.0f - 1.0f;
-    mapped.x *= m.normalScale;
-    mapped.y *= m.normalScale;
-    const glm::vec3 bent = t * mapped.x + b * mapped.y + n * mapped.z;
-    return glm::dot(bent, bent) > 1e-12f ? glm::normalize(bent) : n;
 }
 
 bool RayScene::visible(glm::vec3 origin, glm::vec3 direction, float distance) const {

@@ -122,6 +122,7 @@ class RayScene {
     glm::vec3 colorAt(const Part& part, uint32_t triangle, float u, float v) const;
     glm::vec3 shadingNormal(const Part& part, uint32_t triangle, float u, float v,
                             glm::vec3 geometricNormal) const;
+    float alphaAt(const Part& part, uint32_t triangle, float u, float v) const;
     bool masked(const Part& part, uint32_t triangle, float u, float v) const;
     static void filterMasked(const RTCFilterFunctionNArguments* arguments);
 
