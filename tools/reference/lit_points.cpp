@@ -1,6 +1,7 @@
 #include "tools/reference/lit_points.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -14,7 +15,9 @@ namespace {
 
 constexpr uint32_t kTexels = 1 << 16;  // of all lights together
 constexpr uint32_t kMostResolution = 256, kLeastResolution = 4;
-constexpr double kLearned = 0.8;  // share of the chances, once there is enough to learn from
+constexpr uint32_t kPointsAtOnce = 512;
+constexpr uint32_t kCellSide = 8;  // texels
+constexpr double kLearned = 0.8;   // share of the chances, once there is enough to learn from
 constexpr double kEnoughNotes = 1000;
 constexpr float kGlossOfTarget = 0.1f;  // metals send light, too
 
@@ -37,21 +40,35 @@ LitPoints::LitPoints(const RayScene& scene) : scene_(scene) {
         faces += faceCount(l.light);
     const auto side = uint32_t(std::sqrt(double(kTexels) / std::max(faces, 1u)));
     const uint32_t resolution = std::clamp(side, kLeastResolution, kMostResolution);
-    for (uint32_t l = 0; l < lights.size(); ++l) {
-        const RenderLight& light = lights[l].light;
-        Map map{{faceCount(light), resolution}, uint32_t(power_.size()), light.castsShadow};
-        maps_.push_back(map);
-        if (!map.used) continue;
-        for (uint32_t t = 0; t < map.shape.texels(); ++t) {
-            const uint32_t face = t / (resolution * resolution);
-            const glm::vec2 ndc = texelCenter(map.shape, t % (resolution * resolution));
-            power_.push_back(double(mean(beamAt(light, scene.scene().bounds, face, ndc, resolution).power)));
-            lightOfTexel_.push_back(l);
-        }
-    }
+    for (uint32_t l = 0; l < lights.size(); ++l)
+        addMap(l, resolution);
     worth_.assign(power_.size(), 0);
     total_ = std::reduce(power_.begin(), power_.end());
     if (!empty()) setChances(power_);
+}
+
+void LitPoints::addMap(uint32_t l, uint32_t resolution) {
+    const RenderLight& light = scene_.lights()[l].light;
+    Map map{{faceCount(light), resolution}, uint32_t(power_.size()), light.castsShadow};
+    maps_.push_back(map);
+    if (!map.used) return;
+    const uint32_t cells = (resolution + kCellSide - 1) / kCellSide;
+    for (uint32_t t = 0; t < map.shape.texels(); ++t) {
+        const uint32_t face = t / (resolution * resolution), inFace = t % (resolution * resolution);
+        const glm::vec2 ndc = texelCenter(map.shape, inFace);
+        power_.push_back(double(mean(beamAt(light, scene_.scene().bounds, face, ndc, resolution).power)));
+        lightOfTexel_.push_back(l);
+        const glm::uvec2 cell = glm::uvec2(inFace % resolution, inFace / resolution) / kCellSide;
+        cellOfTexel_.push_back(cellCount_ + (face * cells + cell.y) * cells + cell.x);
+    }
+    cellCount_ += map.shape.faces * cells * cells;
+}
+
+void LitPoints::setTileCount(uint32_t count) {
+    if (tiles_.size() == count) return;
+    tiles_.assign(count, {});
+    for (Tile& tile : tiles_)
+        tile.sights.resize(cellCount_);
 }
 
 void LitPoints::setChances(std::span<const double> weights) {
@@ -63,9 +80,10 @@ void LitPoints::setChances(std::span<const double> weights) {
     cumulative_.back() = 1;
 }
 
-LitPoint LitPoints::pointOn(uint32_t light, const Surface& at, glm::vec3 irradiance) const {
+LitPlace LitPoints::pointOn(uint32_t light, const Surface& at, glm::vec3 irradiance) const {
     const Map& map = maps_[light];
-    LitPoint point{.position = at.position, .normal = at.geometricNormal};
+    LitPlace point;
+    point.position = at.position, point.normal = at.geometricNormal;
     if (!map.used) return point;
     const RenderLight& l = scene_.lights()[light].light;
     const MapPlace place = placeOnMap(l, scene_.scene().bounds, at.position, map.shape.resolution);
@@ -73,6 +91,7 @@ LitPoint LitPoints::pointOn(uint32_t light, const Surface& at, glm::vec3 irradia
     const uint32_t n = map.shape.resolution;
     const glm::uvec2 t = glm::min(glm::uvec2((place.ndc * 0.5f + 0.5f) * float(n)), glm::uvec2(n - 1));
     const uint32_t texel = map.firstTexel + (place.face * n + t.y) * n + t.x;
+    point.cell = cellOfTexel_[texel];
     const glm::vec3 d = at.position - l.position;
     const bool sun = l.kind == LightKind::kDirectional;
     const float cosine = std::abs(glm::dot(at.geometricNormal, sun ? l.direction : glm::normalize(d)));
@@ -81,7 +100,7 @@ LitPoint LitPoints::pointOn(uint32_t light, const Surface& at, glm::vec3 irradia
     return point;
 }
 
-void LitPoints::addPoint(uint32_t texel, glm::vec2 inTexel, uint64_t& rays) {
+void LitPoints::placePoint(uint32_t index, uint32_t texel, glm::vec2 inTexel, uint64_t& rays) {
     const uint32_t l = lightOfTexel_[texel];
     const Map& map = maps_[l];
     const RenderLight& light = scene_.lights()[l].light;
@@ -89,8 +108,8 @@ void LitPoints::addPoint(uint32_t texel, glm::vec2 inTexel, uint64_t& rays) {
     const glm::vec2 at(inFace % n, inFace / n);
     const glm::vec2 ndc = (at + inTexel) / float(n) * 2.0f - 1.0f;
     const Beam beam = beamAt(light, scene_.scene().bounds, inMap / (n * n), ndc, n);
-    LitPoint& point = points_.emplace_back();
-    LitPointSource& source = sources_.emplace_back();
+    LitPoint& point = points_[index];
+    LitPointSource& source = sources_[index];
     source.toLight = -beam.direction;
     source.texel = texel;
     Surface& s = source.surface;
@@ -111,20 +130,24 @@ void LitPoints::addPoint(uint32_t texel, glm::vec2 inTexel, uint64_t& rays) {
     point.brightness = brightnessOf(source.arriving, s);
 }
 
-void LitPoints::draw(uint32_t count, uint32_t seed, uint64_t& rays) {
-    points_.clear();
-    sources_.clear();
+void LitPoints::draw(uint32_t count, uint32_t seed, JobRunner& runner, uint64_t& rays) {
     if (empty()) return;
-    Random random{uint64_t(io::hashUint(seed)) << 32 | seed};
-    random.next();
-    uint32_t texel = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        const double u = (i + double(random.next())) / count;
-        while (texel + 1 < cumulative_.size() && cumulative_[texel] <= u)
-            ++texel;
-        const glm::vec2 inTexel(random.next(), random.next());
-        addPoint(texel, inTexel, rays);
-    }
+    points_.assign(count, {});
+    sources_.assign(count, {});
+    std::atomic<uint64_t> traced{0};
+    runner.parallelFor(count, kPointsAtOnce, [&](uint32_t begin, uint32_t end) {
+        uint64_t own = 0;
+        for (uint32_t i = begin; i < end; ++i) {
+            Random random{uint64_t(io::hashUint(seed ^ io::hashUint(i))) << 32 | seed};
+            const double along = (i + double(random.next())) / count;
+            const auto found = std::ranges::upper_bound(cumulative_, along);
+            const auto texel = uint32_t(std::min(found, cumulative_.end() - 1) - cumulative_.begin());
+            const float x = random.next();
+            placePoint(i, texel, {x, random.next()}, own);
+        }
+        traced += own;
+    });
+    rays += traced;
 }
 
 void LitPoints::note(std::span<const LitPointWorth> worths) {
@@ -160,17 +183,32 @@ void LitPoints::learn() {
     setChances(chances);
 }
 
-void TilePoints::choose(const LitPoints& lit, const Surface* surface, float spread, double usualSum,
-                        uint32_t seed) {
+float TilePoints::matters(const LitPoint& point, uint32_t cell) const {
+    float geometry = 0;
+    for (uint32_t i = 0; i < surfaces_.count; ++i)
+        geometry += roughGeometry(point, surfaces_.at[i]->position, surfaces_.at[i]->geometricNormal,
+                                  surfaces_.spread);
+    return point.brightness * geometry * chances_[cell];
+}
+
+void TilePoints::note(uint32_t point, bool seen) {
+    if (!sights_.empty()) sights_[lit_->cell(point)].note(seen);
+}
+
+void TilePoints::choose(const LitPoints& lit, const TileSurfaces& surfaces, double usualSum,
+                        std::span<Sight> sights, uint32_t seed) {
     lit_ = &lit;
     table_.clear();
     usualSum_ = sum_ = 0;
-    if (!surface) return;
-    position_ = surface->position, normal_ = surface->geometricNormal, spread_ = spread;
+    surfaces_ = surfaces;
+    sights_ = sights;
+    if (surfaces.count == 0) return;
+    chances_.resize(sights.size());
+    std::ranges::transform(sights, chances_.begin(), &Sight::chance);
     const auto points = lit.points();
     shares_.resize(points.size());
-    for (size_t i = 0; i < points.size(); ++i) {
-        shares_[i] = points[i].brightness * roughGeometry(points[i], position_, normal_, spread_);
+    for (uint32_t i = 0; i < points.size(); ++i) {
+        shares_[i] = points[i].brightness > 0 ? matters(points[i], lit.cell(i)) : 0;
         sum_ += double(shares_[i]);
     }
     sum_ /= double(points.size());
@@ -191,13 +229,6 @@ uint32_t TilePoints::candidate(bool matters, float place) const {
     const size_t size = chosen ? table_.size() : lit_->points().size();
     const auto at = std::min(size_t(place * float(size)), size - 1);
     return chosen ? table_[at] : uint32_t(at);
-}
-
-float TilePoints::usuallyOftener(const LitPoint& point) const {
-    if (!(usualSum_ > 0)) return 1;
-    const float share =
-        point.brightness * roughGeometry(point, position_, normal_, spread_) / float(usualSum_);
-    return 0.5f + 0.5f * share;
 }
 
 }  // namespace ag::reference

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/jobs/job_graph.h"
 #include "tools/reference/light_beams.h"
 
 namespace ag::reference {
@@ -39,6 +40,22 @@ inline float roughGeometry(const LitPoint& p, glm::vec3 position, glm::vec3 norm
     return std::max(sent, 0.0f) * (kLeastCosine + std::max(received, 0.0f)) / (square + spread * spread);
 }
 
+// A place that a light lights, as if it were a point.
+struct LitPlace : LitPoint {
+    uint32_t cell = 0;
+};
+
+// How often points of a cell were looked for from a tile of the picture, and how often they were seen.
+struct Sight {
+    uint16_t tried = 0, seen = 0;
+    void note(bool sees) {
+        if (tried == UINT16_MAX) return;
+        tried += 1, seen += sees;
+    }
+    // The next one is seen by a chance of about this; never 0.
+    float chance() const { return (float(seen) + 2) / (float(tried) + 2); }
+};
+
 // What a point brought to the picture: for learning.
 struct LitPointWorth {
     uint32_t texel = 0;
@@ -53,11 +70,13 @@ class LitPoints {
     bool empty() const { return total_ <= 0; }
     // What a place lit by a light would be if it were drawn; density 0: it cannot be. `irradiance` is the
     // light's there.
-    LitPoint pointOn(uint32_t light, const Surface& at, glm::vec3 irradiance) const;
+    LitPlace pointOn(uint32_t light, const Surface& at, glm::vec3 irradiance) const;
     // Draws `count` points, evenly over their chances. `rays` counts theirs.
-    void draw(uint32_t count, uint32_t seed, uint64_t& rays);
+    void draw(uint32_t count, uint32_t seed, JobRunner& runner, uint64_t& rays);
     std::span<const LitPoint> points() const { return points_; }
     const LitPointSource& source(uint32_t point) const { return sources_[point]; }
+    // Squares of texels of the maps: those of neighbours are seen alike.
+    uint32_t cell(uint32_t point) const { return cellOfTexel_[sources_[point].texel]; }
 
     // Whether points' worths are still asked for.
     bool learns() const { return learns_ && !empty(); }
@@ -68,8 +87,9 @@ class LitPoints {
     // Chances anew from what was noted.
     void learn();
 
-    // Usual sums of the picture's tiles, see TilePoints.
-    void setTileCount(uint32_t count) { tiles_.resize(count); }
+    // What is known of the picture's tiles, see TilePoints: usual sums, and what each sees, by cell.
+    void setTileCount(uint32_t count);
+    std::span<Sight> sights(uint32_t tile) { return tiles_[tile].sights; }
     double usualSum(uint32_t tile) const {
         return tiles_[tile].draws ? tiles_[tile].sum / tiles_[tile].draws : 0;
     }
@@ -79,6 +99,7 @@ class LitPoints {
     struct Tile {
         double sum = 0;
         uint32_t draws = 0;
+        std::vector<Sight> sights;
     };
     struct Map {
         BeamMap shape;
@@ -86,7 +107,8 @@ class LitPoints {
         bool used = false;
     };
     void setChances(std::span<const double> weights);
-    void addPoint(uint32_t texel, glm::vec2 inTexel, uint64_t& rays);
+    void placePoint(uint32_t index, uint32_t texel, glm::vec2 inTexel, uint64_t& rays);
+    void addMap(uint32_t light, uint32_t resolution);
     double chanceOf(uint32_t texel) const {
         return cumulative_[texel] - (texel ? cumulative_[texel - 1] : 0);
     }
@@ -94,7 +116,8 @@ class LitPoints {
 
     const RayScene& scene_;
     std::vector<Map> maps_;  // by light
-    std::vector<uint32_t> lightOfTexel_;
+    std::vector<uint32_t> lightOfTexel_, cellOfTexel_;
+    uint32_t cellCount_ = 0;
     std::vector<double> power_;       // W, of each texel's rays: the chances before anything is learned
     std::vector<double> cumulative_;  // of the chances
     std::vector<double> worth_;
@@ -106,14 +129,24 @@ class LitPoints {
     std::vector<LitPointSource> sources_;  // of the points
 };
 
+// Surfaces of a tile of the picture.
+struct TileSurfaces {
+    static constexpr uint32_t kMost = 4;
+    const Surface* at[kMost] = {};
+    uint32_t count = 0;
+    float spread = 0;  // about how large a piece each stands for, m
+};
+
 // The points that matter to one tile of the picture come oftener among its candidates than others.
 class TilePoints {
   public:
-    // `surface`: one of the tile's; null: all points alike. `spread`: the tile's size there, m. `usualSum`:
-    // of the rough geometry times brightness over points, the mean of earlier draws, so that weights do not
-    // depend on this draw; 0: none yet.
-    void choose(const LitPoints& lit, const Surface* surface, float spread, double usualSum, uint32_t seed);
+    // No surfaces: all points alike. `usualSum`: of what points matter, the mean of earlier draws, so that
+    // weights do not depend on this draw; 0: none yet. `sights`: of the tile, by cell; stays.
+    void choose(const LitPoints& lit, const TileSurfaces& surfaces, double usualSum, std::span<Sight> sights,
+                uint32_t seed);
     double sum() const { return sum_; }  // of this draw, a point
+    // Whether a point was seen from the tile, once it is known.
+    void note(uint32_t point, bool seen);
 
     // A point by a number in [0, 1): of those that matter here, or of all.
     uint32_t candidate(bool matters, float place) const;
@@ -121,14 +154,24 @@ class TilePoints {
     float oftener(uint32_t point) const { return table_.empty() ? 1 : 0.5f + 0.5f * shares_[point]; }
     // About the same, the same function of the lit place in every draw: for weights.
     float usuallyOftener(uint32_t point) const {
-        return usualSum_ > 0 ? 0.5f + float(0.5 * sum_ / usualSum_) * shares_[point] : 1;
+        return usualSum_ > 0 ? usuallyOftenerBy(float(sum_) * shares_[point]) : 1;
     }
-    float usuallyOftener(const LitPoint& place) const;
+    float usuallyOftener(const LitPlace& place) const {
+        return usualSum_ > 0 ? usuallyOftenerBy(matters(place, place.cell)) : 1;
+    }
 
   private:
+    // A draw that holds a point that matters so much has it in its sum.
+    float usuallyOftenerBy(float matters) const {
+        return 0.5f + 0.5f * matters / (float(usualSum_) + matters / float(shares_.size()));
+    }
+    // About what a point sends to the tile's surfaces and how likely they see it.
+    float matters(const LitPoint& point, uint32_t cell) const;
+
     const LitPoints* lit_ = nullptr;
-    glm::vec3 position_{0}, normal_{0};
-    float spread_ = 0;
+    TileSurfaces surfaces_;
+    std::span<Sight> sights_;
+    std::vector<float> chances_;  // that a cell is seen, as this draw began
     double sum_ = 0, usualSum_ = 0;
     std::vector<float> shares_;    // by point; mean 1
     std::vector<uint32_t> table_;  // points as often as their shares ask

@@ -56,10 +56,11 @@ void PathLanes::begin(uint32_t lane, const PathStart& start) {
     alive_ |= 1u << lane;
 }
 
-void PathLanes::beginTile(const Surface* surface, float spread, uint32_t tile, uint32_t seed) {
+void PathLanes::beginTile(const TileSurfaces& surfaces, double usualSum, std::span<Sight> sights,
+                          uint32_t seed) {
     if (!lit_) return;
-    tile_.choose(*lit_, surface, spread, surface ? lit_->usualSum(tile) : 0, seed);
-    all_.choose(*lit_, nullptr, 0, 0, 0);
+    tile_.choose(*lit_, surfaces, usualSum, sights, seed);
+    all_.choose(*lit_, {}, 0, {}, 0);
 }
 
 void PathLanes::trace(PixelSums& sums, std::vector<LitPointWorth>& worths) {
@@ -143,7 +144,10 @@ void PathLanes::connect(uint32_t bounce, PixelSums& sums, std::vector<LitPointWo
             rays.set(i, from, chosen[i].direction, chosen[i].distance - 2 * scene_.offset());
     });
     rays_ += uint64_t(std::popcount(rays.active));
-    forEachLane(scene_.visible(rays), [&](uint32_t i) {
+    const uint32_t visible = scene_.visible(rays);
+    forEachLane(bounce == 1 && lit_->learns() ? rays.active : 0,
+                [&](uint32_t i) { tile_.note(chosen[i].point, visible >> i & 1); });
+    forEachLane(visible, [&](uint32_t i) {
         const Lane& l = lanes_[i];
         const Bridge& b = chosen[i];
         const LitPointSource& p = lit_->source(b.point);
@@ -253,7 +257,7 @@ void PathLanes::receive(uint32_t bounce, Surface* met, PixelSums& sums) {
         if (!lit_) return 1.0f;
         const Surface& s = met[i];
         const float perSteradian = s.distance * s.distance / glm::dot(s.geometricNormal, toViewer[i]);
-        const LitPoint place = lit_->pointOn(light, s, irradiance);
+        const LitPlace place = lit_->pointOn(light, s, irradiance);
         const float oftener = bounce == 1 ? tile_.usuallyOftener(place) : 1;
         const float other = kCandidates / kSharing * place.density * oftener * perSteradian;
         return lanes_[i].density / (lanes_[i].density + other);

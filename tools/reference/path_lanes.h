@@ -30,8 +30,9 @@ class PathLanes {
     PathLanes(const RayScene& scene, const PathSettings& settings, const LitPoints* lit);
 
     void begin(uint32_t lane, const PathStart& start);
-    // The next paths begin at surfaces like this one; null: anywhere.
-    void beginTile(const Surface* surface, float spread, uint32_t tile, uint32_t seed);
+    // The next paths begin at surfaces like these; none: anywhere. What they see of lit points is noted in
+    // `sights`.
+    void beginTile(const TileSurfaces& surfaces, double usualSum, std::span<Sight> sights, uint32_t seed);
     double tileSum() const { return tile_.sum(); }
 
     // To their ends; what they bring is added.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "common/sampling.h"
 #include "tools/reference/path_lanes.h"
@@ -106,13 +107,24 @@ class PixelTracer {
           round_(round),
           paths_(scene, settings, round.lit) {}
 
-    // Before the pixels of a tile, from `corner` on.
+    // Before the pixels of a tile, from `corner` on. The middles of its quarters stand for it.
     void beginTile(glm::uvec2 corner, uint32_t tile) {
-        const glm::uvec2 middle = glm::min(corner + kTileSide / 2, hits_.size - 1u);
-        const Surface& s = hits_.surfaces[size_t(middle.y) * hits_.size.x + middle.x];
-        const float angle = 2 * std::tan(scene_.scene().camera.verticalFov / 2) / float(hits_.size.y);
+        if (!round_.lit) return;
+        TileSurfaces surfaces;
+        float distances = 0;
+        for (const glm::uvec2 quarter :
+             {glm::uvec2(1, 1), glm::uvec2(3, 1), glm::uvec2(1, 3), glm::uvec2(3, 3)}) {
+            const glm::uvec2 at = corner + quarter * kTileSide / 4u;
+            if (at.x >= hits_.size.x || at.y >= hits_.size.y) continue;
+            const Surface& s = hits_.surfaces[size_t(at.y) * hits_.size.x + at.x];
+            if (s.distance > 0) surfaces.at[surfaces.count++] = &s, distances += s.distance;
+        }
+        if (surfaces.count > 0) {
+            const float angle = 2 * std::tan(scene_.scene().camera.verticalFov / 2) / float(hits_.size.y);
+            surfaces.spread = distances / float(surfaces.count) * angle * kTileSide / 4;
+        }
         const uint32_t seed = io::hashUint(tile ^ io::hashUint(round_.seed + round_.number));
-        paths_.beginTile(s.distance > 0 ? &s : nullptr, s.distance * angle * kTileSide / 2, tile, seed);
+        paths_.beginTile(surfaces, round_.lit->usualSum(tile), round_.lit->sights(tile), seed);
     }
     double tileSum() const { return paths_.tileSum(); }
 
@@ -305,13 +317,16 @@ void traceFirstHits(const RayScene& scene, const PathSettings& settings, const L
 
 void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& settings,
               const PathRound& round, JobRunner& runner, LightSums& sums) {
+    constexpr uint32_t kTilesAtOnce = 4;
     LitPoints* const lit = round.lit;
     const glm::uvec2 tiles = (hits.size + kTileSide - 1u) / kTileSide;
+    const uint32_t count = tiles.x * tiles.y;
     std::atomic<uint64_t> rays{0};
-    std::vector<std::vector<LitPointWorth>> worths(tiles.y);
-    std::vector<double> tileSums(size_t(tiles.x) * tiles.y, 0);
-    if (lit) lit->setTileCount(uint32_t(tileSums.size()));
-    const auto traceTile = [&](glm::uvec2 at, uint32_t tile, PixelTracer& tracer) {
+    std::vector<std::vector<LitPointWorth>> worths(count);
+    std::vector<double> tileSums(count, 0);
+    if (lit) lit->setTileCount(count);
+    const auto traceTile = [&](uint32_t tile, PixelTracer& tracer) {
+        const glm::uvec2 at(tile % tiles.x, tile / tiles.x);
         bool begun = false;
         forEachPixelOfTile(at, hits.size, round.lattice, [&](uint32_t x, uint32_t y) {
             const size_t pixel = size_t(y) * hits.size.x + x;
@@ -321,21 +336,18 @@ void addPaths(const RayScene& scene, const FirstHits& hits, const PathSettings& 
             tracer.add(x, y, sums);
         });
         tileSums[tile] = begun ? tracer.tileSum() : 0;
+        worths[tile] = std::exchange(tracer.worths(), {});
     };
-    runner.parallelFor(tiles.y, 1, [&](uint32_t begin, uint32_t end) {
-        for (uint32_t row = begin; row < end; ++row) {
-            PixelTracer tracer(scene, hits, settings, round);
-            for (uint32_t column = 0; column < tiles.x; ++column)
-                traceTile({column, row}, row * tiles.x + column, tracer);
-            worths[row] = std::move(tracer.worths());
-            rays += tracer.rays();
-        }
+    runner.parallelFor(count, kTilesAtOnce, [&](uint32_t begin, uint32_t end) {
+        PixelTracer tracer(scene, hits, settings, round);
+        for (uint32_t tile = begin; tile < end; ++tile)
+            traceTile(tile, tracer);
+        rays += tracer.rays();
     });
-    for (uint32_t tile = 0; lit && tile < tileSums.size(); ++tile)
+    for (uint32_t tile = 0; lit && tile < count; ++tile) {
         if (tileSums[tile] > 0) lit->addTileSum(tile, tileSums[tile]);
-    if (lit && lit->learns())
-        for (const auto& row : worths)
-            lit->note(row);
+        if (lit->learns()) lit->note(worths[tile]);
+    }
     sums.rays += rays;
 }
 

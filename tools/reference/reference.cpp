@@ -162,7 +162,7 @@ class Half {
         const uint32_t seed = io::hashUint(seed_) + round_ * RayLanes::kCount;
         if (settings_.method == Method::kPaths) {
             const auto pixels = uint32_t(hits_.surfaces.size());
-            if (lit) lit->draw(std::clamp(pixels, kLeastPoints, kMostPoints), seed, sums_.rays);
+            if (lit) lit->draw(std::clamp(pixels, kLeastPoints, kMostPoints), seed, runner, sums_.rays);
             addPaths(scene_, hits_, settings_.paths,
                      {.seed = seed_, .number = round_, .count = count, .plan = &plan_, .lit = lit}, runner,
                      sums_);
@@ -205,7 +205,7 @@ void teach(const RayScene& scene, const FirstHits& hits, const ReferenceSettings
     LightSums ignored(hits.size, settings.paths.bounces);
     for (uint32_t lesson = 0; lesson < kLessons; ++lesson) {
         const uint32_t seed = io::hashUint(settings.seed ^ io::hashUint(lesson + 1));
-        lit.draw(kMostPoints, seed, rays);
+        lit.draw(kMostPoints, seed, runner, rays);
         addPaths(
             scene, hits, settings.paths,
             {.seed = seed, .count = RayLanes::kCount, .lattice = {std::max(step, 1u), {0, 0}}, .lit = &lit},
@@ -294,7 +294,7 @@ Reference makeReference(const RayScene& scene, glm::uvec2 size, const ReferenceS
         progress(std::min(done / target, 1.0));
         if (settings.maxError <= 0 || done < nextCheck) continue;
         if (picture.mean().noise < settings.maxError) break;
-        nextCheck = done + std::max(done / 2, 1.0);
+        nextCheck = done + std::max(done / 8, 1.0);
     }
     return picture.mean();
 }
