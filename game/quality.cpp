@@ -42,6 +42,7 @@ void applyQuality(Quality preset, render::RenderSettings& gi) {
     render::applyPreset(qualityName(preset), gi);
     if (preset == Quality::kLow) trim(gi);
     render::addBounces(gi);
+    gi.bounce.texelRays.enabled = false;  // the game never stands still
     gi.composite = before.composite;
     gi.exposure = before.exposure;
     if (preset == Quality::kHigh || preset == Quality::kUltra) gi.bloom.share = 0.05f;

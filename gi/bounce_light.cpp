@@ -32,8 +32,9 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     const ShadowedVals first{firstVals(f.vals, f.firstCount), f.isms};
     const ValTiles tiles = addShadingTiles(scope, downsampled, first, s.valShading, kFirstBounceShading);
     f.bounce1 = addValShading(tiles, s.valShading, kFirstBounceShading, refresh.pixels);
-    f.bounce1 = addTexelRays(tiles, f.bounce1, {f.rsm, f.clusters, in.occluders, in.world.versions},
-                             s.valShading, s.texelRays, h.texelRays);
+    f.bounce1 = addTexelRays(
+        tiles, f.bounce1, {f.rsm, f.clusters, in.occluders, in.world.versions, s.valClustering.settleFrames},
+        s.valShading, s.texelRays, h.texelRays);
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);
 
     // Light that goes on

@@ -79,6 +79,7 @@ struct Versions {
     uint64_t scene = 0;      // of what was loaded, unlike any before
     uint64_t instances = 1;  // where anything stands
     uint64_t lights = 1, camera = 1;
+    uint64_t view = 1;    // of the camera, wherever in its pixels it samples
     uint64_t origin = 1;  // of coordinates: histories in world space end when it moves
 };
 

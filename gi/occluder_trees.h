@@ -25,6 +25,11 @@ struct OccluderTrees {
 };
 
 enum class TreesOf { kStatic, kAll };
+// What rays of a frame need. `atRest`: they are cast only while nothing moves.
+struct TracedBy {
+    TreesOf of = TreesOf::kStatic;
+    bool atRest = false;
+};
 
 // Of all surfaces that block light, or of static ones alone. The cost is that of sorting all triangles some
 // 18 times: half a second for 250,000 on one core.

@@ -12,6 +12,7 @@ void setLow(BounceLightSettings& s) {
     s.valClustering.count = 64;
     s.ismAtlas = {.tileSize = 32, .pointsPerMap = 1024};
     s.spacing = 3;
+    s.texelRays.enabled = false;
 }
 
 void setMedium(BounceLightSettings&) {}

@@ -1,5 +1,6 @@
 #include "gi/texel_rays.h"
 
+#include <algorithm>
 #include <array>
 
 #include "engine/core/hash.h"
@@ -13,7 +14,7 @@
 namespace ag::gi {
 namespace {
 
-constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr uint32_t kMostRounds = 4;
 // Names are literals, because the graph keeps views of them.
 constexpr std::array<std::string_view, kMostRounds> kFilterNames = {
@@ -59,7 +60,9 @@ struct Choice {
     uint32_t blocks;
 };
 
-Choice addChoice(const ValTiles& t, uint32_t blocks, const HistoryBuffer& youngest, uint32_t step) {
+Choice addChoice(const ValTiles& t, uint32_t step) {
+    const glm::uvec2 along = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
+    const uint32_t blocks = along.x * along.y;
     const BufferInfo info{.sizeBytes = uint64_t(blocks) * t.push.valCount * 4,
                           .texelFormat = VK_FORMAT_R32_SFLOAT};
     const Choice choice{t.scope.buffer("texel_rays.up_to", info), t.scope.buffer("texel_rays.likely", info),
@@ -68,20 +71,15 @@ Choice addChoice(const ValTiles& t, uint32_t blocks, const HistoryBuffer& younge
     gatherPass(t, "texel_rays.choose", "texel_rays/choose_lights.comp", ValShape::kVectorDisk, 1)
         .readWrite("likely", choice.likely)
         .readWrite("upTo", choice.upTo)
-        .readPrevious("youngest", youngest)
-        .push(io::ChoosePush{t.push, step, youngest.valid})
+        .push(io::ChoosePush{t.push, step})
         .step(step)
         .dispatchGroups(choice.blocks);
     return choice;
 }
 
-struct CastHow {
-    float reach;  // in the scene's extent
-    uint32_t step;
-    HistoryBuffer youngest;  // of each block's means
-};
-
-ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, const CastHow& how) {
+// `reach`: in the scene's extent.
+ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, float reach,
+                    uint32_t step) {
     const Members members = addMembers(t.scope, in.rsm, in.clusters);
     const ImageHandle sent = t.scope.image("texel_rays.sent", {.format = kFloat4, .size = t.gbuffer.size});
     const BufferHandle noise = addBlueNoise(t.scope);
@@ -101,17 +99,15 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
         .read("slotOfTexel", in.clusters.slotOfTexel)
         .read("candidates", in.clusters.candidates)
         .read("noise", noise)
-        .readPrevious("youngest", how.youngest)
         .write("sent", sent)
         .push(io::CastPush{.tiles = t.push,
                            .atlasWidth = in.rsm.atlas.size.x,
                            .mapCount = in.rsm.lightRsmCount,
-                           .step = how.step,
-                           .shift = blueNoiseShift(how.step),
+                           .step = step,
+                           .shift = blueNoiseShift(step),
                            .offset = io::kBvhOffset * in.occluders.extent,
-                           .reach = how.reach * in.occluders.extent,
-                           .known = how.youngest.valid})
-        .step(how.step)
+                           .reach = reach * in.occluders.extent})
+        .step(step)
         .dispatchGroups(choice.blocks);
     readTrees(cast, in.occluders.trees);
     return sent;
@@ -134,32 +130,39 @@ ImageHandle addControl(const ValTiles& t, const Choice& choice, ImageHandle sent
     return control;
 }
 
-struct Means {
-    HistoryImage sent, control, moments, surface;
+// Of the surfaces that pixels see, now and in the frame before.
+struct Seen {
+    HistoryImage surface;
     BufferHandle cameras;
+    bool known;  // there is a frame before
 };
 
-struct Measured {
-    ImageHandle areaLights, sent, control;
-    BufferHandle youngest;
-    uint32_t step;
-};
-
-Means addMeans(const ValTiles& t, const Measured& of, uint64_t originVersion, const TexelRaysSettings& s,
-               TexelRaysHistory& history) {
-    const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
+Seen addSeen(const ValTiles& t, uint64_t originVersion, TexelRaysHistory& history) {
     const bool known = history.originVersion == originVersion;
     const RenderCamera before = known ? history.camera : t.gbuffer.view;
     history.camera = t.gbuffer.view;
     history.originVersion = originVersion;
-    const Means m{
-        .sent = t.scope.historyImage("texel_rays.sent_mean", info),
-        .control = t.scope.historyImage("texel_rays.control_mean", info),
-        .moments = t.scope.historyImage("texel_rays.moments", info),
-        .surface = t.scope.historyImage("texel_rays.surface",
-                                        {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = t.gbuffer.size}),
-        .cameras =
-            addReprojectionCameras(t.scope, "texel_rays.cameras", t.gbuffer.view, before, t.gbuffer.size)};
+    const ImageInfo info{.format = kHalf4, .size = t.gbuffer.size};
+    return {t.scope.historyImage("texel_rays.surface", info),
+            addReprojectionCameras(t.scope, "texel_rays.cameras", t.gbuffer.view, before, t.gbuffer.size),
+            known};
+}
+
+struct Means {
+    HistoryImage sent, control, moments;
+};
+
+struct Measured {
+    ImageHandle areaLights, sent, control;
+};
+
+Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const TexelRaysSettings& s,
+               const Settling& settling) {
+    const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
+    const Means m{.sent = t.scope.historyImage("texel_rays.sent_mean", info),
+                  .control = t.scope.historyImage("texel_rays.control_mean", info),
+                  .moments = t.scope.historyImage("texel_rays.moments", info)};
+    const bool begun = settling.sinceChange > 1;  // the first frame in which nothing changes knows no other
     t.scope.compute("texel_rays.accumulate", "texel_rays/accumulate.comp")
         .sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
@@ -169,24 +172,54 @@ Means addMeans(const ValTiles& t, const Measured& of, uint64_t originVersion, co
         .samplePrevious("previousSent", m.sent, Sampler::kNearestClamp)
         .samplePrevious("previousControl", m.control, Sampler::kNearestClamp)
         .samplePrevious("previousMoments", m.moments, Sampler::kNearestClamp)
-        .samplePrevious("previousSurface", m.surface, Sampler::kNearestClamp)
-        .read("cameras", m.cameras)
+        .samplePrevious("previousSurface", seen.surface, Sampler::kNearestClamp)
+        .read("cameras", seen.cameras)
         .write("sentMean", m.sent.current)
         .write("controlMean", m.control.current)
         .write("moments", m.moments.current)
-        .write("surface", m.surface.current)
-        .write("youngest", of.youngest)
-        .sample("motionMap", t.gbuffer.motion ? t.gbuffer.motion : t.gbuffer.normal)
-        .constant("kMotion", bool(t.gbuffer.motion))
-        .push(io::RayAccumulatePush{
-            .near = t.gbuffer.view.near, .valid = known && m.sent.valid, .mostLength = float(s.mostLength)})
-        .step(of.step)
+        .write("surface", seen.surface.current)
+        .push(io::RayAccumulatePush{.near = t.gbuffer.view.near,
+                                    .valid = begun && seen.known && m.sent.valid && seen.surface.valid,
+                                    .mostLength = float(s.mostLength)})
+        .step(settling.step)
         .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
     return m;
 }
 
-Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const Means& m,
-                         const TexelRaysSettings& s) {
+// What was added to the area lights' light, for when no rays are cast.
+struct Carried {
+    HistoryImage correction, carried;
+    ImageHandle irradiance;
+};
+
+Carried addCarried(const ValTiles& t, const Irradiance& areaLights) {
+    const ImageInfo info{.format = kHalf4, .size = t.gbuffer.size};
+    return {t.scope.historyImage("texel_rays.correction", info),
+            t.scope.historyImage("texel_rays.carried", info),
+            t.scope.image("texel_rays.irradiance", t.scope.info(areaLights.image))};
+}
+
+Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& seen, uint32_t step) {
+    const Carried c = addCarried(t, areaLights);
+    t.scope.compute("texel_rays.carry", "texel_rays/carry.comp")
+        .sample("normalMap", t.gbuffer.normal)
+        .sample("depthMap", t.gbuffer.depth)
+        .sample("areaLights", areaLights.image)
+        .samplePrevious("previousCorrection", c.correction, Sampler::kNearestClamp)
+        .samplePrevious("previousSurface", seen.surface, Sampler::kNearestClamp)
+        .read("cameras", seen.cameras)
+        .write("irradiance", c.irradiance)
+        .write("correction", c.correction.current)
+        .write("carried", c.carried.current)
+        .write("surface", seen.surface.current)
+        .push(io::CarryPush{t.gbuffer.view.near, seen.known && c.correction.valid && seen.surface.valid})
+        .step(step)
+        .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
+    return {c.irradiance, areaLights.toward};
+}
+
+Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const Means& m, const Seen& seen,
+                         const TexelRaysSettings& s, uint32_t step) {
     const glm::uvec2 size = t.gbuffer.size;
     const ImageInfo info{.format = kFloat4, .size = size};
     const std::array<ImageHandle, 2> turns = {t.scope.image("texel_rays.even", info),
@@ -198,8 +231,8 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
         .sample("sentMean", m.sent.current)
         .sample("controlMean", m.control.current)
         .sample("moments", m.moments.current)
-        .sample("surface", m.surface.current)
-        .read("cameras", m.cameras)
+        .sample("surface", seen.surface.current)
+        .read("cameras", seen.cameras)
         .write("rest", turns[0])
         .write("shareOf", share)
         .dispatchThreads(size.x, size.y);
@@ -207,19 +240,24 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
     for (; round < std::min(s.rounds, kMostRounds); ++round)
         t.scope.compute(kFilterNames[round], "ray_filter/filter.comp")
             .sample("rest", turns[round % 2])
-            .sample("surface", m.surface.current)
-            .read("cameras", m.cameras)
+            .sample("surface", seen.surface.current)
+            .read("cameras", seen.cameras)
             .write("result", turns[(round + 1) % 2])
             .push(io::RayFilterPush{int(1u << round), s.tolerance})
             .dispatchThreads(size.x, size.y);
-    const ImageHandle corrected = t.scope.image("texel_rays.irradiance", t.scope.info(areaLights.image));
+    const Carried c = addCarried(t, areaLights);
     t.scope.compute("texel_rays.correct", "texel_rays/correct.comp")
         .sample("areaLights", areaLights.image)
         .sample("rest", turns[round % 2])
         .sample("shareOf", share)
-        .write("irradiance", corrected)
+        .samplePrevious("previousCarried", c.carried, Sampler::kNearestClamp)
+        .write("irradiance", c.irradiance)
+        .write("correction", c.correction.current)
+        .write("carried", c.carried.current)
+        .push(uint32_t(seen.known && c.carried.valid))
+        .step(step)
         .dispatchThreads(size.x, size.y);
-    return {corrected, areaLights.toward};
+    return {c.irradiance, areaLights.toward};
 }
 
 }  // namespace
@@ -229,19 +267,18 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
                         TexelRaysHistory& history) {
     if (!s.enabled || !areaLights.image || !in.occluders.trees || !in.occluders.trees.moverNodes)
         return areaLights;
-    const uint64_t seen =
-        combineHash(in.rsm.inputsVersion, combineHash(in.versions.camera, in.versions.instances));
-    const uint32_t step = history.settling.advance(seen, s.settleFrames);
-    const glm::uvec2 along = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
-    const uint32_t blocks = along.x * along.y;
-    const HistoryBuffer youngest =
-        t.scope.historyBuffer("texel_rays.youngest", {.sizeBytes = blocks * sizeof(float)});
-    const Choice choice = addChoice(t, blocks, youngest, step);
-    const ImageHandle sent = addRays(t, choice, in, {s.reach, step, youngest});
+    const uint64_t stands =
+        combineHash(in.rsm.inputsVersion, combineHash(in.versions.view, in.versions.instances));
+    // While clusters change, what they send does: without new rays the old ones would count again.
+    const uint32_t frames = std::max(s.settleFrames, in.clustersSettle);
+    const uint32_t step = history.settling.advance(stands, frames);
+    const Seen seen = addSeen(t, in.versions.origin, history);
+    if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, step);
+    const Choice choice = addChoice(t, step);
+    const ImageHandle sent = addRays(t, choice, in, s.reach, step);
     const ImageHandle control = addControl(t, choice, sent, shading);
-    const Means means = addMeans(t, {areaLights.image, sent, control, youngest.current, step},
-                                 in.versions.origin, s, history);
-    return addCorrection(t, areaLights, means, s);
+    const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling);
+    return addCorrection(t, areaLights, means, seen, s, step);
 }
 
 }  // namespace ag::gi

@@ -1,7 +1,8 @@
-// The first bounce of area lights corrected by rays. Their sum is smooth, but wrong where a light is near or
-// its imperfect shadow map is coarse. Each pixel measures the error with two rays a frame to texels of the
-// reflective shadow maps, through the occluders' trees; the area lights' sum is a control variate of that
-// measurement. Means over frames, filtered by their variance.
+// The first bounce of area lights corrected by rays while nothing moves. The lights' sum is smooth, but wrong
+// where a light is near or its shadow map is coarse. Each pixel measures the error with two rays a frame to
+// texels of the reflective shadow maps, through the occluders' trees; the area lights' sum is a control
+// variate of that measurement. Means over frames, filtered by their variance. While something changes, no
+// rays are cast: surfaces keep what was found on them.
 #pragma once
 
 #include "engine/core/setting_fields.h"
@@ -12,12 +13,12 @@
 namespace ag::gi {
 
 struct TexelRaysSettings {
-    bool enabled = false;        // blotchy still: docs/techniques/texel_rays.md
-    float reach = 0.05f;         // of a hemisphere's ray, in the scene's extent
-    uint32_t mostLength = 128;   // frames that a mean stands for
-    uint32_t settleFrames = 64;  // frames with new rays after anything last changed
-    uint32_t rounds = 3;         // of the filter
-    float tolerance = 2;         // standard deviations by which the light of taps may differ
+    bool enabled = true;
+    float reach = 0.05f;          // of a hemisphere's ray, in the scene's extent
+    uint32_t mostLength = 1024;   // frames that a mean stands for
+    uint32_t settleFrames = 256;  // frames with new rays after anything last changed
+    uint32_t rounds = 3;          // of the filter
+    float tolerance = 1;          // standard deviations by which the light of taps may differ
 
     static constexpr auto fields() {
         return std::tuple{SettingField{"enabled", &TexelRaysSettings::enabled, 0, 0, "",
@@ -50,6 +51,7 @@ struct TexelRaysInputs {
     const Clusters& clusters;
     const Occluders& occluders;
     const Versions& versions;
+    uint32_t clustersSettle = 0;  // frames
 };
 
 // `areaLights`: what they send by `tiles`; the same corrected.

@@ -91,7 +91,7 @@ bool needsMotion(const RenderSettings& s, bool sky) {
     if (s.antialiasing.mode == Antialiasing::kTemporal) return true;
     if (sky && s.bounce.sky.enabled) return true;
     if (s.technique == Technique::kNone) return false;
-    return castsTexelRays(s) || (s.bounce.denoiser.enabled && s.bounce.denoiser.motion);
+    return s.bounce.denoiser.enabled && s.bounce.denoiser.motion;
 }
 
 gi::Versions versionsOf(const SceneView& scene) {
@@ -100,6 +100,7 @@ gi::Versions versionsOf(const SceneView& scene) {
             .instances = s.instancesVersion,
             .lights = s.lightsVersion,
             .camera = jitteredVersion(s.cameraVersion, scene.grid),
+            .view = s.cameraVersion,
             .origin = s.originVersion};
 }
 

@@ -214,13 +214,14 @@ bool castsTexelRays(const RenderSettings& s) {
     return s.technique == Technique::kAreaLights && s.bounce.texelRays.enabled;
 }
 
-std::optional<gi::TreesOf> tracedBy(const RenderSettings& s, const RenderScene& scene) {
+std::optional<gi::TracedBy> tracedBy(const RenderSettings& s, const RenderScene& scene) {
     constexpr std::array kWithMaps = {Technique::kAreaLights, Technique::kStochastic, Technique::kIsm,
                                       Technique::kRsmc, Technique::kAcrsm};
     const bool sky = scene.sky && s.bounce.sky.enabled;
-    if (castsTexelRays(s) || sky || castsRaysToLights(s, scene)) return gi::TreesOf::kAll;
+    if (sky || castsRaysToLights(s, scene)) return gi::TracedBy{gi::TreesOf::kAll};
+    if (castsTexelRays(s)) return gi::TracedBy{.of = gi::TreesOf::kAll, .atRest = true};
     const bool maps = s.bounce.ismAtlas.enabled && s.bounce.ismAtlas.traced;
-    if (maps && std::ranges::count(kWithMaps, s.technique) > 0) return gi::TreesOf::kStatic;
+    if (maps && std::ranges::count(kWithMaps, s.technique) > 0) return gi::TracedBy{gi::TreesOf::kStatic};
     return {};
 }
 

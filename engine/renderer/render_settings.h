@@ -72,7 +72,7 @@ void addBounces(RenderSettings& s);
 
 // Whether rays go to texels, and what rays of any kind are to meet; none: there are none.
 bool castsTexelRays(const RenderSettings& settings);
-std::optional<gi::TreesOf> tracedBy(const RenderSettings& settings, const RenderScene& scene);
+std::optional<gi::TracedBy> tracedBy(const RenderSettings& settings, const RenderScene& scene);
 
 // Smaller shadow maps where the device has no images of the size that was asked for.
 void fitToDevice(const VkPhysicalDeviceLimits& limits, RenderSettings& s);

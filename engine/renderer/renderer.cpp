@@ -19,12 +19,11 @@ uint64_t steadyNs() {
                         .count());
 }
 
-// Fails (failure.h) on a device that cannot cast rays to texels.
-void checkTexelRays(const gpu::DeviceInfo& info) {
-    const uint32_t buffers = info.limits.maxPerStageDescriptorStorageBuffers;
-    if (info.storageTexels && buffers < gpu::kStorageBuffersOfRays)
-        gpu::failBeyondLimit("texel_rays.enabled", "maxPerStageDescriptorStorageBuffers",
-                             gpu::kStorageBuffersOfRays, buffers);
+// Not for techniques without visibility, nor where joints bend what rays would meet as it was modelled.
+bool canCastTexelRays(const gpu::DeviceInfo& info, const RenderSettings& s, const RenderScene& scene) {
+    const bool buffers =
+        !info.storageTexels || info.limits.maxPerStageDescriptorStorageBuffers >= gpu::kStorageBuffersOfRays;
+    return buffers && s.bounce.ismAtlas.enabled && scene.skinnedMeshes.empty();
 }
 
 }  // namespace
@@ -119,14 +118,14 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     const RenderScene& scene = inOwnUnits(given);
     graph_.beginFrame(options);
     scene_.beginFrame(scene, jobs_);
-    if (castsTexelRays(settings)) checkTexelRays(device_.info());
     RenderSettings asked = settings;
     fitToDevice(device_.info().limits, asked);
+    if (!canCastTexelRays(device_.info(), asked, scene)) asked.bounce.texelRays.enabled = false;
     asked.bounce.ismAtlas.keepMaps = settings.bounce.ismAtlas.keepMaps && options.skip;
     asked.composite.exposure += std::log2(units_.light);
     const PixelGrid grid = choosePixels(asked.antialiasing, size, scene, history_.picture.next(scene, asked),
                                         history_.antialiasing);
-    SceneView view = scene_.import(graph_, scene, grid, tracedBy(settings, given));
+    SceneView view = scene_.import(graph_, scene, grid, tracedBy(asked, given));
     view.units = units_;
     view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     const RenderFrame frame = addFrame(graph_, view, asked, history_);

@@ -228,7 +228,7 @@ ViewSlots viewSlots(const RenderScene& scene) {
 }
 
 SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const PixelGrid& grid,
-                           std::optional<gi::TreesOf> traced) {
+                           std::optional<gi::TracedBy> traced) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);

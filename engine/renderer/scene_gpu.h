@@ -89,7 +89,7 @@ class SceneGpu {
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
     SceneView import(GraphScope scope, const RenderScene& scene, const PixelGrid& grid,
-                     std::optional<gi::TreesOf> traced = {});
+                     std::optional<gi::TracedBy> traced = {});
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     // `previous`: whether a pass reads where things were in the frame before.
     enum class Previous : uint8_t { kUnread, kKept };

@@ -11,16 +11,17 @@ namespace {
 
 constexpr VkFormat kWords = VK_FORMAT_R32G32B32A32_UINT;
 
-// What trees are built of: where static things stand and, if they are of all, the meshes of those that move.
+// What trees are built of: where static things stand and, if they are of all, the meshes of those that move,
+// however many have them.
 uint64_t builtFrom(const RenderScene& scene, gi::TreesOf of) {
     uint64_t hash = combineHash(scene.geometry->version, uint64_t(of));
-    for (const RenderInstance& instance : scene.instances) {
-        const bool moves = instance.movable || instance.skinnedMesh != kNoSkinnedMesh;
-        if (moves && of == gi::TreesOf::kStatic) continue;
-        hash = combineHash(hash, instance.primitive * 2 + moves);
-        if (!moves) hash = combineHash(hash, hashValue(instance.worldFromLocal));
-    }
-    return hash;
+    std::vector<bool> moving(scene.geometry->primitives.size());
+    for (const RenderInstance& instance : scene.instances)
+        if (instance.movable || instance.skinnedMesh != kNoSkinnedMesh)
+            moving[instance.primitive] = true;
+        else
+            hash = combineHash(combineHash(hash, instance.primitive), hashValue(instance.worldFromLocal));
+    return of == gi::TreesOf::kStatic ? hash : combineHash(hash, std::hash<std::vector<bool>>{}(moving));
 }
 
 template <class T>
@@ -71,12 +72,16 @@ bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::Tr
 }
 
 gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
-                                       gi::TreesOf of) {
-    const bool follows = follow(scene, staticVersion, of);
+                                       gi::TracedBy by) {
+    const bool follows = follow(scene, staticVersion, by.of);
     if (!nodes_) return {};
-    const uint64_t placing = of == gi::TreesOf::kAll ? scene.instancesVersion : 1;
-    if (follows && placedOf_ != placing) place(scene);
-    if (follows) placedOf_ = placing;
+    const bool moves = scene.instancesVersion != before_, waits = by.atRest && moves && placedOf_ != 0;
+    before_ = scene.instancesVersion;
+    const uint64_t placing = by.of == gi::TreesOf::kAll ? scene.instancesVersion : 1;
+    if (follows && !waits) {
+        if (placedOf_ != placing) place(scene);
+        placedOf_ = placing;
+    }
     return {.nodes = scope.importBuffer("scene.tree_nodes", *nodes_, builds_),
             .triangles = scope.importBuffer("scene.tree_triangles", *triangles_, builds_),
             .places = scope.importBuffer("scene.tree_places", *places_, placings_),

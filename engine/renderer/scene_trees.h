@@ -18,10 +18,10 @@ class SceneTrees {
     explicit SceneTrees(gpu::Device& device) : device_(device) {}
 
     // Of this frame. Blocking where a scene is new. Where what is static is moved none, until it has rested
-    // for some frames: then they are built anew. `staticVersion`: changes when it may have moved. `of`: all,
-    // if rays are to meet what moves, too.
+    // for some frames: then they are built anew. `staticVersion`: changes when it may have moved. `by`: of
+    // all if rays are to meet what moves, too.
     gi::TracedOccluders import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
-                               gi::TreesOf of);
+                               gi::TracedBy by);
     using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
     void upload(Stage stage);
     // Another scene or other units follow.
@@ -40,7 +40,7 @@ class SceneTrees {
     gi::TreeUpkeep upkeep_;
     gi::TreesOf of_ = gi::TreesOf::kStatic;
     uint64_t staticVersion_ = 0, from_ = 0;  // from_: a hash of what they are built of
-    uint64_t placedOf_ = 0;                  // RenderScene::instancesVersion, if that matters
+    uint64_t placedOf_ = 0, before_ = 0;     // RenderScene::instancesVersion, if that matters; last frame's
     uint64_t builds_ = 0, placings_ = 0;     // versions of the buffers
     gi::OccluderTrees trees_;
     gi::MoverTree movers_;

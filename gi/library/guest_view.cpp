@@ -174,7 +174,7 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
 
     // Indirect light
     gi::World world = surfaces_->world();
-    world.versions.camera = cameraVersion_;
+    world.versions.camera = world.versions.view = cameraVersion_;
     const gi::Occluders occluders = surfaces_->occluders(scope);
     const auto draw = [&](GraphScope at, gi::RsmSet& rsm) {
         if (f.drawRsmFace)

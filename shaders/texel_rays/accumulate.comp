@@ -8,8 +8,7 @@
 #include "common/pixel_rays.h"
 #include "texel_rays/texel_rays_io.h"
 
-layout(local_size_x = 8, local_size_y = 8) in;  // a block
-layout(set = 0, binding = 15, scalar) writeonly buffer Youngest { float items[]; } youngest;
+layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { RayAccumulatePush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
@@ -26,22 +25,9 @@ layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D sentMean;     /
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D controlMean;  // rgb: W/m²
 layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D moments;      // second ones: of rays; both; of control
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D surface;      // normal; m along the axis, 0: sky
-layout(set = 0, binding = 14) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
-layout(constant_id = 0) const bool kMotion = false;
+#include "texel_rays/before.glsl"
 
 const float kMostTimes = 64.0;  // a sample may stand out of what is known; more is a draw that was hardly likely
-
-shared float lengths[kDrawBlock * kDrawBlock];
-
-// What the block's youngest mean stands for, for the frame to come.
-void shareLength(float mine) {
-    uint index = gl_LocalInvocationIndex;
-    lengths[index] = mine;
-    barrier();
-    if (index != 0) return;
-    for (uint i = 1; i < kDrawBlock * kDrawBlock; ++i) mine = min(mine, lengths[i]);
-    youngest.items[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = mine;
-}
 
 struct Means {
     vec4 sent, control, moments;
@@ -49,25 +35,14 @@ struct Means {
 
 Means known(ivec2 size, vec3 normal, vec3 place, float depth) {
     Means m = Means(vec4(0.0), vec4(0.0), vec4(0.0));
-    ReprojectionCameras c = cameras.c;
-    vec4 clip = c.previousClipFromWorld * vec4(place, 1.0);
-    vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, low = floor(at);
-    float footprint = 2.0 * c.pixelSize * max(depth, 1e-3), total = 0.0;
+    if (push.p.valid == 0) return m;
+    Before b = seenBefore(size, normal, place, depth);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 tap = ivec2(low) + ivec2(i & 1, i >> 1), there = clamp(tap, ivec2(0), size - 1);
-        vec4 s = texelFetch(previousSurface, there, 0);
-        vec3 apart = placeOf(c.before, vec2(there), s.w) + c.before.eye - place;
-        vec2 f = max(1.0 - abs(vec2(tap) - at), 0.0);
-        float like = tap == there && s.w > 0.0 ? likeness(normal, apart, footprint, s.xyz) : 0.0;
-        float weight = like > 0.25 ? f.x * f.y * like : 0.0;
-        m.sent += weight * texelFetch(previousSent, there, 0);
-        m.control += weight * texelFetch(previousControl, there, 0);
-        m.moments += weight * texelFetch(previousMoments, there, 0);
-        total += weight;
+        m.sent += b.weights[i] * texelFetch(previousSent, b.taps[i], 0);
+        m.control += b.weights[i] * texelFetch(previousControl, b.taps[i], 0);
+        m.moments += b.weights[i] * texelFetch(previousMoments, b.taps[i], 0);
     }
-    bool any = push.p.valid == 1 && depth > 0.0 && clip.w > 0.0 && total > 0.01;
-    float share = any ? 1.0 / total : 0.0;
-    return Means(m.sent * share, m.control * share, m.moments * share);
+    return m;
 }
 
 // 1 while the area lights send what the control says they did, down to 0.
@@ -82,21 +57,18 @@ void main() {
     ivec2 size = imageSize(surface), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
     float reversed = texelFetch(depthMap, at, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
     vec3 normal = texelFetch(normalMap, at, 0).xyz, place = placeOf(cameras.c.now, vec2(at), depth) + cameras.c.now.eye;
-    vec4 motion = kMotion ? texelFetch(motionMap, at, 0) : vec4(0.0);
-    Means m = known(size, normal, place + motion.xyz, depth);
+    Means m = known(size, normal, place, depth);
     vec4 rays = texelFetch(sent, at, 0);
     vec3 all = texelFetch(areaLights, at, 0).rgb, p = rays.rgb, q = texelFetch(control, at, 0).rgb;
     float e = luminance(all), most = kMostTimes * max(e, luminance(m.sent.rgb)), bright = max(luminance(p), luminance(q));
     float kept = bright > most && most > 0.0 ? most / bright : 1.0;
     p *= kept, q *= kept;
-    float added = rays.a == kNoRays ? 0.0 : 1.0;
-    m.sent.a = min(m.sent.a * stillTrue(m, e), push.p.mostLength - 1.0) + added;
-    float share = added / max(m.sent.a, 1.0), lp = luminance(p), lq = luminance(q);
+    m.sent.a = min(m.sent.a * stillTrue(m, e), push.p.mostLength - 1.0) + 1.0;
+    float share = 1.0 / m.sent.a, lp = luminance(p), lq = luminance(q);
     m.sent.rgb = mix(m.sent.rgb, p, share);
     m.control.rgb = mix(m.control.rgb, q, share);
     m.moments.xyz = mix(m.moments.xyz, vec3(lp * lp, lp * lq, lq * lq), share);
     bool seen = depth > 0.0;
-    shareLength(seen ? m.sent.a : 1e9);
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(sentMean, pixel, seen ? m.sent : vec4(0.0));
     imageStore(controlMean, pixel, seen ? m.control : vec4(0.0));

@@ -35,8 +35,7 @@ layout(set = 0, binding = 15, scalar) readonly buffer TreeTriangles { vec4 items
 layout(set = 0, binding = 16) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
-layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;  // W/m²; a: 1 + the entry of the light drawn, 0: none, kNoRays
-layout(set = 0, binding = 20, scalar) readonly buffer Youngest { float items[]; } youngest;
+layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;  // W/m²; a: 1 + the entry of the light drawn, 0: none
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
@@ -145,9 +144,8 @@ vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
     return e;
 }
 
-// Alike for eight neighbours, so that their rays stay together.
 vec2 noiseAt(uvec2 pixel, uint aside) {
-    return unpackUnorm2x16(fetchTexel(noise, int((pixel.y / 2 & 63u) * 64u + (pixel.x / 4 + aside & 63u))).x);
+    return unpackUnorm2x16(fetchTexel(noise, int((pixel.y & 63u) * 64u + (pixel.x + aside & 63u))).x);
 }
 
 // Of a block: four by two for each eight invocations in a row.
@@ -160,10 +158,6 @@ void main() {
     uvec2 cell = blockOrigin(block, size) + placeInBlock(gl_LocalInvocationID.x);
     ivec2 pixel = ivec2(min(cell, size - 1u));
     bool there = all(equal(uvec2(pixel), cell));
-    if (!castsRays(block, push.p.step, push.p.known)) {
-        if (there) imageStore(sent, pixel, vec4(0.0, 0.0, 0.0, kNoRays));
-        return;
-    }
     uvec2 tile = uvec2(pixel) / push.p.tiles.tileSize;
     float depth = texelFetch(depthMap, pixel, 0).x;
     Receiver r = Receiver(worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0).xyz,

@@ -24,8 +24,6 @@ layout(set = 0, binding = 7, scalar) readonly buffer Counts { uvec2 items[]; } c
 // Of its tile's near lights, then its far ones: how likely one is up to and with each.
 layout(set = 0, binding = 8, scalar) buffer UpTo { float items[]; } upTo;
 layout(set = 0, binding = 9, scalar) buffer Likely { float items[]; } likely;  // of each light of all
-
-layout(set = 0, binding = 10, scalar) readonly buffer Youngest { float items[]; } youngest;
 #include "texel_rays/blocks.glsl"
 
 const uint kPlaces = 4;       // 2 x 2
@@ -62,7 +60,6 @@ float weightOf(AreaLight l, uint ismTileSize) {
 
 void main() {
     uint block = gl_WorkGroupID.x, valCount = push.p.tiles.valCount;
-    if (!castsRays(block, push.p.step, push.p.known)) return;
     uvec2 origin = blockOrigin(block, camera.camera.size), inTiles = origin / push.p.tiles.tileSize;
     uint tile = inTiles.y * push.p.tiles.tiles.x + inTiles.x;
     findPlaces(block, origin);

@@ -1,22 +1,46 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// The area lights' sum, corrected by what the rays found, as far as that stands out of its noise (Wiener's share: what is
-// known over that and what is noise).
+#extension GL_EXT_control_flow_attributes : require
+// The area lights' sum, corrected by what the rays found, as far as that stands out of its noise (the positive part of James
+// and Stein's estimator, over the pixels about). Until it does, by what rays had found before something changed.
+#include "common/pixel_rays.h"
+#include "texel_rays/carried.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform sampler2D areaLights;
 layout(set = 0, binding = 1) uniform sampler2D rest;
 layout(set = 0, binding = 2) uniform sampler2D shareOf;
 layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D irradiance;
+layout(set = 0, binding = 4) uniform sampler2D previousCarried;
+// rgb: what was added to the area lights' light, W/m²; a: its luminance then.
+layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
+layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
+layout(push_constant) uniform Push { uint valid; } push;                  // 0: there is no frame before
 
-const float kMostHalf = 65504.0;
+const float kDoubt = 16.0;  // neighbours draw alike: the filter takes off less noise than it knows
+const int kStride = 4;      // pixels
+const float kFading = 31.0 / 32.0;  // of what is carried, a frame
+
+vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(shareOf, at, 0).x - 1.0) * lights; }
 
 void main() {
     ivec2 size = imageSize(irradiance), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
-    vec4 lights = texelFetch(areaLights, at, 0), r = texelFetch(rest, at, 0);
-    vec3 correction = r.rgb + (texelFetch(shareOf, at, 0).x - 1.0) * lights.rgb;
-    float known = dot(correction, correction) / 3.0, trust = known / max(known + r.a, 1e-30);
-    if (all(lessThan(pixel, size)))
-        imageStore(irradiance, pixel, vec4(clamp(lights.rgb + trust * correction, vec3(0.0), vec3(kMostHalf)), lights.a));
+    float found = 0.0, noise = 0.0;
+    [[unroll]] for (int y = -1; y <= 1; ++y)
+        [[unroll]] for (int x = -1; x <= 1; ++x) {
+            ivec2 there = clamp(at + ivec2(x, y) * kStride, ivec2(0), size - 1);
+            vec4 r = texelFetch(rest, there, 0);
+            vec3 c = correctionAt(there, texelFetch(areaLights, there, 0).rgb, r.rgb);
+            found += dot(c, c) / 3.0, noise += r.a;
+        }
+    float trust = max(found - kDoubt * noise, 0.0) / max(found, 1e-30);
+    vec4 lights = texelFetch(areaLights, at, 0), known = texelFetch(previousCarried, at, 0);
+    vec4 kept = push.valid == 1 ? vec4(kFading * stillTrue(luminance(lights.rgb), known.a) * known.rgb, known.a) : vec4(0.0);
+    vec3 c = mix(kept.rgb, correctionAt(at, lights.rgb, texelFetch(rest, at, 0).rgb), trust);
+    if (any(greaterThanEqual(pixel, size))) return;
+    imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c, vec3(0.0), vec3(kMostHalf)), lights.a));
+    imageStore(correction, pixel, vec4(c, luminance(lights.rgb)));
+    imageStore(carried, pixel, kept);
 }

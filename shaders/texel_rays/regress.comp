@@ -21,6 +21,7 @@ layout(set = 0, binding = 7, r32f) uniform writeonly image2D shareOf;  // of the
 
 const int kReach = 2;             // pixels about
 const float kLeastSpread = 0.01;  // of the squared mean: few samples may all be alike by chance
+const float kFew = 10.0;           // as many say nothing
 const float kMostSurprise = 0.3;  // how far the share of detail may be from what moments say, as a deviation
 
 struct Window {
@@ -60,7 +61,8 @@ void main() {
     vec3 control = texelFetch(controlMean, at, 0).rgb, lights = texelFetch(areaLights, at, 0).rgb;
     float share = w.central.z > 0.0 ? clamp(w.central.y / w.central.z, 0.0, 1.0) : 1.0;
     float spread = w.central.x - 2.0 * share * w.central.y + share * share * w.central.z;
-    float variance = max(spread, kLeastSpread * w.mean.y * w.mean.y + 1e-12) / max(sent.a, 1.0);
+    float n = max(sent.a, 1.0), few = kFew / n, e2 = w.mean.y * w.mean.y;
+    float variance = max(spread, kLeastSpread * e2 + 1e-12) / n + few * few * few * few * e2;
     // What is left of the rays follows the lights' sum from pixel to pixel by so much.
     vec3 together = w.withLights - w.mean * w.mean.x;
     float sure = w.count / variance, expected = 1.0 / (kMostSurprise * kMostSurprise);

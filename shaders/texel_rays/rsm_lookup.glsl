@@ -9,7 +9,21 @@ const uint kNoTexel = 0xffffffffu;
 const float kTexelReach = 2.0;   // of a texel's side: as far as it stands for its surface
 const float kTexelDepth = 0.25;  // and before or behind its plane
 
-// The one that the map's light sees there, lit and on the same surface; else none.
+// Whether a texel stands for a place, and how near it is.
+struct TexelMatch {
+    bool near, same;
+    float squared;  // of the distance, m²
+};
+
+TexelMatch matchTexel(RsmSurface s, vec3 place) {
+    vec3 apart = place - s.position;
+    float plane = dot(apart, s.normal), squared = dot(apart, apart);
+    bool near = s.weight > 0.0 && squared < kTexelReach * kTexelReach * s.area;
+    return TexelMatch(near, near && plane * plane < kTexelDepth * kTexelDepth * s.area, squared);
+}
+
+// The one that the map's light sees there, lit and on the same surface; else none. In a crease it may stand for the other
+// side: then one of those about it that does not.
 uint texelAt(uint mapIndex, uint atlasWidth, vec3 place) {
     RsmMap map = maps.items[mapIndex];
     vec3 d = place - map.position;
@@ -17,12 +31,20 @@ uint texelAt(uint mapIndex, uint atlasWidth, vec3 place) {
     vec4 clip = face.clipFromWorld * vec4(place, 1.0);
     vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * float(face.size);
     bool inside = clip.w > 0.0 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(face.size)));
-    uvec2 coord = face.origin + min(uvec2(max(at, vec2(0.0))), uvec2(face.size - 1));
-    uint texel = rsmIndexOfCoord(coord, atlasWidth);
-    RsmSurface s = AG_RSM_FETCH(texels, texel);
-    vec3 apart = place - s.position;
-    float plane = dot(apart, s.normal);
-    bool same = dot(apart, apart) < kTexelReach * kTexelReach * s.area && plane * plane < kTexelDepth * kTexelDepth * s.area;
-    return inside && same && s.weight > 0.0 ? texel : kNoTexel;
+    if (!inside) return kNoTexel;
+    uint texel = rsmIndexOfCoord(face.origin + uvec2(at), atlasWidth);
+    TexelMatch match = matchTexel(AG_RSM_FETCH(texels, texel), place);
+    if (match.same) return texel;
+    uint found = kNoTexel;
+    float nearest = 1e30;
+    for (int i = 0; i < 4 && match.near; ++i) {
+        vec2 corner = clamp(floor(at - 0.5) + vec2(i & 1, i >> 1), vec2(0.0), vec2(face.size - 1));
+        texel = rsmIndexOfCoord(face.origin + uvec2(corner), atlasWidth);
+        TexelMatch other = matchTexel(AG_RSM_FETCH(texels, texel), place);
+        if (!other.same || other.squared >= nearest) continue;
+        nearest = other.squared;
+        found = texel;
+    }
+    return found;
 }
 #endif

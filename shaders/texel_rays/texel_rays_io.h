@@ -10,29 +10,32 @@ namespace ag::io {
 #endif
 
 const uint kDrawBlock = 8;  // pixels along the side of a block whose pixels draw lights alike; divides a tile
-const float kNoRays = -1.0f;  // in the place of the light that a pixel drew: it cast none in this frame
 
 struct CastPush {
     ValShadingPush tiles;
     uint atlasWidth;  // texels, of the maps
     uint mapCount;    // of lights
-    uint step;        // another in each frame with new rays
+    uint step;        // another in each frame
     vec3 shift;       // of the noise: the numbers a pixel draws for a direction, and for a light
     float offset;     // m: rays leave and reach surfaces so far before them
     float reach;      // m: of rays to whatever is near
-    uint known;       // 0: there is no frame before
 };
 
 struct ChoosePush {
     ValShadingPush tiles;
     uint step;   // another in each frame with new rays
-    uint known;  // 0: there is no frame before
+    uint all;   // 1: every block casts rays
 };
 
 struct RayAccumulatePush {
     float near;        // m
     uint valid;        // 0: there is no frame before
     float mostLength;  // frames that a mean stands for
+};
+
+struct CarryPush {
+    float near;  // m
+    uint valid;  // 0: there is no frame before
 };
 
 #ifdef __cplusplus

@@ -42,6 +42,7 @@ struct Case {
     uint32_t param = 0;
     bool options = false;  // those that no preset turns on
     bool waits = false;    // what may be late is, from the second frame after the warm-up
+    bool rests = false;    // nothing moves
 };
 
 void moveLast(RenderScene& scene) {
@@ -59,7 +60,8 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     asset.geometry.materials[0].specular = 1;
     RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
     ASSERT_TRUE(render::applyPreset(c.preset, settings.gi));
-    settings.gi.bounce.laterBounces.enabled = settings.gi.bounce.texelRays.enabled = c.options;
+    settings.gi.bounce.laterBounces.enabled = c.options;
+    settings.gi.bounce.texelRays.enabled = c.options || c.rests;
     settings.gi.exposure.automatic = c.options;
     settings.gi.bloom.share = c.options ? 0.1f : 0.0f;
     settings.gi.antialiasing.mode =
@@ -83,7 +85,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     renderer.load(asset.geometry);
     Capture capture;
     const auto next = [&](std::vector<Span>&) -> const RenderScene& {
-        moveLast(scene);
+        if (!c.rests) moveLast(scene);
         return scene;
     };
     recordFrames(renderer, next, settings, capture);
@@ -97,6 +99,7 @@ TEST(PassTable, HasEveryPassThatTheFrameCanHave) {
     std::set<std::string> captured;
     addPasses({"afterglow", "cornell", 0, true}, captured);
     addPasses({.preset = "afterglow", .scene = "cornell", .waits = true}, captured);
+    addPasses({.preset = "afterglow", .scene = "cornell", .rests = true}, captured);
     addPasses({"afterglow", "lamps", 20}, captured);
     addPasses({"afterglow", "figures", 1}, captured);
     addPasses({"afterglow", "panes"}, captured);

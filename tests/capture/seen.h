@@ -16,6 +16,7 @@ namespace ag::capture {
 inline Capture record(const std::function<void(RecordSettings&)>& change = {}) {
     const SceneAsset asset = *scenegen::buildScene("cornell", 0);
     RecordSettings settings{.size = {96, 64}, .warmUp = 5, .frames = 8};
+    settings.gi.bounce.texelRays.enabled = false;  // nothing to see of it while the camera walks
     if (change) change(settings);
     RenderScene scene = staticScene(asset);
     setCamera(scene, cameraOf(asset, 0), settings.size);

@@ -18,6 +18,9 @@ using namespace render;
 
 constexpr double kPi = std::numbers::pi;
 
+// Of rays to texels, so that still frames soon rest. So few change nothing yet.
+constexpr uint32_t kRayFrames = 2;
+
 // A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
 // passes and synchronization validation proves them.
 struct Bench {
@@ -26,6 +29,7 @@ struct Bench {
         setCamera(scene, cameraOf(asset, 0), size);
         renderer.load(asset.geometry);
         options.timing = TimingMode::kOff;
+        settings.bounce.texelRays.settleFrames = kRayFrames;
     }
     void frame() {
         renderer.render(
@@ -109,6 +113,7 @@ inline void expectRestAndNoBitSkipped(const SceneAsset& asset, glm::uvec2 size,
     for (const bool skip : {true, false}) {
         Bench b(asset, size);
         b.settings = settings;
+        b.settings.bounce.texelRays.settleFrames = kRayFrames;
         b.options.skip = skip;
         for (int i = 0; i < frames; ++i)
             b.frame();

@@ -1,6 +1,8 @@
 // The first bounce corrected by rays: walls that maps leak through are dark, and what moves is where it moved
 // to.
+#include "engine/core/image_difference.h"
 #include "tests/gi_gpu/bench.h"
+#include "tools/reference/reference.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
@@ -12,12 +14,18 @@ Image bounce1After(Bench& b, int frames) {
     return readImage(b.renderer, b.last.bounce.bounce1.image);
 }
 
+RenderSettings withRays(bool rays) {
+    RenderSettings settings;
+    settings.bounce.texelRays = {.enabled = rays};
+    return settings;
+}
+
 TEST(TexelRays, WallsLitFromOutsideSendNothingInside) {
     std::array<double, 2> mean{};
     for (const bool rays : {false, true}) {
         Bench b(*scenegen::buildScene("shell", 0), {96, 54});
-        b.settings.bounce.texelRays.enabled = rays;
-        mean[rays] = meanOf(bounce1After(b, 40));
+        b.settings = withRays(rays);
+        mean[rays] = meanOf(bounce1After(b, 64));
     }
     const double truth = 0.00679;  // W/m², by path tracing: the lamp's
     std::printf("over the truth: %.4f, with rays %.4f\n", mean[0] / truth, mean[1] / truth);
@@ -25,27 +33,94 @@ TEST(TexelRays, WallsLitFromOutsideSendNothingInside) {
     EXPECT_LT(mean[0] / truth, 6) << "domes send nothing inside, however wide the pixels";
 }
 
+void pushAside(Bench& b, float aside) {
+    for (RenderInstance& instance : b.scene.instances) {
+        instance.movable = true;
+        instance.worldFromLocal[3].x += aside;
+    }
+    b.scene.allInstancesChanged = true;
+    ++b.scene.instancesVersion;
+}
+
 TEST(TexelRays, WhatMovedStandsInTheWayWhereItIs) {
     const SceneAsset asset = *scenegen::buildScene("occluder", 0);
-    const auto at = [&](Bench& b, float aside) {
-        for (RenderInstance& instance : b.scene.instances) {
-            instance.movable = true;
-            instance.worldFromLocal[3].x += aside;
-        }
-        b.scene.allInstancesChanged = true;
-        ++b.scene.instancesVersion;
-    };
     Bench moved(asset, {96, 54}), fresh(asset, {96, 54}), before(asset, {96, 54});
     for (Bench* b : {&moved, &fresh, &before})
-        b->settings.bounce.texelRays.enabled = true;
-    at(moved, 0), at(before, 0), at(fresh, 0.5f);
+        b->settings = withRays(true);
+    pushAside(moved, 0), pushAside(before, 0), pushAside(fresh, 0.5f);
     bounce1After(moved, 8);
-    at(moved, 0.5f);
+    pushAside(moved, 0.5f);
     const Image truth = bounce1After(fresh, 64), image = bounce1After(moved, 64);
     const Image old = bounce1After(before, 64);
     const double mean = meanOf(truth);
     EXPECT_LT(shareOff(image, truth, 0.25 * mean), 0.03);
     EXPECT_GT(shareOff(old, truth, 0.25 * mean), 0.06);  // it makes a difference
+}
+
+// While something changes no ray is cast, and surfaces keep what was found on them; lights that go out take
+// it with them.
+TEST(TexelRays, WhatWasFoundIsCarriedAlong) {
+    Bench b(*scenegen::buildScene("shell", 0), {96, 54});
+    b.settings = withRays(true);
+    const double found = meanOf(bounce1After(b, 64));
+    EXPECT_EQ(b.outcome("texel_rays.cast"), PassOutcome::kRan);
+    Bench without(*scenegen::buildScene("shell", 0), {96, 54});
+    without.settings = withRays(false);
+    const double leaking = meanOf(bounce1After(without, 64));
+    ASSERT_GT(leaking, 2 * found);
+
+    const auto walk = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            shiftCamera(b.scene, {0.002f, 0, 0});
+            b.frame();
+        }
+        return meanOf(readImage(b.renderer, b.last.bounce.bounce1.image));
+    };
+    const double carried = walk(8);
+    EXPECT_EQ(b.outcome("texel_rays.cast"), PassOutcome::kDropped);
+    std::printf("over what rays found: carried %.3f, without %.3f\n", carried / found, leaking / found);
+    EXPECT_LT(carried, found + 0.3 * (leaking - found));
+
+    for (RenderLight& light : b.scene.lights)
+        light.intensity *= 0.01f;
+    ++b.scene.lightsVersion;
+    EXPECT_LT(walk(2), 0.05 * found) << "what is left of lights that are nearly out";
+}
+
+TEST(TexelRays, AStillFrameComesToRestAndSkippingChangesNoBit) {
+    std::array<Image, 2> images;
+    for (const bool skip : {true, false}) {
+        Bench b(*scenegen::buildScene("ledges", 0), {96, 54});
+        b.settings = withRays(true);
+        b.settings.bounce.texelRays.settleFrames = 40;
+        b.settings.bounce.valClustering.settleFrames = 20;
+        b.options.skip = skip;
+        images[skip] = bounce1After(b, 60);
+        if (skip) {
+            EXPECT_EQ(b.passesRun(), 0);
+        }
+    }
+    EXPECT_EQ(images[0].pixels, images[1].pixels);
+}
+
+// Sills light the wall above them: the lights' shape is wrong there, rays find it.
+TEST(TexelRays, FindTheShapeOfNearLights) {
+    Bench with(*scenegen::buildScene("ledges", 0), {96, 54}), without(with.asset, {96, 54});
+    with.settings = withRays(true), without.settings = withRays(false);
+    const reference::RayScene rays(with.scene);
+    JobRunner runner(2);
+    const auto truth = reference::makeReference(
+        rays, with.size, {.paths = {.bounces = 1}, .samplesPerPixel = 512, .layer = "bounce1"}, runner,
+        [](double) {});
+    const auto error = [&](Bench& b) {
+        return compareImages(truth.bounces[1],
+                             renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, 160));
+    };
+    const auto found = error(with), lights = error(without);
+    ASSERT_TRUE(found && lights);
+    std::printf("ledges: relative RMSE %.3f with rays, %.3f without\n", found->relativeRmse,
+                lights->relativeRmse);
+    EXPECT_LT(found->relativeRmse, 0.7 * lights->relativeRmse);
 }
 
 }  // namespace
