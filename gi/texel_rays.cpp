@@ -60,7 +60,8 @@ struct Choice {
     uint32_t blocks;
 };
 
-Choice addChoice(const ValTiles& t, uint32_t step) {
+// `ray`: how many were cast before, and this one.
+Choice addChoice(const ValTiles& t, uint32_t ray) {
     const glm::uvec2 along = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
     const uint32_t blocks = along.x * along.y;
     const BufferInfo info{.sizeBytes = uint64_t(blocks) * t.push.valCount * 4,
@@ -71,15 +72,14 @@ Choice addChoice(const ValTiles& t, uint32_t step) {
     gatherPass(t, "texel_rays.choose", "texel_rays/choose_lights.comp", ValShape::kVectorDisk, 1)
         .readWrite("likely", choice.likely)
         .readWrite("upTo", choice.upTo)
-        .push(io::ChoosePush{t.push, step})
-        .step(step)
+        .push(io::ChoosePush{t.push, ray})
         .dispatchGroups(choice.blocks);
     return choice;
 }
 
 // `reach`: in the scene's extent.
 ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, float reach,
-                    uint32_t step) {
+                    uint32_t ray) {
     const Members members = addMembers(t.scope, in.rsm, in.clusters);
     const ImageHandle sent = t.scope.image("texel_rays.sent", {.format = kFloat4, .size = t.gbuffer.size});
     const BufferHandle noise = addBlueNoise(t.scope);
@@ -103,11 +103,10 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
         .push(io::CastPush{.tiles = t.push,
                            .atlasWidth = in.rsm.atlas.size.x,
                            .mapCount = in.rsm.lightRsmCount,
-                           .step = step,
-                           .shift = blueNoiseShift(step),
+                           .ray = ray,
+                           .shift = blueNoiseShift(ray),
                            .offset = io::kBvhOffset * in.occluders.extent,
                            .reach = reach * in.occluders.extent})
-        .step(step)
         .dispatchGroups(choice.blocks);
     readTrees(cast, in.occluders.trees);
     return sent;
@@ -274,8 +273,10 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const uint32_t step = history.settling.advance(stands, frames);
     const Seen seen = addSeen(t, in.versions.origin, history);
     if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, step);
-    const Choice choice = addChoice(t, step);
-    const ImageHandle sent = addRays(t, choice, in, s.reach, step);
+    // Counted from the last change on, so that a still picture does not depend on what was before.
+    const uint32_t ray = std::min(history.settling.sinceChange, frames);
+    const Choice choice = addChoice(t, ray);
+    const ImageHandle sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent, shading);
     const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling);
     return addCorrection(t, areaLights, means, seen, s, step);

@@ -13,9 +13,9 @@ constexpr VkFormat kWords = VK_FORMAT_R32G32B32A32_UINT;
 
 // What trees are built of: where static things stand and, if they are of all, the meshes of those that move,
 // however many have them.
-uint64_t builtFrom(const RenderScene& scene, gi::TreesOf of) {
+uint64_t builtFrom(const RenderScene& scene, gi::TreesOf of, std::vector<bool>& moving) {
     uint64_t hash = combineHash(scene.geometry->version, uint64_t(of));
-    std::vector<bool> moving(scene.geometry->primitives.size());
+    moving.assign(scene.geometry->primitives.size(), false);
     for (const RenderInstance& instance : scene.instances)
         if (instance.movable || instance.skinnedMesh != kNoSkinnedMesh)
             moving[instance.primitive] = true;
@@ -61,7 +61,7 @@ void SceneTrees::place(const RenderScene& scene) {
 bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of) {
     if (of_ != of) forget();  // built at once
     of_ = of;
-    if (staticVersion_ != staticVersion) from_ = builtFrom(scene, of);
+    if (staticVersion_ != staticVersion) from_ = builtFrom(scene, of, movingPrimitives_);
     staticVersion_ = staticVersion;
     const gi::TreeUpkeep::Task task = upkeep_.next(from_);
     if (task == gi::TreeUpkeep::Task::kBuild) {

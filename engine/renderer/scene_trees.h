@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "engine/core/function_ref.h"
 #include "engine/gpu/device.h"
@@ -44,6 +45,7 @@ class SceneTrees {
     uint64_t builds_ = 0, placings_ = 0;     // versions of the buffers
     gi::OccluderTrees trees_;
     gi::MoverTree movers_;
+    std::vector<bool> movingPrimitives_;  // room for a frame's
     bool uploaded_ = true;
     std::unique_ptr<gpu::Buffer> nodes_, triangles_, places_, moverNodes_;
 };

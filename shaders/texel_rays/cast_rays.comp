@@ -76,8 +76,8 @@ Drawn drawLight(uint tile, uint block, float xi) {
         low = after ? middle + 1 : low;
         high = after ? high : middle;
     }
-    uint light = fetchTexel(lists, int(listEntry(tile, low, count.x, valCount))).x;
     bool any = count.x + count.y > 0;
+    uint light = any ? fetchTexel(lists, int(listEntry(tile, low, count.x, valCount))).x : 0;
     return Drawn(low, light, any ? fetchTexel(likely, int(first + light)).x : 0.0);
 }
 
@@ -162,7 +162,7 @@ void main() {
     float depth = texelFetch(depthMap, pixel, 0).x;
     Receiver r = Receiver(worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0).xyz,
                           tile.y * push.p.tiles.tiles.x + tile.x, block);
-    uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.step) * 31u);
+    uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.ray) * 31u);
     vec3 xi = fract(vec3(noiseAt(cell, 0u), noiseAt(cell, 32u).x) + push.p.shift);
     Drawn d = drawLight(r.tile, r.block, xi.z);
     d.likely = depth > 0.0 ? d.likely : 0.0;

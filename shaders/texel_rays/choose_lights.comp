@@ -36,7 +36,7 @@ void findPlaces(uint block, uvec2 origin) {
     const uint kCell = kDrawBlock / 2;
     uvec2 size = camera.camera.size;
     for (uint i = laneIndex(); i < kPlaces; i += kLanes) {
-        uint r = hashUint(block * kPlaces + i + push.p.step * 0x9e3779b9u);
+        uint r = hashUint(block * kPlaces + i + push.p.ray * 0x9e3779b9u);
         uvec2 inCell = uvec2(r & 0xffffu, r >> 16) * kCell >> 16;
         ivec2 pixel = ivec2(min(origin + uvec2(i & 1u, i >> 1) * kCell + inCell, size - 1));
         float depth = texelFetch(depthMap, pixel, 0).x;

@@ -15,7 +15,7 @@ struct CastPush {
     ValShadingPush tiles;
     uint atlasWidth;  // texels, of the maps
     uint mapCount;    // of lights
-    uint step;        // another in each frame
+    uint ray;         // number of the frame's rays
     vec3 shift;       // of the noise: the numbers a pixel draws for a direction, and for a light
     float offset;     // m: rays leave and reach surfaces so far before them
     float reach;      // m: of rays to whatever is near
@@ -23,8 +23,7 @@ struct CastPush {
 
 struct ChoosePush {
     ValShadingPush tiles;
-    uint step;   // another in each frame with new rays
-    uint all;   // 1: every block casts rays
+    uint ray;  // number of the frame's rays
 };
 
 struct RayAccumulatePush {

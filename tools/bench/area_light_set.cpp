@@ -27,7 +27,8 @@ struct Rendered {
 Rendered renderSettled(render::Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
                        const render::RenderSettings& settings) {
     Rendered last;
-    for (uint32_t i = 0; i < kFrames; ++i)
+    const uint32_t rays = render::castsTexelRays(settings) ? settings.bounce.texelRays.settleFrames : 0;
+    for (uint32_t i = 0; i < kFrames + rays; ++i)
         renderer.render(
             scene, size, settings, {},
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {

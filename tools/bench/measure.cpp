@@ -70,6 +70,12 @@ struct Frame {
         for (uint32_t i = 1; i < kWarmFrames; ++i)
             render(scene, settings, {}, clustered && i < kWarmFrames - kShadedFrames);
     }
+    // Until rays to texels rest.
+    void refine(const RenderScene& scene, const render::RenderSettings& settings) {
+        const uint32_t frames = render::castsTexelRays(settings) ? settings.bounce.texelRays.settleFrames : 0;
+        for (uint32_t i = 0; i < frames; ++i)
+            render(scene, settings, {});
+    }
     Image image() const {
         return shown ? render::readImage(renderer, shown) : Image(int(size.x), int(size.y));
     }
@@ -249,6 +255,7 @@ Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, co
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};
     frame.settle(scene_, settings);
+    frame.refine(scene_, settings);
     std::vector<Image> images = {frame.image()};
     row.vals = frame.emitters;
     row.gpuBytes = renderer_.deviceBytes();
@@ -261,6 +268,7 @@ Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, co
         settings.bounce.valClustering.seed = seed;
         renderer_.load(*scene_.geometry);
         frame.settle(scene_, settings);
+        frame.refine(scene_, settings);
         images.push_back(frame.image());
     }
     return images;
