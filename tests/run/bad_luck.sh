@@ -70,7 +70,8 @@ for kind in exr pfm png; do
   kept "$work/r.$kind" "$bin/afterglow" reference cornell --spp 2 --size 160x90 -o "$work/r.$kind"
 done
 
-# Too little memory, at every size of it: never a crash.
+# Too little memory, at every size of it: never a crash. The address sanitizer itself needs more than is given here.
+[[ -n ${AFTERGLOW_SANITIZED:-} ]] && exit $((failures > 0))
 for mib in 80 150 250 330 420 520 640 800 900 920 940; do
   (ulimit -v $((mib * 1024)); exec "$bin/afterglow" render cornell --size 64x36 --frames 2 -o "$work/m.png") >"$work/out" 2>"$work/err"
   got=$?
