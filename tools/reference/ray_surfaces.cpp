@@ -1,5 +1,6 @@
 // What is where a ray met the scene: corners, materials, shading normals.
 #include <algorithm>
+#include <array>
 #include <glm/gtc/packing.hpp>
 
 #include "common/brdf.h"
