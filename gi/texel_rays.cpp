@@ -209,7 +209,6 @@ Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& se
         .read("cameras", seen.cameras)
         .write("irradiance", c.irradiance)
         .write("correction", c.correction.current)
-        .write("carried", c.carried.current)
         .write("surface", seen.surface.current)
         .push(io::CarryPush{t.gbuffer.view.near, seen.known && c.correction.valid && seen.surface.valid})
         .step(step)
@@ -218,7 +217,7 @@ Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& se
 }
 
 Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const Means& m, const Seen& seen,
-                         const TexelRaysSettings& s, uint32_t step) {
+                         const TexelRaysSettings& s, const Settling& settling) {
     const glm::uvec2 size = t.gbuffer.size;
     const ImageInfo info{.format = kFloat4, .size = size};
     const std::array<ImageHandle, 2> turns = {t.scope.image("texel_rays.even", info),
@@ -245,16 +244,17 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
             .push(io::RayFilterPush{int(1u << round), s.tolerance})
             .dispatchThreads(size.x, size.y);
     const Carried c = addCarried(t, areaLights);
+    const HistoryImage& before = settling.sinceChange > 1 ? c.carried : c.correction;
     t.scope.compute("texel_rays.correct", "texel_rays/correct.comp")
         .sample("areaLights", areaLights.image)
         .sample("rest", turns[round % 2])
         .sample("shareOf", share)
-        .samplePrevious("previousCarried", c.carried, Sampler::kNearestClamp)
+        .samplePrevious("previousCarried", before, Sampler::kNearestClamp)
         .write("irradiance", c.irradiance)
         .write("correction", c.correction.current)
         .write("carried", c.carried.current)
-        .push(uint32_t(seen.known && c.carried.valid))
-        .step(step)
+        .push(uint32_t(seen.known && before.valid))
+        .step(settling.step)
         .dispatchThreads(size.x, size.y);
     return {c.irradiance, areaLights.toward};
 }
@@ -279,7 +279,7 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const ImageHandle sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent, shading);
     const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling);
-    return addCorrection(t, areaLights, means, seen, s, step);
+    return addCorrection(t, areaLights, means, seen, s, history.settling);
 }
 
 }  // namespace ag::gi

@@ -18,8 +18,7 @@ layout(set = 0, binding = 4) uniform sampler2D previousSurface;
 layout(set = 0, binding = 5, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D irradiance;
 layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D correction;  // as in correct.comp
-layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D carried;     // the same
-layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D surface;     // normal; m along the axis, 0: sky
+layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D surface;     // normal; m along the axis, 0: sky
 
 #include "texel_rays/before.glsl"
 
@@ -36,6 +35,5 @@ void main() {
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c.rgb, vec3(0.0), vec3(kMostHalf)), lights.a));
     imageStore(correction, pixel, c);
-    imageStore(carried, pixel, c);
     imageStore(surface, pixel, vec4(normal, depth));
 }
