@@ -19,7 +19,7 @@ layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
 layout(push_constant) uniform Push { uint valid; } push;                  // 0: there is no frame before
 
-const float kDoubt = 16.0;  // neighbours draw alike: the filter takes off less noise than it knows
+const float kDoubt = 16.0;  // neighbours' errors are correlated: more noise is left than the filtered variance says
 const int kStride = 4;      // pixels
 const float kFading = 31.0 / 32.0;  // of what is carried, a frame
 
