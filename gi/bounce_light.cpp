@@ -29,12 +29,16 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
 
     // Gather on screen, at some of the pixels
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
+    const GatherGrid grid = addGatherGrid(in, s, h, f);
+    const Surfaces gathered =
+        grid.turn == 0 ? downsampled
+                       : addDownsampled(scope, in.surfaces, {s.spacing, grid.place}, kOtherDownsampling);
     const ShadowedVals first{firstVals(f.vals, f.firstCount), f.isms};
-    const ValTiles tiles = addShadingTiles(scope, downsampled, first, s.valShading, kFirstBounceShading);
+    const ValTiles tiles = addShadingTiles(scope, gathered, first, s.valShading, kFirstBounceShading);
     f.bounce1 = addValShading(tiles, s.valShading, kFirstBounceShading, refresh.pixels);
-    f.bounce1 = addTexelRays(
-        tiles, f.bounce1, {f.rsm, f.clusters, in.occluders, in.world.versions, s.valClustering.settleFrames},
-        s.valShading, s.texelRays, h.texelRays);
+    f.bounce1 = addTexelRays(tiles, f.bounce1,
+                             {f.rsm, f.clusters, in.occluders, in.world.versions, grid.turn, grid.frames},
+                             s.valShading, s.texelRays, h.texelRays);
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);
 
     // Light that goes on
@@ -44,11 +48,11 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     const BufferHandle others = addLightsOnPoints(scope, f.emitters, in.world.otherLights, in.occluders);
     addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces);
     if (f.vals.count > f.firstCount)
-        f.irradiance = addLaterShading(scope, downsampled, f.bounce1, {f.vals, f.isms},
+        f.irradiance = addLaterShading(scope, gathered, f.bounce1, {f.vals, f.isms},
                                        {f.firstCount, s.laterBounces.spacing}, s.valShading);
 
     // To all pixels, and to the rules of a game
-    addToPixels(scope, in, downsampled, s, h, f);
+    addToPixels(scope, in, gathered, s, h, f, grid);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;
 }

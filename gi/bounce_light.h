@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/function_ref.h"
+#include "gi/gather_grid.h"
 #include "gi/inputs.h"
 #include "gi/refresh.h"
 #include "gi/settings.h"
@@ -28,6 +29,7 @@ struct BounceLightHistory {
     RefreshHistory refresh;
     ClusterShares clusterShares;
     ValClusteringHistory valClustering;
+    GatherGridHistory gatherGrid;
     TexelRaysHistory texelRays;
     Settling stochasticRsm;
     Settling laterBounces;

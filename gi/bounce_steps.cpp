@@ -33,22 +33,41 @@ void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlas
     f.isms = addIsmAtlas(scope, f.surfacePoints, in.occluders.trees, f.vals, s);
 }
 
-void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& downsampled,
-                 const BounceLightSettings& s, BounceLightHistory& h, BounceLight& f) {
+GatherGrid addGatherGrid(const BounceLightInputs& in, const BounceLightSettings& s, BounceLightHistory& h,
+                         const BounceLight& f) {
+    const Versions& v = in.world.versions;
+    uint64_t light = f.rsm.inputsVersion;
+    for (const uint64_t part :
+         {v.scene, v.instances, v.lights, v.camera, v.origin, in.sky.version, hashValue(in.surfaces.size)})
+        light = combineHash(light, part);
+    return chooseGatherGrid(light, f.vals.count > 0 && castsTexelRays(s.texelRays, in.occluders), s,
+                            h.gatherGrid);
+}
+
+void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& gathered,
+                 const BounceLightSettings& s, BounceLightHistory& h, BounceLight& f,
+                 const GatherGrid& grid) {
     const bool goesOn = f.irradiance.image != f.bounce1.image;
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, in.world.versions.instances);
-    f.irradiance = addDenoiser(scope, downsampled, in.world.versions.origin, {f.irradiance, light, steps},
+    if (grid.turn > 0 && grid.begins) forgetPixels(scope);
+    f.irradiance = addDenoiser(scope, gathered, in.world.versions.origin, {f.irradiance, light, steps},
                                s.denoiser, h.denoiser);
+    if (grid.turn > 0) {
+        const Downsampling pixels(s.spacing, grid.place);
+        f.irradiance = addPlacing(scope, in.surfaces, f.irradiance, pixels, kUpsampling);
+        f.bounce1 =
+            goesOn ? addPlacing(scope, in.surfaces, f.bounce1, pixels, kFirstBounceUpsampling) : f.irradiance;
+        return;
+    }
     // Pixels meet area lights, not points that share maps.
     const bool areas = s.valShading.shape != ValShape::kPoint && !f.isms.shared;
     const Vals vals = areas ? f.vals : Vals{};
     const LightsOfPixels all{{vals, f.isms}, s.valShading.taps},
         first{{firstVals(vals, f.firstCount), f.isms}, s.valShading.taps};
-    f.irradiance = addUpsampling(scope, in.surfaces, downsampled, f.irradiance, kUpsampling, all);
-    f.bounce1 = goesOn
-                    ? addUpsampling(scope, in.surfaces, downsampled, f.bounce1, kFirstBounceUpsampling, first)
-                    : f.irradiance;
+    f.irradiance = addUpsampling(scope, in.surfaces, gathered, f.irradiance, kUpsampling, all);
+    f.bounce1 = goesOn ? addUpsampling(scope, in.surfaces, gathered, f.bounce1, kFirstBounceUpsampling, first)
+                       : f.irradiance;
 }
 
 }  // namespace ag::gi

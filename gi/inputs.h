@@ -50,6 +50,7 @@ struct TracedOccluders {
     // out.
     BufferHandle places, moverNodes;
     uint64_t staticVersion = 0;  // changes with what is static in them and with where that stands
+    float snapping = 1.0f / 16;  // pixels, of the corners that a rasteriser draws between
     // They are of what was static some frames ago: good for rays whose light must not go out meanwhile.
     bool stale = false;
     explicit operator bool() const { return nodes && !stale; }

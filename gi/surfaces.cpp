@@ -6,12 +6,12 @@
 namespace ag::gi {
 namespace {
 
-// Of pixels c spacing + spacing / 2: their centres are those of an image of `size` / spacing pixels.
-RenderCamera downsampled(const RenderCamera& camera, glm::uvec2 size, uint32_t spacing) {
-    const glm::vec2 all(size), downsampled(glm::max(size / spacing, 1u) * spacing);
-    const float aside =
-        spacing % 2 == 0 ? 0.5f : 0.0f;  // pixels, of the chosen ones from the squares' middles
-    const glm::vec2 scale = downsampled / all, shift = scale + 2 * aside / all - 1.0f;
+// Of pixels c spacing + place: their centres are those of an image of `size` / spacing pixels.
+RenderCamera downsampled(const RenderCamera& camera, glm::uvec2 size, const Downsampling& by) {
+    const glm::vec2 all(size), downsampled(glm::max(size / by.spacing, 1u) * by.spacing);
+    // Pixels, of the chosen ones from the squares' middles.
+    const glm::vec2 aside = glm::vec2(by.place) + 0.5f - float(by.spacing) / 2;
+    const glm::vec2 scale = downsampled / all, shift = scale + 2.0f * aside / all - 1.0f;
     glm::mat4 fullFromDownsampled(1), downsampledFromFull(1);
     for (int i = 0; i < 2; ++i) {
         fullFromDownsampled[i][i] = scale[i], fullFromDownsampled[3][i] = shift[i];
@@ -21,6 +21,10 @@ RenderCamera downsampled(const RenderCamera& camera, glm::uvec2 size, uint32_t s
     out.clipFromWorld = downsampledFromFull * camera.clipFromWorld;
     out.worldFromClip = camera.worldFromClip * fullFromDownsampled;
     return out;
+}
+
+glm::ivec3 pushOf(const Downsampling& by) {
+    return {glm::ivec2(by.place), int32_t(by.spacing)};
 }
 
 }  // namespace
@@ -36,37 +40,38 @@ BufferHandle addCamera(GraphScope scope, std::string_view name, const RenderCame
     return buffer;
 }
 
-Surfaces addDownsampled(GraphScope scope, const Surfaces& all, uint32_t spacing,
+Surfaces addDownsampled(GraphScope scope, const Surfaces& all, const Downsampling& by,
                         const DownsamplingNames& names) {
-    if (spacing == 1) return all;
-    const glm::uvec2 size = glm::max(all.size / spacing, 1u);
+    if (by.spacing == 1) return all;
+    const glm::uvec2 size = glm::max(all.size / by.spacing, 1u);
     Surfaces g{
         .depth = scope.image(names.depth, {.format = VK_FORMAT_R32_SFLOAT, .size = size}),
-        .normal = addDownsampledImage(scope, names.normal, all.normal, spacing),
-        .motion = addDownsampledImage(scope, names.motion, all.motion, spacing),
+        .normal = addDownsampledImage(scope, names.normal, all.normal, by),
+        .motion = addDownsampledImage(scope, names.motion, all.motion, by),
         .size = size,
         .normalMapped = all.normalMapped,
-        .spacing = all.spacing * spacing,
-        .view = downsampled(all.view, all.size, spacing),
+        .spacing = all.spacing * by.spacing,
+        .view = downsampled(all.view, all.size, by),
     };
     g.camera = addCamera(scope, names.camera, g.view, size);
     scope.compute(names.depth, "gbuffer/downsample_depth.comp")
         .sample("all", all.depth)
         .write("downsampled", g.depth)
-        .push(int32_t(spacing))
+        .push(pushOf(by))
         .dispatchThreads(size.x, size.y);
     return g;
 }
 
-ImageHandle addDownsampledImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing) {
-    if (!all || spacing == 1) return all;
-    const glm::uvec2 size = glm::max(scope.info(all).size / spacing, 1u);
+ImageHandle addDownsampledImage(GraphScope scope, std::string_view name, ImageHandle all,
+                                const Downsampling& by) {
+    if (!all || by.spacing == 1) return all;
+    const glm::uvec2 size = glm::max(scope.info(all).size / by.spacing, 1u);
     const ImageHandle downsampled =
         scope.image(name, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = size});
     scope.compute(name, "gbuffer/downsample_image.comp")
         .sample("all", all)
         .write("downsampled", downsampled)
-        .push(int32_t(spacing))
+        .push(pushOf(by))
         .dispatchThreads(size.x, size.y);
     return downsampled;
 }

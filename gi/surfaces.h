@@ -14,18 +14,30 @@ struct DownsamplingNames {
 };
 constexpr DownsamplingNames kDownsampling = {"gbuffer.downsample_depth", "gbuffer.downsample_normal",
                                              "gbuffer.downsample_camera", "gbuffer.downsample_motion"};
+constexpr DownsamplingNames kOtherDownsampling = {
+    "gbuffer.downsample_depth_other", "gbuffer.downsample_normal_other", "gbuffer.downsample_camera_other",
+    "gbuffer.downsample_motion_other"};
 constexpr DownsamplingNames kLaterDownsampling = {
     "gbuffer.downsample_depth_later", "gbuffer.downsample_normal_later", "gbuffer.downsample_camera_later",
     "gbuffer.downsample_motion_later"};
 
-// Every spacing-th pixel of every spacing-th row, as if the camera had no others: from the middle of each
-// square of the image, what is left over at its right and lower border goes without. Depth, normal and
-// motion only; itself with a spacing of 1.
-Surfaces addDownsampled(GraphScope scope, const Surfaces& all, uint32_t spacing,
+// One pixel of each square of spacing x spacing; what is left over at the image's right and lower border goes
+// without.
+struct Downsampling {
+    uint32_t spacing = 1;
+    glm::uvec2 place{0};  // of the pixel in its square
+
+    Downsampling(uint32_t n) : spacing(n), place(n / 2) {}  // its middle
+    Downsampling(uint32_t n, glm::uvec2 at) : spacing(n), place(at) {}
+};
+
+// Those pixels, as if the camera had no others. Depth, normal and motion only; itself with a spacing of 1.
+Surfaces addDownsampled(GraphScope scope, const Surfaces& all, const Downsampling& by,
                         const DownsamplingNames& names = kDownsampling);
 
 // The same of an image, rgba16f.
-ImageHandle addDownsampledImage(GraphScope scope, std::string_view name, ImageHandle all, uint32_t spacing);
+ImageHandle addDownsampledImage(GraphScope scope, std::string_view name, ImageHandle all,
+                                const Downsampling& by);
 
 // io::kViewPointCount surface points that stand for the view: io::ViewPoint, also a texel buffer of vec4.
 BufferHandle addViewPoints(GraphScope scope, const Surfaces& surfaces);

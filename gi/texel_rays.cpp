@@ -16,6 +16,8 @@ namespace {
 
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr uint32_t kMostRounds = 4;
+constexpr uint32_t kMostRaysOfTurn = 1 << 20;  // pixels of another turn draw other numbers
+constexpr float kFading = 31.0f / 32;          // of what is carried from before a change, a frame
 // Names are literals, because the graph keeps views of them.
 constexpr std::array<std::string_view, kMostRounds> kFilterNames = {
     "texel_rays.filter0", "texel_rays.filter1", "texel_rays.filter2", "texel_rays.filter3"};
@@ -83,6 +85,7 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
     const Members members = addMembers(t.scope, in.rsm, in.clusters);
     const ImageHandle sent = t.scope.image("texel_rays.sent", {.format = kFloat4, .size = t.gbuffer.size});
     const BufferHandle noise = addBlueNoise(t.scope);
+    const float snapping = in.occluders.trees.snapping;
     PassBuilder cast = t.scope.compute("texel_rays.cast", "texel_rays/cast_rays.comp");
     cast.sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
@@ -105,7 +108,9 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
                            .mapCount = in.rsm.lightRsmCount,
                            .ray = ray,
                            .shift = blueNoiseShift(ray),
-                           .offset = io::kBvhOffset * in.occluders.extent,
+                           .offset = io::kRayOffset * in.occluders.extent,
+                           .pixelOffset = snapping / float(t.gbuffer.spacing),
+                           .texelOffset = snapping,
                            .reach = reach * in.occluders.extent})
         .dispatchGroups(choice.blocks);
     readTrees(cast, in.occluders.trees);
@@ -217,7 +222,7 @@ Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& se
 }
 
 Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const Means& m, const Seen& seen,
-                         const TexelRaysSettings& s, const Settling& settling) {
+                         const TexelRaysSettings& s, const Settling& settling, uint32_t turn) {
     const glm::uvec2 size = t.gbuffer.size;
     const ImageInfo info{.format = kFloat4, .size = size};
     const std::array<ImageHandle, 2> turns = {t.scope.image("texel_rays.even", info),
@@ -253,7 +258,7 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
         .write("irradiance", c.irradiance)
         .write("correction", c.correction.current)
         .write("carried", c.carried.current)
-        .push(uint32_t(seen.known && before.valid))
+        .push(io::CorrectPush{seen.known && before.valid, turn == 0 ? kFading : 1})
         .step(settling.step)
         .dispatchThreads(size.x, size.y);
     return {c.irradiance, areaLights.toward};
@@ -261,25 +266,26 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
 
 }  // namespace
 
+bool castsTexelRays(const TexelRaysSettings& s, const Occluders& occluders) {
+    return s.enabled && occluders.trees && occluders.trees.moverNodes;
+}
+
 Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const TexelRaysInputs& in,
                         const ValShadingSettings& shading, const TexelRaysSettings& s,
                         TexelRaysHistory& history) {
-    if (!s.enabled || !areaLights.image || !in.occluders.trees || !in.occluders.trees.moverNodes)
-        return areaLights;
-    const uint64_t stands =
-        combineHash(in.rsm.inputsVersion, combineHash(in.versions.view, in.versions.instances));
-    // While clusters change, what they send does: without new rays the old ones would count again.
-    const uint32_t frames = std::max(s.settleFrames, in.clustersSettle);
-    const uint32_t step = history.settling.advance(stands, frames);
+    if (!areaLights.image || !castsTexelRays(s, in.occluders)) return areaLights;
+    uint64_t stands = combineHash(in.rsm.inputsVersion, combineHash(in.versions.view, in.versions.instances));
+    stands = combineHash(stands, in.turn);
+    const uint32_t step = history.settling.advance(stands, in.frames);
     const Seen seen = addSeen(t, in.versions.origin, history);
     if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, step);
     // Counted from the last change on, so that a still picture does not depend on what was before.
-    const uint32_t ray = std::min(history.settling.sinceChange, frames);
+    const uint32_t ray = std::min(history.settling.sinceChange, in.frames) + in.turn * kMostRaysOfTurn;
     const Choice choice = addChoice(t, ray);
     const ImageHandle sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent, shading);
     const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling);
-    return addCorrection(t, areaLights, means, seen, s, history.settling);
+    return addCorrection(t, areaLights, means, seen, s, history.settling, in.turn);
 }
 
 }  // namespace ag::gi

@@ -17,6 +17,7 @@ struct TexelRaysSettings {
     float reach = 0.05f;          // of a hemisphere's ray, in the scene's extent
     uint32_t mostLength = 1024;   // frames that a mean stands for
     uint32_t settleFrames = 256;  // frames with new rays after anything last changed
+    bool allPixels = true;        // then by the pixels that were left out, one after another
     uint32_t rounds = 3;          // of the filter
     float tolerance = 1;          // standard deviations by which the light of taps may differ
 
@@ -29,6 +30,8 @@ struct TexelRaysSettings {
                                        "a pixel's mean stands for"},
                           SettingField{"settle_frames", &TexelRaysSettings::settleFrames, 0, 1000000,
                                        "frames", "with new rays after anything last changed"},
+                          SettingField{"all_pixels", &TexelRaysSettings::allPixels, 0, 0, "",
+                                       "then gather at the pixels left out, too, while nothing changes"},
                           SettingField{"rounds", &TexelRaysSettings::rounds, 0, 4, "rounds",
                                        "of the filter, each twice as wide"},
                           SettingField{"tolerance", &TexelRaysSettings::tolerance, 0.01, 1000, "deviations",
@@ -51,8 +54,12 @@ struct TexelRaysInputs {
     const Clusters& clusters;
     const Occluders& occluders;
     const Versions& versions;
-    uint32_t clustersSettle = 0;  // frames
+    uint32_t turn = 0;    // of the pixels of a square (gather_grid.h)
+    uint32_t frames = 0;  // with new rays after anything last changed
 };
+
+// Whether any are cast: `settings` ask for them, and there is something to trace them through.
+bool castsTexelRays(const TexelRaysSettings& settings, const Occluders& occluders);
 
 // `areaLights`: what they send by `tiles`; the same corrected.
 Irradiance addTexelRays(const ValTiles& tiles, const Irradiance& areaLights, const TexelRaysInputs& in,

@@ -6,6 +6,10 @@
 namespace ag::gi {
 namespace {
 
+ImageInfo upsampledInfo(const Surfaces& all) {
+    return {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size};
+}
+
 struct Upsampled {
     Irradiance irradiance;
     PixelList alone;
@@ -14,8 +18,7 @@ struct Upsampled {
 Upsampled addUpsampled(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                        const Irradiance& gathered, const UpsamplingNames& names, const Irradiance& base) {
     const io::UpsamplingPush push = upsamplingPush(all, downsampled);
-    const ImageHandle result =
-        scope.image(names.irradiance, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = all.size});
+    const ImageHandle result = scope.image(names.irradiance, upsampledInfo(all));
     const PixelList lacking = addPixelList(scope, names.lacking, all.size);
     const PixelList alone = addPixelList(scope, names.alone, all.size);
     const auto addPass = [&](std::string_view name, const char* shader) {
@@ -83,6 +86,18 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
         .push(glm::uvec3(vals.first, vals.count, isms.tileSize))
         .dispatchIndirect(up.alone.groups);
     return up.irradiance;
+}
+
+Irradiance addPlacing(GraphScope scope, const Surfaces& all, const Irradiance& gathered,
+                      const Downsampling& pixels, const UpsamplingNames& names) {
+    const ImageHandle result = scope.image(names.irradiance, upsampledInfo(all));
+    const glm::uvec2 cells = scope.info(gathered.image).size;
+    scope.compute(names.place, "upsampling/place.comp")
+        .sample("light", gathered.image)
+        .readWrite("result", result)
+        .push(glm::ivec3(pixels.place, pixels.spacing))
+        .dispatchThreads(cells.x, cells.y);
+    return {result, {}};
 }
 
 }  // namespace ag::gi

@@ -14,7 +14,7 @@ namespace ag::gi {
 struct UpsamplingNames {
     std::string_view near, far, irradiance;
     PixelListNames lacking, alone;
-    std::string_view gather;
+    std::string_view gather, place;
 };
 constexpr UpsamplingNames kUpsampling = {
     "upsampling.near",
@@ -22,7 +22,8 @@ constexpr UpsamplingNames kUpsampling = {
     "upsampling.irradiance",
     {"upsampling.lacking", "upsampling.none_lacking", "upsampling.groups", "upsampling.no_groups"},
     {"upsampling.alone", "upsampling.none_alone", "upsampling.alone_groups", "upsampling.no_alone_groups"},
-    "upsampling.gather"};
+    "upsampling.gather",
+    "upsampling.place"};
 constexpr UpsamplingNames kFirstBounceUpsampling = {
     "upsampling.near_first",
     "upsampling.far_first",
@@ -31,7 +32,8 @@ constexpr UpsamplingNames kFirstBounceUpsampling = {
      "upsampling.no_groups_first"},
     {"upsampling.alone_first", "upsampling.none_alone_first", "upsampling.alone_groups_first",
      "upsampling.no_alone_groups_first"},
-    "upsampling.gather_first"};
+    "upsampling.gather_first",
+    "upsampling.place_first"};
 constexpr UpsamplingNames kLaterUpsampling = {
     "upsampling.near_later",
     "upsampling.far_later",
@@ -40,6 +42,7 @@ constexpr UpsamplingNames kLaterUpsampling = {
      "upsampling.no_groups_later"},
     {"upsampling.alone_later", "upsampling.none_alone_later", "upsampling.alone_groups_later",
      "upsampling.no_alone_groups_later"},
+    "",
     ""};
 
 // Of passes that bring what was gathered at the pixels of `downsampled` to `all`.
@@ -58,5 +61,10 @@ struct LightsOfPixels {
 // The same with those that made `gathered`.
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                          const Irradiance& gathered, const UpsamplingNames& names, const LightsOfPixels& of);
+
+// What was gathered at one pixel of each square to just those of what addUpsampling() left: the others stay
+// as they are.
+Irradiance addPlacing(GraphScope scope, const Surfaces& all, const Irradiance& gathered,
+                      const Downsampling& pixels, const UpsamplingNames& names);
 
 }  // namespace ag::gi

@@ -1,6 +1,7 @@
 #include "engine/renderer/scene_trees.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/hash.h"
 #include "engine/gpu/transfer.h"
@@ -87,6 +88,7 @@ gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scen
             .places = scope.importBuffer("scene.tree_places", *places_, placings_),
             .moverNodes = scope.importBuffer("scene.mover_nodes", *moverNodes_, placings_),
             .staticVersion = builds_,
+            .snapping = std::exp2(-float(device_.info().limits.subPixelPrecisionBits)),
             .stale = !follows};
 }
 

@@ -11,7 +11,7 @@
 struct BvhRay {
     vec3 origin, direction;
     float reach;
-    float opaqueFrom;  // triangles of less opacity let it through
+    float opaqueFrom;  // in [0, 1): by which masked triangles let it through, each as if drawn by itself
     bool any;          // the first hit will do
     int triangle;      // that was met
 };
@@ -39,6 +39,9 @@ bool meetsBox(BvhGridRay r, uvec4 node, float reach) {
     return max(max(enter.x, enter.y), max(enter.z, 0.0)) <= min(min(leave.x, leave.y), min(leave.z, reach));
 }
 
+// Multiples of the golden ratio: one in [0, 1) for each triangle, unlike its neighbours'.
+float drawnFor(int triangle) { return float(uint(triangle) * 0x9e3779b9u >> 8u) / 16777216.0; }
+
 // Möller & Trumbore 1997, both sides; the reach, shorter where the triangle is met before.
 float meetTriangle(BvhGridRay r, int triangle, float reach, float opaqueFrom) {
     vec4 corner = treeTriangles.items[triangle * 3];
@@ -47,7 +50,7 @@ float meetTriangle(BvhGridRay r, int triangle, float reach, float opaqueFrom) {
     float det = dot(edge1, p), inverse = det != 0.0 ? 1.0 / det : 0.0;
     float u = dot(s, p) * inverse, v = dot(r.direction, q) * inverse, t = dot(edge2, q) * inverse;
     const float kSlack = 1e-6;  // no ray slips through where triangles meet
-    bool hit = det != 0.0 && min(u, v) >= -kSlack && u + v <= 1.0 + kSlack && t > 0.0 && corner.w > opaqueFrom;
+    bool hit = det != 0.0 && min(u, v) >= -kSlack && u + v <= 1.0 + kSlack && t > 0.0 && corner.w > fract(opaqueFrom + drawnFor(triangle));
     return hit ? min(t, reach) : reach;
 }
 

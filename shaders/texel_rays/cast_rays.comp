@@ -47,6 +47,7 @@ const float kResampled = 4.0; // by how much that makes a texel with much to sen
 
 struct Receiver {
     vec3 position, normal;
+    float offset;      // m: rays leave so far before it
     uint tile, block;  // of the screen
 };
 
@@ -107,12 +108,12 @@ vec3 sentByDrawn(Receiver r, Drawn d, inout uint random, out vec3 toTexel) {
     }
     if (sum <= 0.0) return vec3(0.0);
     RsmSurface s = AG_RSM_FETCH(texels, chosen);
-    toTexel = s.position + s.normal * push.p.offset - r.position;
+    toTexel = s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)) - r.position;
     return s.flux / s.weight * (sum * step / d.likely);
 }
 
 bool isSeen(Receiver r, vec3 toTexel, float opaqueFrom) {
-    vec3 start = r.normal * push.p.offset;
+    vec3 start = r.normal * r.offset;
     BvhRay ray = BvhRay(r.position + start, toTexel - start, 1.0, opaqueFrom, true, 0);
     return !traceOccluders(ray);
 }
@@ -126,7 +127,7 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 
 vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
     vec3 direction = cosineDirection(r.normal, xi);
-    BvhRay ray = BvhRay(r.position + r.normal * push.p.offset, direction, push.p.reach, opaqueFrom, false, 0);
+    BvhRay ray = BvhRay(r.position + r.normal * r.offset, direction, push.p.reach, opaqueFrom, false, 0);
     if (!traceOccluders(ray)) return vec3(0.0);
     vec3 place = ray.origin + direction * ray.reach, e = vec3(0.0);
     for (uint map = 0; map < push.p.mapCount; ++map) {
@@ -137,7 +138,7 @@ vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
         uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
         uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
         float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
-        vec3 toPlace = place - r.position;
+        vec3 toPlace = s.position - r.position;
         float draw = densityOfDraw(ofLight, memberCount, s, toPlace), own = densityOfHemisphere(r.normal, toPlace);
         if (dot(s.normal, direction) < 0.0) e += s.flux / s.area * (own / max(draw + own, 1e-20));
     }
@@ -160,7 +161,10 @@ void main() {
     bool there = all(equal(uvec2(pixel), cell));
     uvec2 tile = uvec2(pixel) / push.p.tiles.tileSize;
     float depth = texelFetch(depthMap, pixel, 0).x;
-    Receiver r = Receiver(worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), texelFetch(normalMap, pixel, 0).xyz,
+    mat4 worldFromClip = camera.camera.worldFromClip;
+    vec3 position = worldFromPixel(worldFromClip, size, pixel, depth);
+    float wide = distance(position, worldFromPixel(worldFromClip, size, pixel + ivec2(1, 0), depth));
+    Receiver r = Receiver(position, texelFetch(normalMap, pixel, 0).xyz, max(push.p.offset, push.p.pixelOffset * wide),
                           tile.y * push.p.tiles.tiles.x + tile.x, block);
     uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.ray) * 31u);
     vec3 xi = fract(vec3(noiseAt(cell, 0u), noiseAt(cell, 32u).x) + push.p.shift);

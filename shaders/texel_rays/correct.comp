@@ -6,6 +6,7 @@
 // and Stein's estimator, over the pixels about). Until it does, by what rays had found before something changed.
 #include "common/pixel_rays.h"
 #include "texel_rays/carried.glsl"
+#include "texel_rays/texel_rays_io.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -17,11 +18,10 @@ layout(set = 0, binding = 4) uniform sampler2D previousCarried;
 // rgb: what was added to the area lights' light, W/m²; a: its luminance then.
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
-layout(push_constant) uniform Push { uint valid; } push;                  // 0: there is no frame before
+layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
 
 const float kDoubt = 16.0;  // neighbours' errors are correlated: more noise is left than the filtered variance says
 const int kStride = 4;      // pixels
-const float kFading = 31.0 / 32.0;  // of what is carried, a frame
 
 vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(shareOf, at, 0).x - 1.0) * lights; }
 
@@ -37,7 +37,7 @@ void main() {
         }
     float trust = max(found - kDoubt * noise, 0.0) / max(found, 1e-30);
     vec4 lights = texelFetch(areaLights, at, 0), known = texelFetch(previousCarried, at, 0);
-    vec4 kept = push.valid == 1 ? vec4(kFading * stillTrue(luminance(lights.rgb), known.a) * known.rgb, known.a) : vec4(0.0);
+    vec4 kept = push.p.valid == 1 ? vec4(push.p.fading * stillTrue(luminance(lights.rgb), known.a) * known.rgb, known.a) : vec4(0.0);
     vec3 c = mix(kept.rgb, correctionAt(at, lights.rgb, texelFetch(rest, at, 0).rgb), trust);
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c, vec3(0.0), vec3(kMostHalf)), lights.a));

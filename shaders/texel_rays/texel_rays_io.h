@@ -11,14 +11,21 @@ namespace ag::io {
 
 const uint kDrawBlock = 8;  // pixels along the side of a block whose pixels draw lights alike; divides a tile
 
+// Rays end so far before their surfaces at least, in the scene's extent: short, for what is in a crease must
+// be met.
+const float kRayOffset = 2e-5f;
+
 struct CastPush {
     ValShadingPush tiles;
     uint atlasWidth;  // texels, of the maps
     uint mapCount;    // of lights
     uint ray;         // number of the frame's rays
     vec3 shift;       // of the noise: the numbers a pixel draws for a direction, and for a light
-    float offset;     // m: rays leave and reach surfaces so far before them
-    float reach;      // m: of rays to whatever is near
+    float offset;     // m: rays leave and reach surfaces so far before them at least
+    // The same in these pixels and in texels: a rasteriser draws between corners it has moved, and so beside
+    // surfaces.
+    float pixelOffset, texelOffset;
+    float reach;  // m: of rays to whatever is near
 };
 
 struct ChoosePush {
@@ -35,6 +42,11 @@ struct RayAccumulatePush {
 struct CarryPush {
     float near;  // m
     uint valid;  // 0: there is no frame before
+};
+
+struct CorrectPush {
+    uint valid;    // 0: there is no frame before
+    float fading;  // share of what is carried that stays, a frame
 };
 
 #ifdef __cplusplus

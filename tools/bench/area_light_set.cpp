@@ -27,7 +27,7 @@ struct Rendered {
 Rendered renderSettled(render::Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
                        const render::RenderSettings& settings) {
     Rendered last;
-    const uint32_t rays = render::castsTexelRays(settings) ? settings.bounce.texelRays.settleFrames : 0;
+    const uint32_t rays = render::castsTexelRays(settings) ? gi::framesToRest(settings.bounce) : 0;
     for (uint32_t i = 0; i < kFrames + rays; ++i)
         renderer.render(
             scene, size, settings, {},

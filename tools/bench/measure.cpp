@@ -72,7 +72,7 @@ struct Frame {
     }
     // Until rays to texels rest.
     void refine(const RenderScene& scene, const render::RenderSettings& settings) {
-        const uint32_t frames = render::castsTexelRays(settings) ? settings.bounce.texelRays.settleFrames : 0;
+        const uint32_t frames = render::castsTexelRays(settings) ? gi::framesToRest(settings.bounce) : 0;
         for (uint32_t i = 0; i < frames; ++i)
             render(scene, settings, {});
     }

@@ -1,0 +1,52 @@
+#include "gi/gather_grid.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/hash.h"
+
+namespace ag::gi {
+namespace {
+
+// Of the first pixel's rays: the others begin with what was found beside them.
+constexpr uint32_t kLaterShare = 2;
+
+uint32_t turnsOf(const BounceLightSettings& s) {
+    return s.texelRays.allPixels ? s.spacing * s.spacing : 1;
+}
+
+// While clusters change, what they send does: without new rays the old ones would count again.
+uint32_t framesOfTurn(const BounceLightSettings& s, uint32_t turn) {
+    return turn == 0 ? std::max(s.texelRays.settleFrames, s.valClustering.settleFrames)
+                     : s.texelRays.settleFrames / kLaterShare;
+}
+
+// A frame in which the surfaces are new comes before the rays.
+constexpr uint32_t kBegins = 1;
+
+}  // namespace
+
+uint32_t framesToRest(const BounceLightSettings& s) {
+    uint32_t frames = 0;
+    for (uint32_t turn = 0; turn < turnsOf(s); ++turn)
+        frames += kBegins + framesOfTurn(s, turn);
+    return frames;
+}
+
+GatherGrid chooseGatherGrid(uint64_t light, bool castsRays, const BounceLightSettings& s,
+                            GatherGridHistory& h) {
+    h.changes += std::exchange(h.settings, s) != s;
+    h.settling.advance(combineHash(light, h.changes), framesToRest(s));
+    GatherGrid grid{.place = glm::uvec2(s.spacing / 2), .frames = framesOfTurn(s, 0)};
+    if (!castsRays) return grid;
+    uint32_t since = h.settling.sinceChange;
+    while (grid.turn + 1 < turnsOf(s) && since >= kBegins + grid.frames) {
+        since -= kBegins + grid.frames;
+        grid.frames = framesOfTurn(s, ++grid.turn);
+    }
+    grid.begins = since == 0;
+    grid.place = (grid.place + glm::uvec2(grid.turn % s.spacing, grid.turn / s.spacing)) % s.spacing;
+    return grid;
+}
+
+}  // namespace ag::gi

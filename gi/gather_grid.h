@@ -1,0 +1,31 @@
+// Which pixel of each square of spacing x spacing light is gathered at. While nothing changes it is one after
+// another, each for as long as its rays to texels settle: a still picture ends with light of every pixel's
+// own.
+#pragma once
+
+#include "gi/settings.h"
+
+namespace ag::gi {
+
+struct GatherGrid {
+    glm::uvec2 place{0};  // of the pixel in its square
+    uint32_t turn = 0;    // how many of the square's pixels were before it
+    bool begins = false;  // its first frame
+    uint32_t frames = 0;  // in which it casts rays
+};
+
+// Lives on the CPU from frame to frame.
+struct GatherGridHistory {
+    Settling settling;
+    BounceLightSettings settings;  // of the frame before
+    uint64_t changes = 0;          // of settings
+};
+
+// Of a scene in which rays are cast: frames from the last change on until nothing is made anew.
+uint32_t framesToRest(const BounceLightSettings& settings);
+
+// `light`: of all but the settings that light depends on. Without rays the middle pixel has all turns.
+GatherGrid chooseGatherGrid(uint64_t light, bool castsRays, const BounceLightSettings& settings,
+                            GatherGridHistory& history);
+
+}  // namespace ag::gi

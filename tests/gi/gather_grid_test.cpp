@@ -1,0 +1,80 @@
+// Which pixels light is gathered at while nothing changes.
+#include "gi/gather_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace ag::gi {
+namespace {
+
+BounceLightSettings shortTurns(uint32_t spacing) {
+    BounceLightSettings s;
+    s.spacing = spacing;
+    s.texelRays.settleFrames = 8;
+    s.valClustering.settleFrames = 6;
+    return s;
+}
+
+TEST(GatherGrid, EveryPixelOfASquareHasOneTurn) {
+    for (const uint32_t spacing : {1u, 2u, 3u}) {
+        const BounceLightSettings s = shortTurns(spacing);
+        GatherGridHistory history;
+        std::set<std::pair<uint32_t, uint32_t>> places;
+        uint32_t begun = 0;
+        GatherGrid grid;
+        for (uint32_t frame = 0; frame < framesToRest(s); ++frame) {
+            grid = chooseGatherGrid(7, true, s, history);
+            if (!grid.begins) continue;
+            EXPECT_EQ(grid.turn, begun++);
+            EXPECT_TRUE(places.emplace(grid.place.x, grid.place.y).second) << "two turns of one pixel";
+        }
+        EXPECT_EQ(places.size(), spacing * spacing);
+        for (int more = 0; more < 100; ++more) {
+            const GatherGrid later = chooseGatherGrid(7, true, s, history);
+            EXPECT_EQ(later.turn, grid.turn);
+            EXPECT_FALSE(later.begins);
+        }
+    }
+}
+
+TEST(GatherGrid, TheMiddleIsFirstAndHasTheMostRays) {
+    const BounceLightSettings s = shortTurns(2);
+    GatherGridHistory history;
+    const GatherGrid first = chooseGatherGrid(1, true, s, history);
+    EXPECT_EQ(first.place, glm::uvec2(1));
+    GatherGrid last = first;
+    for (uint32_t frame = 1; frame < framesToRest(s); ++frame)
+        last = chooseGatherGrid(1, true, s, history);
+    EXPECT_EQ(last.turn, 3u);
+    EXPECT_LT(last.frames, first.frames);
+}
+
+TEST(GatherGrid, ChangesBeginAnew) {
+    BounceLightSettings s = shortTurns(2);
+    GatherGridHistory history;
+    const auto rest = [&](uint64_t light) {
+        GatherGrid grid;
+        for (uint32_t frame = 0; frame < framesToRest(s); ++frame)
+            grid = chooseGatherGrid(light, true, s, history);
+        return grid.turn;
+    };
+    EXPECT_EQ(rest(1), 3u);
+    EXPECT_EQ(chooseGatherGrid(2, true, s, history).turn, 0u) << "other light";
+    EXPECT_EQ(rest(2), 3u);
+    s.valShading.taps += 1;
+    EXPECT_EQ(chooseGatherGrid(2, true, s, history).turn, 0u) << "other settings";
+    EXPECT_EQ(rest(2), 3u);
+    s.texelRays.allPixels = false;
+    EXPECT_EQ(rest(2), 0u);
+}
+
+TEST(GatherGrid, WithoutRaysTheMiddleHasAllTurns) {
+    const BounceLightSettings s = shortTurns(2);
+    GatherGridHistory history;
+    for (uint32_t frame = 0; frame < 2 * framesToRest(s); ++frame)
+        EXPECT_EQ(chooseGatherGrid(1, false, s, history).place, glm::uvec2(1));
+}
+
+}  // namespace
+}  // namespace ag::gi
