@@ -12,13 +12,13 @@
 #include "engine/app/imgui_pass.h"
 #include "engine/app/present.h"
 #include "engine/app/window.h"
+#include "engine/capture/live_capture.h"
 #include "engine/core/image.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
 #include "engine/core/safe_file.h"
 #include "engine/scene/describe_components.h"
 #include "game/demo_options.h"
-#include "game/frame_capture.h"
 #include "game/hud.h"
 #include "game/menu.h"
 #include "game/save_game.h"
@@ -130,7 +130,7 @@ class WindowedRun {
         if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
         if (key == GLFW_KEY_F4) panels_.showWorld = !panels_.showWorld;
         if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
-        if (key == GLFW_KEY_F10) capture_.start(demo_);
+        if (key == GLFW_KEY_F10) capture_.start(demo_.files.captures(), demo_.options.captureFrames);
         if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey)
             demo_.layer = render::layerOfKey(key - GLFW_KEY_0);
@@ -280,8 +280,17 @@ class WindowedRun {
              .signal = image->rendered});
         demo_.game->takeReadings(renderer_.probeReadings());
         swapchain_.present(*image);
-        capture_.note(demo_, size);
+        if (capture_.recording()) capture_.note(subject(size));
         return true;
+    }
+    capture::Subject subject(glm::uvec2 size) {
+        return {.scene = demo_.game->scene(),
+                .name = demo_.game->level().name,
+                .settings = fmt::format("the game, {} quality", qualityName(demo_.user.quality)),
+                .gi = demo_.gi,
+                .graph = demo_.graph,
+                .size = size,
+                .schedules = {&demo_.game->tickSchedule(), &demo_.game->frameSchedule()}};
     }
     void drawUi() {
         MenuEvent event = MenuEvent::kNone;
@@ -334,7 +343,7 @@ class WindowedRun {
     ImGuiPass imgui_;
     render::BudgetController budget_;
     render::FrameCost cost_;
-    FrameCapture capture_;
+    capture::LiveCapture capture_;
     Speaker speaker_;
     DebugUiState panels_;
     Menu menu_;

@@ -36,6 +36,7 @@ struct Frame {
     std::vector<Span> gpu;                // of those that ran, in order
     std::vector<Span> systems;            // of the schedule that fed the frame, if one did
     std::vector<Counter> counters;
+    std::vector<std::string> madeAnew;  // sentences
 };
 
 // An intermediate as it was after the last frame.
@@ -56,6 +57,7 @@ struct Look {
 struct Capture {
     std::string scene, device, driver, settings, clock;  // clock: how both sides' times were brought together
     glm::uvec2 size{0};
+    render::RenderSettings gi;
     Look look;
     std::vector<Frame> frames;
     std::vector<ResourceDescription> resources;  // of the last frame; its passes' reads and writes point here

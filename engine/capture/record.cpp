@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "engine/capture/made_anew.h"
 #include "engine/frame/frame_timer.h"
 
 namespace ag::capture {
@@ -158,12 +159,14 @@ void FrameRecorder::note(const RenderScene& scene, std::vector<Span> systems) {
     }
     std::erase_if(description.passes,
                   [](const PassDescription& pass) { return pass.name.starts_with(kOwnPrefix); });
+    std::vector<std::string> anew = madeAnew(description);
     resources_ = std::move(description.resources);
     Frame frame{.number = renderer_.graph().frame(),
                 .forced = index < warmUp_,
                 .cpu = renderer_.moments(),
                 .passes = std::move(description.passes),
-                .systems = std::move(systems)};
+                .systems = std::move(systems),
+                .madeAnew = std::move(anew)};
     frame.counters = countersOf(renderer_, scene, declared_, frame);
     frames_.push_back(std::move(frame));
 }
@@ -188,6 +191,7 @@ void FrameRecorder::finish(Capture& capture) {
 
 void recordFrames(render::Renderer& renderer, NextScene next, const RecordSettings& settings,
                   Capture& capture) {
+    capture.gi = settings.gi;
     FrameRecorder recorder(renderer, settings.warmUp, settings.frames);
     while (!recorder.complete()) {
         std::vector<Span> systems;

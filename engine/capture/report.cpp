@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/capture/graph_picture.h"
+#include "engine/capture/report_findings.h"
 #include "engine/capture/report_page.h"
 
 namespace ag::capture {
@@ -85,7 +86,8 @@ Json rowJson(const PassRow& r) {
                         spaced(r.writes)});
 }
 
-Json frameJson(const Frame& f) {
+Json frameJson(const Capture& capture, size_t index) {
+    const Frame& f = capture.frames[index];
     const uint64_t start = f.systems.empty() ? f.cpu.begin : std::min(f.cpu.begin, f.systems.front().beginNs);
     const auto ms = [&](uint64_t ns) { return double(int64_t(ns - start)) * 1e-6; };
     Json bars = Json::array();
@@ -120,12 +122,15 @@ Json frameJson(const Frame& f) {
                             {"why", fmt::format("{}: {}", outcomeName(pass.outcome), pass.reason)}});
         }
     }
+    Json findings = findingsJson(capture, index);
+    for (const Json& gap : findings["gaps"])
+        bar(gap["lane"], gap["why"], "gap", gap["begin"], gap["end"]);
     const double total = f.gpu.empty() ? 0 : double(f.gpu.back().endNs - f.gpu.front().beginNs) * 1e-6;
     Json counters = Json::array();
     for (const Counter& counter : f.counters)
         counters.push_back({{"name", counter.name}, {"value", counter.value}});
-    return {
-        {"number", f.number}, {"forced", f.forced}, {"ms", total}, {"bars", bars}, {"counters", counters}};
+    return {{"number", f.number}, {"forced", f.forced},   {"ms", total},
+            {"bars", bars},       {"counters", counters}, {"findings", std::move(findings)}};
 }
 
 Json dataJson(const Capture& capture, const std::vector<PassRow>& table,
@@ -139,7 +144,7 @@ Json dataJson(const Capture& capture, const std::vector<PassRow>& table,
         data["memory"].push_back({row.name, double(row.sizeBytes) / 1024, row.kind, row.role,
                                   spaced(row.writtenBy), spaced(row.readBy)});
     for (size_t i = 1; i < capture.frames.size(); ++i)  // the first makes pipelines
-        data["frames"].push_back(frameJson(capture.frames[i]));
+        data["frames"].push_back(frameJson(capture, i));
     for (const ReportPicture& p : pictures)
         data["pictures"].push_back(
             {{"name", p.name}, {"pass", p.pass}, {"data", "data:image/png;base64," + base64(p.png)}});
@@ -161,11 +166,15 @@ std::string reportHtml(const Capture& capture, const std::vector<PassRow>& table
         "forced'></i> "
         "warm-up, nothing skipped). The slowest is chosen; click another to see it below.</p>"
         "<div id='strip'></div><p id='which'></p><div id='dearest'></div><p class='note' id='counters'></p>"
+        "<h3>What would make it faster</h3><ul id='advice'></ul>"
+        "<h3>Gaps</h3><ul id='gaps'></ul>"
+        "<h3>Made anew, and why</h3><ul id='anew'></ul>"
         "<p class='note'><i class='key'></i> passes on the GPU, <i class='key cpu'></i> the frame loop (<i "
-        "class='key wait'></i> waiting for the device), "
+        "class='key wait'></i> waiting for the device), <i class='key gap'></i> gaps, "
         "<i class='key system'></i> systems of the schedule, all on one clock:</p>"
         "<div id='gantt' class='scroll'></div>\n"
-        "<h2>Passes</h2><p class='note'>Click a header to sort.</p><div class='scroll'><table id='table'>"
+        "<h2>Passes</h2><p class='note'>Dearest first; click a header to sort otherwise.</p><div "
+        "class='scroll'><table id='table'>"
         "<thead><tr id='head'></tr></thead><tbody id='rows'></tbody></table></div>\n"
         "<h2>Compare pictures</h2><select id='left'></select> left of the line, <select id='right'></select> "
         "right of it <input id='cut' type='range' min='0' max='100' value='50' step='0.1'>"

@@ -6,6 +6,7 @@ namespace ag::capture {
 inline constexpr const char* kReportStyle = R"css(
 body { font: 14px/1.4 system-ui, sans-serif; margin: 24px auto; max-width: 1280px; padding: 0 16px; color: #1b2430; }
 h1 { font-size: 22px; margin: 0 0 4px } h2 { font-size: 17px; margin: 28px 0 8px }
+h3 { font-size: 14px; margin: 14px 0 4px } ul { margin: 0; padding-left: 20px }
 .note { color: #5a6b7d } .scroll { overflow: auto; border: 1px solid #d5dbe2; max-height: 620px }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums }
 th { position: sticky; top: 0; background: #eef2f6; cursor: pointer; white-space: nowrap; user-select: none }
@@ -22,7 +23,8 @@ th[data-way="up"]::after { content: " \25b2" } th[data-way="down"]::after { cont
 #gantt i { position: absolute; top: 1px; bottom: 1px; background: #3c7fb8; min-width: 1px } #gantt i.cpu { background: #d9a12b }
 #gantt i.system { background: #5aa86b } #gantt i.wait { background: #eadcb8 } #gantt .left-out { color: #98a3af }
 i.key { display: inline-block; width: 10px; height: 10px; background: #3c7fb8 } i.key.cpu { background: #d9a12b }
-i.key.system { background: #5aa86b } i.key.wait { background: #eadcb8 } i.key.forced { background: #c3c9d0 }
+i.key.system { background: #5aa86b } i.key.wait { background: #eadcb8 }
+i.key.gap, #gantt i.gap { background: #d98a8a } i.key.forced { background: #c3c9d0 }
 #dearest div { display: flex; align-items: center; height: 19px } #dearest span { width: 250px; flex: none }
 #dearest i { background: #3c7fb8; height: 13px; margin-right: 6px; min-width: 1px } #dearest em { font-style: normal }
 #dearest i.cpu { background: #d9a12b } #dearest i.system { background: #5aa86b }
@@ -31,7 +33,7 @@ i.key.system { background: #5aa86b } i.key.wait { background: #eadcb8 } i.key.fo
 #slider img.over { position: absolute; inset: 0; height: 100% }
 #slider b { position: absolute; top: 0; bottom: 0; width: 2px; background: #fff }
 #pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(220px, 1fr)); gap: 10px }
-skinnedMesh { margin: 0 } skinnedMesh img { width: 100%; background: #000 } figcaption { font-size: 12px }
+figure { margin: 0 } figure img { width: 100%; background: #000 } figcaption { font-size: 12px }
 )css";
 
 inline constexpr const char* kReportScript = R"js(
@@ -46,8 +48,8 @@ const make = (tag, parent, text, name) => {
 
 const brief = v => v.toLocaleString('en', { maximumFractionDigits: v >= 100 ? 0 : v >= 10 ? 1 : 3 });
 
-// A click on a header sorts, another turns the order round.
-function sortable(head, body, columns, rows) {
+// A click on a header sorts, another turns the order round; `first` is the column it begins with.
+function sortable(head, body, columns, rows, first) {
   const fill = sorted => {
     body.replaceChildren();
     for (const row of sorted) {
@@ -70,8 +72,10 @@ function sortable(head, body, columns, rows) {
     };
   });
   fill(rows);
+  if (first !== undefined) head.children[first].onclick();
 }
-sortable($('head'), $('rows'), capture.columns, capture.rows);
+// By the time where it ran, else by the time it takes if it does.
+sortable($('head'), $('rows'), capture.columns, capture.rows, capture.rows.some(r => r[1] > 0) ? 1 : 3);
 sortable($('memory-head'), $('memory'), capture.memoryColumns, capture.memory);
 
 // Timeline: the frames as columns, the chosen one as bars on one clock.
@@ -92,6 +96,7 @@ function choose(index) {
     `${f.ms.toFixed(3)} ms in ${ran.length} passes; ${(to - from).toFixed(3)} ms from the first of its steps to the last`;
   $('counters').textContent = f.counters.map(c => `${c.name} ${brief(c.value)}`).join(', ');
   showDearest(f);
+  showFindings(f.findings);
   const gantt = $('gantt'), lanes = new Map();
   gantt.replaceChildren();
   for (const b of f.bars) {
@@ -104,13 +109,13 @@ function choose(index) {
     const bar = make('i', lanes.get(b.lane), undefined, b.kind);
     bar.style.left = 100 * (b.begin - from) / (to - from) + '%';
     bar.style.width = 100 * (b.end - b.begin) / (to - from) + '%';
-    bar.title = `${b.name}: ${brief(b.end - b.begin)} ms`;
+    bar.title = b.kind === 'gap' ? b.name : `${b.name}: ${brief(b.end - b.begin)} ms`;
   }
 }
 // What took longest of the frame, on either side; a system that ran in several ticks once.
 function showDearest(f) {
   const sums = new Map();
-  for (const b of f.bars.filter(b => b.end !== null && b.kind !== 'wait'))
+  for (const b of f.bars.filter(b => b.end !== null && b.kind !== 'wait' && b.kind !== 'gap'))
     sums.set(b.name, { name: b.name, kind: b.kind, ms: (sums.get(b.name)?.ms ?? 0) + b.end - b.begin });
   const dearest = $('dearest'), share = ms => 100 * ms / Math.max(f.ms, 1e-6);
   dearest.replaceChildren();
@@ -120,6 +125,15 @@ function showDearest(f) {
     make('i', row, undefined, b.kind).style.width = Math.min(0.6 * share(b.ms), 60) + '%';
     make('em', row, `${brief(b.ms)} ms` + (b.kind === 'gpu' ? `, ${share(b.ms).toFixed(0)} %` : ''));
   }
+}
+function showFindings(found) {
+  const list = (id, sentences, none) => {
+    $(id).replaceChildren();
+    for (const sentence of sentences.length ? sentences : [none]) make('li', $(id), sentence);
+  };
+  list('advice', found.advice, 'None of the measured settings would save a hundredth of it.');
+  list('gaps', found.gaps.map(g => g.why), 'None longer than a fiftieth of the frame.');
+  list('anew', found.anew, 'Nothing.');
 }
 let slowest = 0;
 capture.frames.forEach((f, i) => { if (!f.forced && (capture.frames[slowest].forced || f.ms > capture.frames[slowest].ms)) slowest = i; });
@@ -141,10 +155,10 @@ function cut() {
 }
 capture.pictures.forEach((p, i) => {
   for (const id of ['left', 'right']) make('option', $(id), p.name).value = i;
-  const skinnedMesh = make('skinnedMesh', $('pictures')), img = make('img', skinnedMesh);
+  const figure = make('figure', $('pictures')), img = make('img', figure);
   img.src = p.data;
   img.alt = p.name;
-  make('figcaption', skinnedMesh, p.pass ? `${p.name}, by ${p.pass}` : p.name);
+  make('figcaption', figure, p.pass ? `${p.name}, by ${p.pass}` : p.name);
 });
 const index = name => capture.pictures.findIndex(p => p.name === name);
 $('left').value = Math.max(index('composite.display'), 0);

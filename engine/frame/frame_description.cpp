@@ -87,7 +87,8 @@ FrameDescription FrameGraph::describe() const {
         d.shader = pass.shader;
         d.uploads = pass.kind == PassKind::kUpload;
         d.outcome = g.report[p].outcome;
-        if (!pass.runs) d.reason = reasonText(g.report[p].reason);
+        d.cause = g.report[p].reason;
+        if (!pass.runs) d.reason = reasonText(d.cause);
         d.patches = g.report[p].patches;
         d.patchesDrawn = pass.runs ? g.report[p].patchesDrawn : 0;
         const auto note = [](std::vector<uint32_t>& list, uint32_t resource) {
@@ -96,6 +97,9 @@ FrameDescription FrameGraph::describe() const {
         std::vector<uint32_t> all;
         for (const Use& use : g.usesOf(pass)) {
             if (readsOld(use.kind)) note(d.reads, use.resource);
+            if (d.changed == ~0u && readsOld(use.kind) &&
+                g.resources[use.resource].name == g.report[p].changed)
+                d.changed = use.resource;
             if (writes(use.kind)) note(d.writes, use.resource);
             note(all, use.resource);
         }

@@ -26,6 +26,8 @@ struct PassDescription {
     std::string name, shader;
     PassOutcome outcome = PassOutcome::kDropped;
     std::string_view reason;              // why it did not run; empty if it did
+    PassReason cause = PassReason::kAll;  // why it ran or did not
+    uint32_t changed = ~0u;               // kInput, kHistory: the resource that had changed, an index
     std::vector<uint32_t> reads, writes;  // indices into FrameDescription::resources; what a pass writes over
                                           // without looking at it is not read
     bool uploads = false;                 // what the host gave it

@@ -44,6 +44,26 @@ constexpr std::array kRows = {Row{"half", 0.5f, 64, 48, 32, 768, 3, 2, 4, 0.2},
                               Row{"ultra, 12 taps", 1, 1024, 512, 128, 6144, 2, 4, 12, 9.1},
                               Row{"ultra", 1, 1024, 512, 128, 8192, 2, 6, 16, 9.9}};
 
+// Relative RMSE of the first bounce beside "medium" (docs/skipping.md).
+struct MeasuredError {
+    std::string_view step;
+    double relative;
+};
+constexpr std::array kErrors = {MeasuredError{"below low", 2.54},
+                                MeasuredError{"low", 1.88},
+                                MeasuredError{"low 112", 1.80},
+                                MeasuredError{"low 112, 2 x 2", 1.09},
+                                MeasuredError{"medium 128, maps of 256²", 1.02},
+                                MeasuredError{"medium", 1},
+                                MeasuredError{"medium 176", 0.99},
+                                MeasuredError{"medium 224", 0.93},
+                                MeasuredError{"high", 0.96}};
+
+double errorOf(std::string_view step) {
+    const auto found = std::ranges::find(kErrors, step, &MeasuredError::step);
+    return found == kErrors.end() ? 0 : found->relative;
+}
+
 // Of the budget: what a frame may take before a faster step is chosen, what a step may be expected to take if
 // it was never seen and if it was. Between the first and the last nothing changes.
 constexpr double kTooLong = 1.08, kNewStep = 1.02, kKnownStep = 0.98;
@@ -53,7 +73,8 @@ constexpr uint32_t kPatience = 12;   // frames before going up
 
 QualityStep stepOf(const Row& row) {
     return {std::string(row.name), row.scale,   row.mapResolution, row.valCount, row.ismTile,
-            row.pointsPerMap,      row.spacing, row.nearReach,     row.taps,     row.relativeCost};
+            row.pointsPerMap,      row.spacing, row.nearReach,     row.taps,     row.relativeCost,
+            errorOf(row.name)};
 }
 
 // Half way to the next row in what can be had in small amounts: steps are fine enough for any budget.
@@ -63,6 +84,7 @@ QualityStep between(const Row& row, const Row& next) {
     };
     QualityStep step = stepOf(row);
     step.name += " +";
+    step.relativeError = 0;
     step.scale = std::sqrt(row.scale * next.scale);
     step.valCount = middle(row.valCount, next.valCount);
     step.pointsPerMap = middle(row.pointsPerMap, next.pointsPerMap);

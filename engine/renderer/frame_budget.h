@@ -26,7 +26,8 @@ struct QualityStep {
     uint32_t spacing = 2;  // pixels from one that is gathered to the next
     float nearReach = 2;
     uint32_t taps = 4;
-    double relativeCost = 1;  // of a frame, beside "medium"; a first guess for each scene
+    double relativeCost = 1;   // of a frame, beside "medium"; a first guess for each scene
+    double relativeError = 0;  // RMSE of the first bounce, beside "medium"; 0: not measured
 };
 std::span<const QualityStep> qualitySteps();
 size_t qualityStepNamed(std::string_view name);
