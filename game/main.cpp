@@ -68,7 +68,7 @@ Status loadIfThere(const std::string& path, Result<T> (*load)(const std::string&
 
 Status readUserFiles(Demo& demo) {
     const DemoOptions& o = demo.options;
-    demo.files.folder = o.userFolder.empty() ? defaultUserFolder() : o.userFolder;
+    demo.files.folder = o.userFolder.empty() ? userFolder() : o.userFolder;
     std::error_code ignored;
     if (fileExists(demo.files.folder) && !std::filesystem::is_directory(demo.files.folder, ignored))
         return Error{demo.files.folder + ": it is not a folder"};

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -51,13 +50,6 @@ bool readLine(const std::string& line, UserSettings& s) {
 }
 
 }  // namespace
-
-std::string defaultUserFolder() {
-    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config)
-        return std::string(config) + "/afterglow";
-    const char* home = std::getenv("HOME");
-    return std::string(home ? home : ".") + "/.config/afterglow";
-}
 
 Status openFolder(const UserFiles& files) {
     std::error_code error;

@@ -19,9 +19,6 @@ struct UserSettings {
     bool invertLook = false;
 };
 
-// $XDG_CONFIG_HOME/afterglow, or ~/.config/afterglow.
-std::string defaultUserFolder();
-
 struct UserFiles {
     std::string folder;
     std::string save() const { return folder + "/save.txt"; }

@@ -29,8 +29,10 @@ void editSetting(const Setting& s) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", s.info.help.c_str());
 }
 
-void settingsPanel(Settings& settings) {
-    ImGui::Begin("Settings");
+void settingsPanel(const PanelLayout& layout, Settings& settings) {
+    dockNextPanel(layout, Dock::kRight);
+    ImGui::Begin("Settings", nullptr, kDockedFlags);
+    ImGui::PushItemWidth(160 * uiScale());
     std::string open;
     bool visible = false;
     for (const Setting& s : settings.all()) {
@@ -40,17 +42,18 @@ void settingsPanel(Settings& settings) {
         }
         if (visible) editSetting(s);
     }
+    ImGui::PopItemWidth();
     ImGui::End();
 }
 
-void passPanel(const FrameGraph& graph) {
+void passPanel(const PanelLayout& layout, const FrameGraph& graph) {
     static constexpr const char* kOutcomes[] = {"ran", "skipped", "dropped"};
-    ImGui::SetNextWindowSize({700, 480}, ImGuiCond_FirstUseEver);
-    ImGui::Begin("Passes");
+    dockNextPanel(layout, Dock::kBottomRight);
+    ImGui::Begin("Passes", nullptr, kDockedFlags);
     const auto text = [](std::string_view t) { ImGui::TextUnformatted(t.data(), t.data() + t.size()); };
-    if (ImGui::BeginTable(
-            "passes", 5,
-            ImGuiTableFlags_RowBg | ImGuiTableFlags_Resizable | ImGuiTableFlags_SizingFixedFit)) {
+    constexpr float kWidth = 760;  // pixels at scale 1: a docked panel scrolls where it has less
+    if (ImGui::BeginTable("passes", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit,
+                          {kWidth * uiScale(), 0})) {
         ImGui::TableSetupColumn("pass");
         ImGui::TableSetupColumn("ms");
         ImGui::TableSetupColumn("");
@@ -78,7 +81,7 @@ void passPanel(const FrameGraph& graph) {
 }
 
 void statusPanel(const std::string& status) {
-    ImGui::SetNextWindowPos({8, 8});
+    ImGui::SetNextWindowPos({8 * uiScale(), 8 * uiScale()});
     ImGui::SetNextWindowBgAlpha(0.4f);
     ImGui::Begin("status", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
@@ -92,7 +95,16 @@ void statusPanel(const std::string& status) {
 DebugUi::DebugUi(GLFWwindow* window) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    makeScaledFonts();
     ImGui_ImplGlfw_InitForOther(window, true);
+}
+
+PanelLayout panelLayout(const DebugUiState& state) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    return {.window = {window.x, window.y},
+            .scale = panelScale(window.y),
+            .sharesLeft = state.showProfiler,
+            .sharesRight = state.showPasses};
 }
 
 bool DebugUi::holdsMouse() const {
@@ -112,12 +124,14 @@ void DebugUi::build(DebugUiState& state, Settings& settings, const FrameGraph& g
                     const std::string& status, FunctionRef<void()> game) {
     history_.add(graph.spans(), double(state.profilerBudgetMs));
     ImGui_ImplGlfw_NewFrame();
+    useScale(panelScale(ImGui::GetIO().DisplaySize.y));
     ImGui::NewFrame();
     game();
+    const PanelLayout layout = panelLayout(state);
     if (state.showStatus) statusPanel(status);
-    if (state.showSettings) settingsPanel(settings);
-    if (state.showPasses) passPanel(graph);
-    if (state.showProfiler) drawProfiler(history_, state.profilerBudgetMs);
+    if (state.showSettings) settingsPanel(layout, settings);
+    if (state.showPasses) passPanel(layout, graph);
+    if (state.showProfiler) drawProfiler(layout, history_, state.profilerBudgetMs);
     if (state.showWorld) inspector_.build(world);
     ImGui::Render();
 }

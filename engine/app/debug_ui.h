@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/app/inspector.h"
+#include "engine/app/panel_layout.h"
 #include "engine/app/profiler_overlay.h"
 #include "engine/core/function_ref.h"
 #include "engine/core/settings.h"
@@ -20,6 +21,9 @@ struct DebugUiState {
     bool showProfiler = false;  // F9
     float profilerBudgetMs = 1000.0f / 60;
 };
+
+// Within an ImGui frame.
+PanelLayout panelLayout(const DebugUiState& state);
 
 // ImGui's context with GLFW's events; one at a time.
 class DebugUi {

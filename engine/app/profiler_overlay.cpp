@@ -8,7 +8,8 @@
 namespace ag {
 namespace {
 
-constexpr float kWidth = 480, kHeight = 120;  // of the graph, pixels
+constexpr glm::vec2 kGraph{480, 120};  // pixels at scale 1
+constexpr float kLeastGraph = 200;     // the same, across
 
 // Far apart for neighbours in the order of the frame, also for eyes that see less colour: light and dark take
 // turns.
@@ -24,29 +25,28 @@ double topOf(const PassHistory& history, double budgetMs) {
     return std::max({1.25 * budgetMs, 2 * history.medianMs(), 0.01});
 }
 
-void drawColumns(const PassHistory& history, ImVec2 at, double top, double budgetMs) {
+void drawColumns(const PassHistory& history, ImVec2 at, glm::vec2 size, double top, double budgetMs) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float step = kWidth / float(PassHistory::kFrames);
-    list.AddRectFilled(at, {at.x + kWidth, at.y + kHeight}, IM_COL32(0, 0, 0, 110));
-    float x = at.x + kWidth - step * float(history.frames().size());
+    const float step = size.x / float(PassHistory::kFrames);
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(0, 0, 0, 110));
+    float x = at.x + size.x - step * float(history.frames().size());
     for (const FrameCost& frame : history.frames()) {
         float below = 0;
         for (size_t t = 0; t < frame.techniques.size(); ++t) {
-            const float upTo = std::min(below + frame.techniques[t] * kHeight / float(top), kHeight);
+            const float upTo = std::min(below + frame.techniques[t] * size.y / float(top), size.y);
             if (upTo - below > 0.1f)
-                list.AddRectFilled({x, at.y + kHeight - upTo}, {x + step, at.y + kHeight - below},
-                                   colorOf(t));
+                list.AddRectFilled({x, at.y + size.y - upTo}, {x + step, at.y + size.y - below}, colorOf(t));
             below = upTo;
         }
         if (frame.ms > top) list.AddRectFilled({x, at.y}, {x + step, at.y + 4}, IM_COL32_WHITE);
         x += step;
     }
-    const float y = at.y + kHeight * (1 - float(budgetMs / top));
-    list.AddLine({at.x, y}, {at.x + kWidth, y}, IM_COL32(255, 90, 60, 255), 1.5f);
+    const float y = at.y + size.y * (1 - float(budgetMs / top));
+    list.AddLine({at.x, y}, {at.x + size.x, y}, IM_COL32(255, 90, 60, 255), 1.5f);
     char text[32];
     std::snprintf(text, sizeof text, "%.1f ms", budgetMs);
-    const ImVec2 size = ImGui::CalcTextSize(text), corner(at.x + 4, y - size.y - 2);
-    list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(0, 0, 0, 160));
+    const ImVec2 label = ImGui::CalcTextSize(text), corner(at.x + 4, y - label.y - 2);
+    list.AddRectFilled(corner, {corner.x + label.x, corner.y + label.y}, IM_COL32(0, 0, 0, 160));
     list.AddText(corner, IM_COL32(255, 140, 110, 255), text);
 }
 
@@ -63,8 +63,10 @@ void legend(const PassHistory& history) {
     for (size_t i = 0; i < std::min(order.size(), kShown); ++i) {
         ImGui::TableNextColumn();
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 3}, {at.x + 9, at.y + 12}, colorOf(order[i]));
-        ImGui::Dummy({11, 12});
+        const float s = uiScale();
+        ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 3 * s}, {at.x + 9 * s, at.y + 12 * s},
+                                                  colorOf(order[i]));
+        ImGui::Dummy({11 * s, 12 * s});
         ImGui::SameLine(0, 3);
         ImGui::Text("%.2f %s", ms[order[i]], history.techniques()[order[i]].c_str());
     }
@@ -81,21 +83,27 @@ void spikeList(PassHistory& history) {
                     spike.ms, spike.worst.c_str(), spike.worstMs);
 }
 
+// Narrower where the window is.
+glm::vec2 graphSize(const PanelLayout& layout) {
+    constexpr float kFrameOfPanel = 40;  // pixels at scale 1, with the scroll bar
+    const float room = dockPlace(layout, Dock::kBottomLeft).most.x - kFrameOfPanel * layout.scale;
+    return {std::clamp(room, kLeastGraph * layout.scale, kGraph.x * layout.scale), kGraph.y * layout.scale};
+}
+
 }  // namespace
 
-void drawProfiler(PassHistory& history, float& budgetMs) {
-    ImGui::SetNextWindowPos({8, 40}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowBgAlpha(0.75f);
-    ImGui::Begin("Profiler", nullptr,
-                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+void drawProfiler(const PanelLayout& layout, PassHistory& history, float& budgetMs) {
+    dockNextPanel(layout, Dock::kBottomLeft);
+    ImGui::Begin("Profiler", nullptr, kDockedFlags);
     const double last = history.frames().empty() ? 0 : history.frames().back().ms;
     ImGui::Text("device %.2f ms, median %.2f ms of %zu frames", last, history.medianMs(),
                 history.frames().size());
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::Dummy({kWidth, kHeight});
-    drawColumns(history, at, topOf(history, budgetMs), budgetMs);
+    const glm::vec2 graph = graphSize(layout);
+    ImGui::Dummy({graph.x, graph.y});
+    drawColumns(history, at, graph, topOf(history, budgetMs), budgetMs);
     legend(history);
-    ImGui::SetNextItemWidth(160);
+    ImGui::SetNextItemWidth(160 * uiScale());
     ImGui::SliderFloat("ms of budget", &budgetMs, 1, 500, "%.1f", ImGuiSliderFlags_Logarithmic);
     spikeList(history);
     ImGui::End();

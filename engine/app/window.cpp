@@ -28,6 +28,22 @@ float stick(float value) {
     return std::abs(value) < kDeadZone ? 0 : value;
 }
 
+// That which holds the middle of a window (its place and size); else the first one. Null: there is none.
+GLFWmonitor* monitorOf(glm::ivec4 window) {
+    const glm::ivec2 middle(window.x + window.z / 2, window.y + window.w / 2);
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        glm::ivec2 at;
+        glfwGetMonitorPos(monitors[i], &at.x, &at.y);
+        const GLFWvidmode& mode = *glfwGetVideoMode(monitors[i]);
+        const glm::ivec2 inside = middle - at;
+        if (inside.x >= 0 && inside.y >= 0 && inside.x < mode.width && inside.y < mode.height)
+            return monitors[i];
+    }
+    return count > 0 ? monitors[0] : nullptr;
+}
+
 // The first gamepad, if it is one of those GLFW knows.
 void addPad(Input& input, double seconds) {
     constexpr float kLookSpeed = 750;  // pixels a second at full tilt
@@ -105,6 +121,20 @@ glm::uvec2 Window::framebufferSize() const {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     return {width, height};
+}
+
+void Window::setFullscreen(bool fullscreen) {
+    if (fullscreen == fullscreen_) return;
+    fullscreen_ = fullscreen;
+    if (!fullscreen)
+        return glfwSetWindowMonitor(window_, nullptr, windowed_.x, windowed_.y, windowed_.z, windowed_.w,
+                                    GLFW_DONT_CARE);
+    glfwGetWindowPos(window_, &windowed_.x, &windowed_.y);
+    glfwGetWindowSize(window_, &windowed_.z, &windowed_.w);
+    GLFWmonitor* monitor = monitorOf(windowed_);
+    if (!monitor) return;
+    const GLFWvidmode& mode = *glfwGetVideoMode(monitor);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode.width, mode.height, mode.refreshRate);
 }
 
 void Window::poll() {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "engine/app/bindings.h"
 #include "engine/app/input.h"
 #include "engine/gpu/device.h"
@@ -30,6 +32,8 @@ class Window {
     bool wantsToClose() const;
     void close();
     glm::uvec2 framebufferSize() const;
+    // The whole of the monitor it is mostly on, or as it was before.
+    void setFullscreen(bool fullscreen);
 
     void poll();
     // What is held down and mouse movement since the last call, and the first gamepad; `seconds` since then
@@ -49,7 +53,8 @@ class Window {
     void notePadPresses();
 
     GLFWwindow* window_ = nullptr;
-    bool captured_ = false;
+    bool captured_ = false, fullscreen_ = false;
+    glm::ivec4 windowed_{0};  // place and size before it filled the monitor
     glm::dvec2 cursor_{0};
     glm::vec2 moved_{0};
     std::vector<int> pressed_;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -187,6 +188,13 @@ Result<std::string> readFile(const std::string& path, uint64_t mostBytes) {
 bool fileExists(const std::string& path) {
     std::error_code error;
     return std::filesystem::exists(path, error);
+}
+
+std::string userFolder() {
+    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config)
+        return std::string(config) + "/afterglow";
+    const char* home = std::getenv("HOME");
+    return std::string(home ? home : ".") + "/.config/afterglow";
 }
 
 }  // namespace ag

@@ -29,4 +29,7 @@ Result<std::string> readFile(const std::string& path, uint64_t mostBytes = kMost
 
 bool fileExists(const std::string& path);
 
+// Where a user's own files lie: $XDG_CONFIG_HOME/afterglow, or ~/.config/afterglow.
+std::string userFolder();
+
 }  // namespace ag

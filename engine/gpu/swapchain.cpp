@@ -30,6 +30,12 @@ VkImageView makeView(Device& device, VkImage image, VkFormat format) {
 
 }  // namespace
 
+VkPresentModeKHR presentModeFor(bool vsync, std::span<const VkPresentModeKHR> offered) {
+    const auto has = [&](VkPresentModeKHR mode) { return std::ranges::find(offered, mode) != offered.end(); };
+    if (!vsync && has(VK_PRESENT_MODE_IMMEDIATE_KHR)) return VK_PRESENT_MODE_IMMEDIATE_KHR;
+    return has(VK_PRESENT_MODE_MAILBOX_KHR) ? VK_PRESENT_MODE_MAILBOX_KHR : VK_PRESENT_MODE_FIFO_KHR;
+}
+
 Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
     uint32_t count = 0;
     device.vk().GetPhysicalDeviceSurfaceFormatsKHR(device.context().physical(), device.surface(), &count,
@@ -47,12 +53,17 @@ Swapchain::Swapchain(Device& device, glm::uvec2 size) : device_(device) {
     }
     device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.context().physical(), device.surface(), &count,
                                                         nullptr);
-    std::vector<VkPresentModeKHR> modes(count);
+    modes_.resize(count);
     device.vk().GetPhysicalDeviceSurfacePresentModesKHR(device.context().physical(), device.surface(), &count,
-                                                        modes.data());
-    if (std::ranges::find(modes, VK_PRESENT_MODE_MAILBOX_KHR) != modes.end())
-        presentMode_ = VK_PRESENT_MODE_MAILBOX_KHR;
+                                                        modes_.data());
+    presentMode_ = presentModeFor(true, modes_);
     create(size);
+}
+
+void Swapchain::setVsync(bool on) {
+    const VkPresentModeKHR wanted = presentModeFor(on, modes_);
+    stale_ |= wanted != presentMode_;
+    presentMode_ = wanted;
 }
 
 Swapchain::~Swapchain() {

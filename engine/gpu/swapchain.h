@@ -4,6 +4,7 @@
 #include "engine/gpu/functions.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -20,6 +21,10 @@ struct SwapchainImage {
     VkSemaphore rendered = VK_NULL_HANDLE;  // signal it when done
 };
 
+// Of those that the surface offers; FIFO, which every surface has, waits for the screen, and so does a
+// mailbox, which shows the newest image.
+VkPresentModeKHR presentModeFor(bool vsync, std::span<const VkPresentModeKHR> offered);
+
 class Swapchain {
   public:
     Swapchain(Device& device, glm::uvec2 size);
@@ -30,6 +35,8 @@ class Swapchain {
     // Nothing while the window has no area; makes the images anew when the window changed.
     std::optional<SwapchainImage> acquire(glm::uvec2 windowSize);
     void present(const SwapchainImage& image);
+    // Off: images are shown at once, torn if need be, where the surface can. The next ones are made so.
+    void setVsync(bool on);
 
     VkFormat format() const { return format_; }
     glm::uvec2 size() const { return size_; }
@@ -44,6 +51,7 @@ class Swapchain {
     VkSwapchainKHR handle_ = VK_NULL_HANDLE;
     VkFormat format_ = VK_FORMAT_B8G8R8A8_UNORM;
     VkColorSpaceKHR colorSpace_ = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+    std::vector<VkPresentModeKHR> modes_;  // of the surface
     VkPresentModeKHR presentMode_ = VK_PRESENT_MODE_FIFO_KHR;
     glm::uvec2 size_{0};
     glm::uvec2 requested_{0};  // the window's size when the images were made

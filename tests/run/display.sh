@@ -12,6 +12,7 @@ Xvfb -noreset -displayfd 3 -screen 0 1024x768x24 3>"$work/display" >/dev/null 2>
 xvfb=$!
 read -r number <"$work/display"
 export DISPLAY=:$number
+export XDG_CONFIG_HOME=$work/config  # what programs remember is this test's
 finish() {
   kill "$xvfb" 2>/dev/null
   rm -rf "$work"
