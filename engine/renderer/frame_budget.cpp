@@ -57,7 +57,11 @@ constexpr std::array kErrors = {MeasuredError{"below low", 2.54},
                                 MeasuredError{"medium", 1},
                                 MeasuredError{"medium 176", 0.99},
                                 MeasuredError{"medium 224", 0.93},
-                                MeasuredError{"high", 0.96}};
+                                MeasuredError{"high", 0.96},
+                                MeasuredError{"high 384", 0.94},
+                                MeasuredError{"ultra, 8 taps", 0.89},
+                                MeasuredError{"ultra 448, 8 taps", 0.88},
+                                MeasuredError{"ultra", 0.91}};
 
 double errorOf(std::string_view step) {
     const auto found = std::ranges::find(kErrors, step, &MeasuredError::step);

@@ -85,6 +85,11 @@ void Renderer::load(const GeometryArrays& geometry) {
     startAnew();
 }
 
+void Renderer::loadMaterials(const GeometryArrays& geometry) {
+    waitIdle();
+    scene_.changeMaterials(geometry, units_);
+}
+
 // Without anything of the frames before.
 void Renderer::startAnew() {
     graph_.reset();

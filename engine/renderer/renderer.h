@@ -39,6 +39,8 @@ class Renderer {
 
     // Blocking: a scene just loaded; histories start anew.
     void load(const GeometryArrays& geometry);
+    // Blocking: of what was loaded only materials' factors changed, and its version. Histories go on.
+    void loadMaterials(const GeometryArrays& geometry);
 
     // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs.
     using Finish = FunctionRef<void(GraphScope, const SceneView&, const RenderFrame&)>;

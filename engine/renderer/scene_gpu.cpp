@@ -109,6 +109,13 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     geometryVersion_ = geometry.version;
 }
 
+// Points on surfaces keep their albedo and emission, so they are chosen anew; trees when all is at rest.
+void SceneGpu::changeMaterials(const GeometryArrays& geometry, RenderUnits units) {
+    loadMaterials(geometry, units);
+    sampledVersion_ = 0;
+    geometryVersion_ = geometry.version;
+}
+
 void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
     loadMaterials(geometry, units);
     lightUnit_ = units.light;

@@ -79,6 +79,8 @@ class SceneGpu {
 
     // Blocking: geometry, materials and textures of a scene just loaded.
     void load(const GeometryArrays& geometry);
+    // Of the scene loaded: factors of materials and the version differ. Nothing may be under way.
+    void changeMaterials(const GeometryArrays& geometry, RenderUnits units);
     // Of the scene loaded: what follows comes in other units. Nothing may be under way.
     void useUnits(const GeometryArrays& geometry, RenderUnits units);
     // Of its materials and its sky, W/(m² sr).

@@ -4,6 +4,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/core/hash.h"
+#include "engine/gpu/retire.h"
 #include "engine/gpu/transfer.h"
 
 namespace ag::render {
@@ -57,7 +58,7 @@ void SkyGpu::load(float lightUnit) {
     const Image& radiance = sky_->radiance;
     for (const glm::vec3& p : radiance.pixels)
         halves.push_back(glm::packHalf4x16(glm::vec4(glm::min(p / lightUnit, glm::vec3(kMostHalf)), 1)));
-    device_.waitIdle();  // the picture before may be in use
+    gpu::retireOwned(device_, std::move(picture_));  // it may be in use
     picture_ = std::make_unique<gpu::Image>(
         device_, gpu::ImageDesc{.name = "scene.sky_picture",
                                 .format = VK_FORMAT_R16G16B16A16_SFLOAT,

@@ -81,6 +81,7 @@ AlphaMode alphaModeOf(const tinygltf::Model& model, const tinygltf::Material& m,
 // KHR_materials_unlit: the base colour is what is seen, whatever the light: it is emitted, and nothing
 // reflected.
 void makeUnlit(Material& m) {
+    m.unlit = true;
     m.emissive = glm::vec3(m.baseColor);
     m.emissiveLayer = m.baseColorLayer;
     m.baseColor = glm::vec4(0, 0, 0, m.baseColor.w);

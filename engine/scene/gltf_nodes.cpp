@@ -254,6 +254,7 @@ Fault importNodes(const tinygltf::Model& model, std::span<const int32_t> meshOfN
                                .light = hidden ? -1 : lightOf(n),
                                .camera = n.camera,
                                .skin = n.skin,
+                               .source = old,
                                .extras = extrasOf(n.extras)});
         for (auto child = n.children.rbegin(); child != n.children.rend(); ++child)
             pending.push_back({*child, index, hidden});

@@ -66,6 +66,7 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::kOpaque;
     bool doubleSided = false;
     bool vertexColors = false;  // its vertices have colours
+    bool unlit = false;         // KHR_materials_unlit: shines its colour, and is no light of the scene
     TextureClass textureClass = TextureClass::kNone;
     // Layers in the arrays of the class; -1: none.
     int32_t baseColorLayer = -1;                // in the sRGB array

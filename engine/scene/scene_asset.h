@@ -55,6 +55,7 @@ struct SceneNode {
     uint32_t depth = 0;
     NodeTransform local;
     int32_t mesh = -1, light = -1, camera = -1, skin = -1;
+    int32_t source = -1;  // the node of the file; -1: none, or a copy that its parent stands for there
     NodeExtras extras;
 };
 

@@ -120,7 +120,9 @@ Sky analyticSky(glm::vec3 sunDirection, float turbidity) {
     const auto relative = [&](const Perez& p, float cosTheta, float gamma) {
         return p.at(cosTheta, gamma) / p.at(1, sunTheta);
     };
-    Sky sky{.radiance = Image(kAnalyticSize.x, kAnalyticSize.y)};
+    Sky sky{.radiance = Image(kAnalyticSize.x, kAnalyticSize.y),
+            .sunDirection = sunDirection,
+            .turbidity = turbidity};
     for (int y = 0; y < kAnalyticSize.y / 2; ++y)
         for (int x = 0; x < kAnalyticSize.x; ++x) {
             const glm::vec3 d = skyDirection((glm::vec2(x, y) + 0.5f) / glm::vec2(kAnalyticSize));

@@ -9,6 +9,9 @@ struct Sky {
     // W/(m² sr). Rows from the zenith (+Y) to the nadir; columns go round from -X by -Z, +X and +Z. One
     // texel: the same from everywhere.
     Image radiance;
+    // Of a clear sky (analyticSky); turbidity 0: it is of another kind.
+    glm::vec3 sunDirection{0, -1, 0};
+    float turbidity = 0;
 };
 
 // The place in the picture that a unit direction looks at, both coordinates in [0, 1], and back.

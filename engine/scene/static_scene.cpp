@@ -189,12 +189,28 @@ RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld) {
         const glm::mat4x3 world(m[0], m[1], m[2], glm::vec3(place.translation - scene.originWorld));
         for (uint32_t p = mesh.firstPrimitive; p < mesh.firstPrimitive + mesh.primitiveCount; ++p) {
             scene.instances.push_back({world, p, model >= 0, skinnedMesh});
-            scene.bounds.add(boundsOf(boundsLocal(scene, scene.instances.back()), world));
+            scene.bounds.add(worldBounds(scene, scene.instances.back()));
         }
     }
     scene.sky = asset.sky;
     chooseBounceLights(scene.lights);
     return scene;
+}
+
+std::vector<int32_t> placingNodes(const SceneAsset& asset) {
+    const SkinnedMeshLibrary library = makeSkinnedMeshLibrary(asset);
+    std::vector<int32_t> nodes;
+    for (size_t i = 0; i < asset.nodes.size(); ++i) {
+        if (asset.nodes[i].mesh < 0) continue;
+        const int32_t model = library.modelOfNode[i];
+        nodes.insert(nodes.end(), asset.meshes[size_t(asset.nodes[i].mesh)].primitiveCount,
+                     model < 0 ? int32_t(i) : library.models[size_t(model)].frame);
+    }
+    return nodes;
+}
+
+Bounds worldBounds(const RenderScene& scene, const RenderInstance& instance) {
+    return boundsOf(boundsLocal(scene, instance), instance.worldFromLocal);
 }
 
 void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size) {

@@ -36,6 +36,9 @@ glm::vec3 rightOf(glm::vec3 forward, glm::vec3 up);
 // Instances, lights (the strongest eight bounce) and bounds, about an origin. The asset must outlive the
 // result.
 RenderScene staticScene(const SceneAsset& asset, glm::dvec3 originWorld = glm::dvec3(0));
+// Of each of its instances the node that it stands by; -1: the world.
+std::vector<int32_t> placingNodes(const SceneAsset& asset);
+Bounds worldBounds(const RenderScene& scene, const RenderInstance& instance);
 void setCamera(RenderScene& scene, const CameraPose& pose, glm::uvec2 size);
 bool hasEmissive(const RenderScene& scene);
 CameraPose poseOf(const RenderScene& scene);           // of its camera, in the world

@@ -89,7 +89,7 @@ done
 # Keys: a layer, then the session is saved.
 "$bin/afterglow" view cornell --size 320x180 --point 0.1,0.5,0.3,2,1,0.5 --session saved.json --set composite.exposure=1 --validate >"$work/log" 2>&1 &
 viewer=$!
-press_when_open 2 5 1 F2 F2 o o b b t t t p F6 F5
+press_when_open 2 5 1 F2 F2 o o b b t t t p p F6 F5
 for _ in $(seq 50); do
   [[ -f saved.json ]] && break
   sleep 0.2
@@ -149,6 +149,90 @@ xdotool key Escape
 wait "$viewer" || fail "the viewer ended with $?"
 awk "BEGIN {exit !(($dragged - 1.187) ^ 2 < 0.0004 && ($undone - 1.5) ^ 2 < 1e-8 && $again == $dragged)}" ||
   fail "the lamp was dragged to $dragged, undone to $undone, done again to $again"
+
+# A thing is picked and dragged by its handle, which is undone and done again; a material that a session changed stays so.
+# Both come out of the session and of the edited file as the same picture.
+python3 - <<'PYTHON'
+import base64, json, struct
+quad = [-0.3, -0.3, 0, 0.3, -0.3, 0, 0.3, 0.3, 0, -0.3, 0.3, 0]
+data = struct.pack("<12f6H", *quad, 0, 1, 2, 0, 2, 3)
+json.dump({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 2]}],
+    "nodes": [{"name": "stand", "translation": [0, 1, 0], "scale": [2, 2, 2], "children": [1]},
+              {"name": "thing", "mesh": 0, "scale": [0.5, 0.5, 0.5]},
+              {"name": "wall", "mesh": 1, "translation": [0, 1, -1], "scale": [8, 8, 8]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": m}]} for m in (0, 1)],
+    "materials": [{"name": name, "pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 1}} for name in ("red", "white")],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+    "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]},
+    open("thing.gltf", "w"))
+json.dump({"scene": "thing.gltf", "preset": "afterglow", "set": ["exposure.automatic=off"], "points": ["1,2,2,5"],
+    "view": "0,1,3.4,0,1,0,45", "materials": [{"material": 0, "base_color": [0.9, 0.1, 0.1, 1], "metallic": 0,
+    "roughness": 0.8, "emissive": [0, 3, 0]}]}, open("thing.json", "w"))
+PYTHON
+"$bin/afterglow" view --session thing.json --size 640x360 --validate >"$work/log" 2>&1 &
+viewer=$!
+await_window || fail "no window to move a thing in"
+sleep 3
+moved_by() {  # saves the session; how far the thing was moved along x
+  rm -f thing.json
+  xdotool key F5
+  for _ in $(seq 150); do
+    [[ -s thing.json ]] && break
+    sleep 0.2
+  done
+  python3 -c 'import json; d = json.load(open("thing.json")); print(sum(m["offset"][0] for m in d.get("moves", [])))'
+}
+xdotool mousemove --window "$window" 320 180
+[[ $(moved_by) == 0 ]] || fail "the thing does not stand still"  # by now frames are shown
+sleep 0.5
+xdotool click 1
+sleep 0.7
+xdotool mousedown 1
+sleep 0.5
+for _ in 1 2 3 4; do
+  xdotool mousemove_relative -- 10 0
+  sleep 0.2
+done
+xdotool mouseup 1
+sleep 0.5
+dragged=$(moved_by)
+xdotool key ctrl+z
+sleep 0.5
+undone=$(moved_by)
+xdotool key ctrl+y
+sleep 0.5
+again=$(moved_by)
+xdotool key F6
+sleep 1
+xdotool key Escape
+wait "$viewer" || fail "the viewer ended with $?"
+awk "BEGIN {exit !(($dragged - 0.313) ^ 2 < 0.0004 && $undone == 0 && $again == $dragged)}" ||
+  fail "the thing was dragged by $dragged, undone to $undone, done again to $again"
+run "the thing's session" 0 render --session thing.json --size 64x36 --frames 8 --layer radiance -o session.exr
+run "the thing's file" 0 render thing_edited.gltf --preset afterglow --size 64x36 --frames 8 --layer radiance -o edited.exr
+run "both are the same" 0 compare session.exr edited.exr --max-rel-rmse 0.01
+run "the thing as it was" 0 render thing.gltf --preset afterglow --point 1,2,2,5 --view 0,1,3.4,0,1,0,45 --size 64x36 --frames 8 --layer radiance -o was.exr
+run "something changed" 1 compare was.exr session.exr --max-rel-rmse 0.05
+run "a bench of the session" 0 bench --session thing.json --size 64x36 --frames 2 --reference-spp 8 --clusterings 1 --no-flicker --no-path-tracing --csv bench.csv
+grep -q "^thing.json,session," bench.csv || fail "the bench has no row of the session"
+
+# Lines in the world, all panels, the whole monitor, a capture: and it is remembered.
+"$bin/afterglow" view cornell --size 640x360 --sun 0.3,-1,-0.2,5 --validate >"$work/log" 2>&1 &
+viewer=$!
+press_when_open v F1 F2 F9 F11 F11 F10
+for _ in $(seq 300); do
+  compgen -G "captures/*/report.html" >/dev/null && break
+  sleep 0.2
+done
+xdotool key Escape
+wait "$viewer" || fail "the viewer with everything open ended with $?"
+report=$(compgen -G "captures/*/report.html") || fail "F10 left no report"
+grep -q "saves about" "$report" || fail "the report advises nothing"
+for line in "area_lights on" "settings on" "passes on" "profiler on" "fullscreen off"; do
+  grep -q "^$line" "$XDG_CONFIG_HOME/afterglow/viewer.txt" || fail "'$line' is not remembered"
+done
 
 # Every field of a light is kept, and the eye and the camera as they were.
 cat >hand.json <<'JSON'

@@ -107,6 +107,60 @@ TEST(EditedGltf, SaysWhatALightDoesNotDo) {
     EXPECT_EQ(extrasOf("light 1"), (json{{"bounces", false}, {"castsShadow", false}}));
 }
 
+// Nodes under a turned and scaled parent and with a matrix; a material each, one of them unlit, and none.
+json movable() {
+    json d = source();
+    d["nodes"] = {
+        {{"name", "parent"}, {"scale", {2, 2, 2}}, {"children", {1}}},
+        {{"name", "child"}, {"mesh", 0}},
+        {{"name", "by matrix"}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1}}, {"mesh", 0}}};
+    d["scenes"] = {{{"nodes", {0, 2}}}};
+    d["materials"] = {{{"name", "plain"}},
+                      {{"name", "unlit"}, {"extensions", {{"KHR_materials_unlit", json::object()}}}}};
+    return d;
+}
+
+TEST(EditedGltf, MovesThingsWhereTheyStand) {
+    const auto before = importGltf(test::write("movable.gltf", movable().dump()));
+    ASSERT_TRUE(before) << before.error().message;
+    const auto nodeNamed = [&](std::string_view name) {
+        return uint32_t(std::ranges::find(before->nodes, name, &SceneNode::name) - before->nodes.begin());
+    };
+    const AssetEdits edits{.moves = {{nodeNamed("child"), {1, 0, 0}}, {nodeNamed("by matrix"), {0, 0, -2}}}};
+    const auto edited = withEdits(movable().dump(), {.moves = movesInFile(*before, edits)});
+    ASSERT_TRUE(edited) << edited.error().message;
+    const auto after = importGltf(test::write("moved.gltf", *edited));
+    ASSERT_TRUE(after) << after.error().message;
+    SceneAsset expected = *before;
+    ASSERT_TRUE(applyEdits(edits, expected));
+    const RenderScene a = staticScene(expected), b = staticScene(*after);
+    ASSERT_EQ(a.instances.size(), b.instances.size());
+    for (size_t i = 0; i < a.instances.size(); ++i)
+        EXPECT_EQ(a.instances[i].worldFromLocal, b.instances[i].worldFromLocal) << i;
+    EXPECT_EQ(staticScene(*before).instances[0].worldFromLocal[3] + glm::vec3(1, 0, 0),
+              b.instances[0].worldFromLocal[3]);
+}
+
+TEST(EditedGltf, ChangesHowMaterialsLook) {
+    const std::vector<MaterialLook> looks = {
+        {.material = 0,
+         .baseColor = {0.5f, 0.25f, 1, 0.75f},
+         .metallic = 0.5f,
+         .roughness = 0.25f,
+         .emissive = {0, 4, 2}},
+        {.material = 1, .baseColor = {1, 0, 0, 1}, .metallic = 0, .emissive = {0.5f, 0, 0}},
+        {.material = 2,
+         .baseColor = {0, 1, 0, 1},
+         .metallic = 0}};  // what primitives without one are drawn with
+    const auto edited = withEdits(movable().dump(), {.looks = looks});
+    ASSERT_TRUE(edited) << edited.error().message;
+    const auto after = importGltf(test::write("looks.gltf", *edited));
+    ASSERT_TRUE(after) << after.error().message;
+    for (const MaterialLook& look : looks)
+        EXPECT_EQ(lookOf(after->geometry, look.material), look) << look.material;
+    EXPECT_EQ(after->geometry.primitives[0].material, 2u);
+}
+
 TEST(EditedGltf, RefusesWhatIsNone) {
     for (const std::string bytes : {"", "hello", "[1]", "glTF", "glTFxxxxxxxxxxxxxxxxxxxx", R"({"nodes": 3})",
                                     R"({"scene": 5, "scenes": []})", R"({"cameras": 4})"})

@@ -1,7 +1,6 @@
 // Dragging lights by their handles, and undoing it.
 #include <gtest/gtest.h>
 
-#include "tools/viewer/light_edits.h"
 #include "tools/viewer/light_handles.h"
 
 namespace ag::viewer {
@@ -70,39 +69,6 @@ TEST(LightHandles, TheNearestIsTaken) {
     EXPECT_EQ(handleAt(s, handles, glm::mix(first, second, 0.3f)), 0u);
     EXPECT_EQ(handleAt(s, handles, glm::mix(first, second, 0.7f)), 1u);
     EXPECT_FALSE(handleAt(s, handles, first + glm::vec2(0, 40)));
-}
-
-TEST(LightEdits, ADragIsOneEdit) {
-    std::vector<RenderLight> lights(1);
-    LightEdits edits;
-    edits.note(lights, false);
-    EXPECT_FALSE(edits.undo(lights)) << "nothing was done";
-    const auto start = lights;
-    for (int i = 0; i < 5; ++i) {  // one drag, with pauses
-        lights[0].position.x += 1;
-        edits.note(lights, true);
-        edits.note(lights, true);
-    }
-    edits.note(lights, false);
-    const auto dragged = lights;
-    lights.push_back({});
-    edits.note(lights, false);
-    edits.note(lights, false);
-
-    EXPECT_TRUE(edits.undo(lights));
-    EXPECT_EQ(lights, dragged);
-    edits.note(lights, false);
-    EXPECT_TRUE(edits.undo(lights));
-    EXPECT_EQ(lights, start);
-    EXPECT_FALSE(edits.undo(lights));
-    EXPECT_TRUE(edits.redo(lights));
-    EXPECT_EQ(lights, dragged);
-    edits.note(lights, false);
-    lights[0].intensity *= 2.0f;  // something new: what was undone is gone
-    edits.note(lights, false);
-    EXPECT_FALSE(edits.redo(lights));
-    EXPECT_TRUE(edits.undo(lights));
-    EXPECT_EQ(lights, dragged);
 }
 
 }  // namespace

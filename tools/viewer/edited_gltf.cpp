@@ -16,7 +16,8 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr char kPunctual[] = "KHR_lights_punctual";
+constexpr char kPunctual[] = "KHR_lights_punctual", kUnlit[] = "KHR_materials_unlit",
+               kStrength[] = "KHR_materials_emissive_strength";
 constexpr size_t kGlbHeader = 12, kChunkHeader = 8;
 
 template <class V>
@@ -71,15 +72,76 @@ void addCamera(json& document, const CameraPose& pose) {
                                  {"rotation", rotationOf(pose.forward, pose.up)}});
 }
 
+void noteUsed(json& document, const char* extension) {
+    json& used = document["extensionsUsed"];
+    if (used.is_null()) used = json::array();
+    if (std::ranges::find(used, json(extension)) == used.end()) used.push_back(extension);
+}
+
 void addLights(json& document, const SceneEdits& edits) {
     json& list = document["extensions"][kPunctual]["lights"] = json::array();
     for (size_t i = 0; i < edits.lights.size(); ++i) {
         list.push_back(lightOf(edits.lights[i]));
         document["nodes"].push_back(nodeOf(edits.lights[i], edits.origin, i));
     }
-    json& used = document["extensionsUsed"];
-    if (used.is_null()) used = json::array();
-    if (std::ranges::find(used, json(kPunctual)) == used.end()) used.push_back(kPunctual);
+    noteUsed(document, kPunctual);
+}
+
+// In its own place, or its matrix.
+void moveNode(json& node, glm::dvec3 offset) {
+    const bool matrix = node.contains("matrix");
+    json& place = node[matrix ? "matrix" : "translation"];
+    if (place.is_null()) place = {0.0, 0.0, 0.0};
+    for (size_t c = 0; c < 3; ++c) {
+        json& number = place.at(matrix ? 12 + c : c);
+        number = number.get<double>() + offset[int(c)];
+    }
+}
+
+void moveNodes(json& document, const SceneEdits& edits) {
+    for (const NodeMove& move : edits.moves)
+        moveNode(document["nodes"].at(move.node), move.offset);
+}
+
+// What shone as it is whatever the light now shines by its emission.
+void makeLit(json& material) {
+    if (!material.contains("extensions") || !material["extensions"].contains(kUnlit)) return;
+    material["extensions"].erase(kUnlit);
+    json& pbr = material["pbrMetallicRoughness"];
+    if (pbr.contains("baseColorTexture")) material["emissiveTexture"] = pbr["baseColorTexture"];
+}
+
+void setLook(json& material, const MaterialLook& look) {
+    makeLit(material);
+    json& pbr = material["pbrMetallicRoughness"];
+    pbr["baseColorFactor"] = {look.baseColor.x, look.baseColor.y, look.baseColor.z, look.baseColor.w};
+    pbr["metallicFactor"] = look.metallic;
+    pbr["roughnessFactor"] = look.roughness;
+    const float strength = std::max({look.emissive.x, look.emissive.y, look.emissive.z, 1.0f});
+    material["emissiveFactor"] = listOf(look.emissive / strength);
+    if (material.contains("extensions")) material["extensions"].erase(kStrength);
+    if (strength > 1) material["extensions"][kStrength] = {{"emissiveStrength", strength}};
+}
+
+// A material after the file's own is what primitives without one are drawn with.
+void addDefaultMaterial(json& document) {
+    json& materials = document["materials"];
+    for (json& mesh : document["meshes"])
+        for (json& primitive : mesh["primitives"])
+            if (!primitive.contains("material")) primitive["material"] = materials.size();
+    materials.push_back({{"name", "default"}});
+}
+
+void setLooks(json& document, const SceneEdits& edits) {
+    if (edits.looks.empty()) return;
+    json& materials = document["materials"];
+    if (materials.is_null()) materials = json::array();
+    const size_t own = materials.size();
+    for (const MaterialLook& look : edits.looks) {
+        if (look.material == own && materials.size() == own) addDefaultMaterial(document);
+        setLook(materials.at(look.material), look);
+        if (look.emissive.x > 1 || look.emissive.y > 1 || look.emissive.z > 1) noteUsed(document, kStrength);
+    }
 }
 
 // New nodes are roots of the scene that is shown.
@@ -87,6 +149,8 @@ void edit(json& document, const SceneEdits& edits) {
     json& nodes = document["nodes"];
     if (nodes.is_null()) nodes = json::array();
     const size_t first = nodes.size();
+    moveNodes(document, edits);
+    setLooks(document, edits);
     removeLights(document);
     addCamera(document, edits.pose);
     addLights(document, edits);
@@ -132,6 +196,16 @@ Result<std::string> withEdits(std::string_view bytes, const SceneEdits& edits) {
     const std::string_view rest = bytes.substr(kText + length);
     return "glTF" + wordOf(2) + wordOf(kText + text->size() + rest.size()) + wordOf(text->size()) + "JSON" +
            *text + std::string(rest);
+}
+
+std::vector<NodeMove> movesInFile(const SceneAsset& asset, const AssetEdits& edits) {
+    const bool imported = std::ranges::any_of(asset.nodes, [](const SceneNode& n) { return n.source >= 0; });
+    std::vector<NodeMove> moves;
+    for (const NodeMove& move : edits.moves) {
+        const int32_t node = imported ? asset.nodes[move.node].source : int32_t(move.node);
+        if (node >= 0) moves.push_back({uint32_t(node), offsetInParent(asset, move)});
+    }
+    return moves;
 }
 
 std::string editedPath(const std::string& scene) {

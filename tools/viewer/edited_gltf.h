@@ -1,10 +1,12 @@
-// The viewer's edits in a glTF file: the source as it is, with the lights and the camera in place of its own.
+// The viewer's edits in a glTF file: the source as it is, with the lights and the camera in place of its own,
+// and what was moved or looks otherwise changed where it stands.
 #pragma once
 
 #include <span>
 #include <string>
 
 #include "engine/core/result.h"
+#include "engine/scene/asset_edits.h"
 #include "engine/scene/static_scene.h"
 
 namespace ag::viewer {
@@ -13,7 +15,11 @@ struct SceneEdits {
     std::span<const RenderLight> lights;
     glm::dvec3 origin{0};  // m, of their positions, in the world
     CameraPose pose;
+    std::vector<NodeMove> moves;      // nodes of the file, as their parents see it
+    std::vector<MaterialLook> looks;  // of the file's materials, or of the one for primitives without
 };
+// Of an asset that was imported, or that exportGlb would write.
+std::vector<NodeMove> movesInFile(const SceneAsset& asset, const AssetEdits& edits);
 
 // Bytes of a .gltf or .glb with these lights (KHR_lights_punctual, new nodes of the scene shown) and this
 // camera as the first; all else stays byte for byte what it was, apart from the JSON's spacing. Lights that

@@ -10,7 +10,8 @@ struct LightDragging {
     std::optional<size_t> held;  // of the handles
 };
 
-// Within an ImGui frame: draws the handles beneath the panels and moves the light whose handle is held.
-void dragLights(LightDragging& state, Viewing& viewing, const ViewCamera& camera, glm::vec2 size);
+// Within an ImGui frame: draws the handles beneath the panels and moves the light, or the sky's sun, whose
+// handle is held. True: one is.
+bool dragLights(LightDragging& state, Viewing& viewing, const ViewCamera& camera, glm::vec2 size);
 
 }  // namespace ag::viewer

@@ -18,6 +18,10 @@ void PresetView::forget() {
     preset_.clear();
 }
 
+void PresetView::loadMaterials(const GeometryArrays& geometry) {
+    if (renderer_) renderer_->loadMaterials(geometry);
+}
+
 void PresetView::render(const RenderScene& scene, glm::uvec2 size, const std::string& preset,
                         const render::AntialiasingSettings& antialiasing, const FrameGraphOptions& options,
                         gpu::Device& device) {

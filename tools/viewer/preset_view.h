@@ -20,6 +20,7 @@ class PresetView {
                 const render::AntialiasingSettings& antialiasing, const FrameGraphOptions& options,
                 gpu::Device& device);
     void forget();
+    void loadMaterials(const GeometryArrays& geometry);  // see Renderer
     bool isOn() const { return renderer_ != nullptr; }
     double gpuMs() const { return passesMs(renderer_->graph()); }
 

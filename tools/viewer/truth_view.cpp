@@ -28,11 +28,7 @@ reference::PixelFilter filterOf(const render::AntialiasingSettings& s) {
 bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, reference::PixelFilter filter, bool on,
                        gpu::Device& device) {
     radiance_ = {};
-    if (!on) {
-        tracing_.reset();
-        picture_ = nullptr;
-        return false;
-    }
+    if (!on) return pause(), false;
     if (!tracing_) tracing_.emplace();
     tracing_->follow(scene, size, filter);
     auto newest = tracing_->newest();
@@ -41,6 +37,11 @@ bool TruthView::follow(const RenderScene& scene, glm::uvec2 size, reference::Pix
     if (!newest) picture_ = nullptr;
     if (newest) take(std::move(newest), device);
     return picture_ != nullptr;
+}
+
+void TruthView::pause() {
+    tracing_.reset();
+    picture_ = nullptr;
 }
 
 void TruthView::take(std::shared_ptr<const TruthPicture> picture, gpu::Device& device) {

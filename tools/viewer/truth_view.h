@@ -21,6 +21,8 @@ class TruthView {
     // better picture, whose numbers are due.
     bool follow(const RenderScene& scene, glm::uvec2 size, reference::PixelFilter filter, bool on,
                 gpu::Device& device);
+    // Nobody reads the scene until it is followed again.
+    void pause();
     // What is to be shown, and our radiance as an output of the frame. Ours alone where there is no picture.
     ImageHandle add(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
                     const render::CompositeSettings& composite, const BesideSettings& settings);

@@ -12,14 +12,16 @@
 #include "engine/app/imgui_pass.h"
 #include "engine/app/present.h"
 #include "engine/app/window.h"
+#include "engine/capture/live_capture.h"
 #include "engine/core/image.h"
 #include "engine/core/log.h"
 #include "engine/core/safe_file.h"
 #include "engine/gpu/swapchain.h"
+#include "tools/viewer/edit_history.h"
 #include "tools/viewer/light_dragging.h"
-#include "tools/viewer/light_edits.h"
 #include "tools/viewer/preset_view.h"
-#include "tools/viewer/viewer_panel.h"
+#include "tools/viewer/selection.h"
+#include "tools/viewer/viewer_memory.h"
 
 namespace ag::viewer {
 namespace {
@@ -28,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kShortestFrame = 1.0 / 144;  // s
 constexpr float kScriptStep = 1.0f / 60;      // s: what a frame of a script stands for
+constexpr uint32_t kCaptureFrames = 16;       // of F10
 constexpr float kLongestStep = 0.25f;         // s: a slower frame slows the camera
 
 class ViewerRun {
@@ -44,8 +47,12 @@ class ViewerRun {
           renderer_(device),
           ui_(window.handle()),
           imgui_(device, renderer_.pipelines()),
-          camera_(startAt(viewing.pose, viewing.scene.bounds)) {
+          camera_(startAt(viewing.pose, viewing.scene.bounds)),
+          edited_(viewing.asset, viewing.scene, viewing.edits),
+          capture_(renderer_, {}) {
         renderer_.load(*viewing.scene.geometry);
+        if (remembers())
+            if (const auto text = readFile(memoryPath())) useMemory(memoryFrom(*text), panels_, panel_);
         if (!options.truthStem.empty()) panel_.beside = Beside::kTruth;
     }
 
@@ -55,6 +62,8 @@ class ViewerRun {
         for (uint64_t frame = 0; !window_.wantsToClose(); ++frame) {
             window_.poll();
             handleKeys();
+            window_.setFullscreen(panel_.window.fullscreen);
+            swapchain_.setVsync(panel_.window.vsync);
             const auto now = Clock::now();
             const float elapsed = std::chrono::duration<float>(now - last).count();
             last = now;
@@ -77,11 +86,12 @@ class ViewerRun {
             if (ui_.takesText()) continue;  // it is typed into a field
             if (key == GLFW_KEY_TAB) window_.captureCursor(!window_.cursorCaptured());
             if (key == GLFW_KEY_ESCAPE) leaveOrClose();
-            if (key == GLFW_KEY_Z && controlHeld()) useEdited(edits_.undo(viewing_.scene.lights));
-            if (key == GLFW_KEY_Y && controlHeld()) useEdited(edits_.redo(viewing_.scene.lights));
+            if (key == GLFW_KEY_Z && controlHeld()) stepThroughEdits(&EditHistory::undo);
+            if (key == GLFW_KEY_Y && controlHeld()) stepThroughEdits(&EditHistory::redo);
             if (key == GLFW_KEY_T) turnTruth();
             if (key == GLFW_KEY_B)
                 panel_.beside = panel_.beside == Beside::kPreset ? Beside::kNothing : Beside::kPreset;
+            if (key == GLFW_KEY_V) turnOverlay();
             if (key == GLFW_KEY_P) panel_.open = !panel_.open;
             if (key == GLFW_KEY_O) camera_.orbits = !camera_.orbits;
             if (key == GLFW_KEY_F) obey(PanelEvent::kFrameScene);
@@ -90,6 +100,8 @@ class ViewerRun {
             if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
             if (key == GLFW_KEY_F5) obey(PanelEvent::kSaveSession);
             if (key == GLFW_KEY_F6) obey(PanelEvent::kSaveScene);
+            if (key == GLFW_KEY_F10) obey(PanelEvent::kCapture);
+            if (key == GLFW_KEY_F11) panel_.window.fullscreen = !panel_.window.fullscreen;
             if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
             if (key == GLFW_KEY_F12) obey(PanelEvent::kScreenshot);
             if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) panel_.layer = render::layerOfKey(key - GLFW_KEY_0);
@@ -99,15 +111,36 @@ class ViewerRun {
         return glfwGetKey(window_.handle(), GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
                glfwGetKey(window_.handle(), GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
     }
-    void useEdited(bool changed) {
-        viewing_.scene.lightsVersion += changed;
-        viewing_.lightsEdited |= changed;
+    EditState editState() const { return {viewing_.scene.lights, viewing_.scene.sky, viewing_.edits}; }
+    void stepThroughEdits(bool (EditHistory::*way)(EditState&)) {
+        EditState state = editState();
+        if (!(edits_.*way)(state)) return;
+        if (state.lights != viewing_.scene.lights)
+            ++viewing_.scene.lightsVersion, viewing_.lightsEdited = true;
+        viewing_.skyEdited |= state.sky != viewing_.scene.sky;
+        viewing_.scene.lights = std::move(state.lights);
+        viewing_.scene.sky = std::move(state.sky);
+        viewing_.edits = std::move(state.assets);
+    }
+    // The path tracer reads materials as they are.
+    void followEdits() {
+        if (edited_.changesMaterials(viewing_.edits)) truth_.pause();
+        const EditedScene::Changes changes = edited_.follow(viewing_.edits);
+        viewing_.lightsEdited |= changes.lights;
+        if (!changes.materials) return;
+        renderer_.loadMaterials(viewing_.asset.geometry);
+        other_.loadMaterials(viewing_.asset.geometry);
     }
     // Off, beside ours, the error.
     void turnTruth() {
         const bool on = panel_.beside == Beside::kTruth, error = showsError();
         panel_.beside = on && error ? Beside::kNothing : Beside::kTruth;
         panel_.besideSettings.show = on && !error ? BesideShown::kError : BesideShown::kPicture;
+    }
+    // All of it, or nothing.
+    void turnOverlay() {
+        const bool show = !panel_.overlay.any();
+        panel_.overlay = {show, show, show};
     }
     bool showsError() const { return panel_.besideSettings.show == BesideShown::kError; }
     void leaveOrClose() {
@@ -134,6 +167,7 @@ class ViewerRun {
         if (event == PanelEvent::kSaveSession) say(saveSession_(viewing_));
         if (event == PanelEvent::kSaveScene) say(saveScene_(viewing_));
         if (event == PanelEvent::kScreenshot) savePicture();
+        if (event == PanelEvent::kCapture) capture_.start("captures", kCaptureFrames);
     }
     void frameScene() {
         CameraPose pose = framingCamera(viewing_.scene.bounds);
@@ -157,6 +191,8 @@ class ViewerRun {
     bool show() {
         const glm::uvec2 size = glm::max(window_.framebufferSize(), glm::uvec2(16));
         drawUi(size);
+        followEdits();
+        edits_.note(editState(), ui_.holdsMouse());
         viewing_.pose = poseOf(camera_);
         setCamera(viewing_.scene, viewing_.pose, size);
         const bool fresh = truth_.follow(viewing_.scene, size, filterOf(viewing_.gi.antialiasing),
@@ -167,11 +203,13 @@ class ViewerRun {
         if (!image) return false;
         const render::RenderSettings gi = panel_.layer ? settingsOf(*panel_.layer, viewing_.gi) : viewing_.gi;
         renderer_.render(
-            viewing_.scene, size, gi, viewing_.graph,
+            viewing_.scene, size, gi, capture_.options(viewing_.graph),
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
                 missing_ = panel_.layer && !render::hasLayer(frame, *panel_.layer);
                 shown_ = addShown(scope, view, frame, size);
                 scope.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                overlay_.read(scope, view, frame, panel_.overlay);
+                capture_.declare(scope, frame);
             },
             {.record =
                  [&](VkCommandBuffer commands) {
@@ -181,9 +219,20 @@ class ViewerRun {
              .wait = image->acquired,
              .signal = image->rendered});
         swapchain_.present(*image);
+        edited_.rendered();
+        if (capture_.recording()) capture_.note(subject(gi, size));
         if (fresh) truth_.compare(renderer_);
         if (panel_.beside == Beside::kTruth) panel_.besideNumbers = truth_.numbers();
         return true;
+    }
+    capture::Subject subject(const render::RenderSettings& gi, glm::uvec2 size) const {
+        return {.scene = viewing_.scene,
+                .name = options_.title,
+                .settings = fmt::format("the viewer, preset {}", viewing_.preset),
+                .gi = gi,
+                .graph = viewing_.graph,
+                .size = size,
+                .schedules = {}};
     }
     ImageHandle addShown(GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame,
                          glm::uvec2 size) {
@@ -206,21 +255,31 @@ class ViewerRun {
         return options_.truthStem.empty() || (picture && picture->samples >= options_.truthSamples);
     }
     void drawUi(glm::uvec2 size) {
+        capturing_ = capture_.message();
         ui_.build(panels_, viewing_.settings, renderer_.graph(), world_, statusLine(size), [&] {
-            if (panel_.open) chosen_ = drawPanel(panel_, viewing_, camera_);
-            if (panel_.open && !window_.cursorCaptured())
-                dragLights(dragging_, viewing_, camera_, glm::vec2(size));
+            overlay_.draw({poseOf(camera_), glm::vec2(size)});
+            if (!panel_.open) return;
+            chosen_ = drawPanel(panel_, panelLayout(panels_), viewing_, camera_, edited_);
+            if (!window_.cursorCaptured()) dragHandles(glm::vec2(size));
         });
-        edits_.note(viewing_.scene.lights, ui_.holdsMouse());
+    }
+    void dragHandles(glm::vec2 size) {
+        if (!dragLights(dragging_, viewing_, camera_, size))
+            dragThing(panel_.selection, viewing_, edited_, {poseOf(camera_), size});
     }
     std::string statusLine(glm::uvec2 size) const {
         const glm::dvec3 p = camera_.position;
-        return fmt::format("{:.1f} ms  {:.1f}/s  {}x{}  {}  at {:.2f} {:.2f} {:.2f}{}", frameMs_,
+        return fmt::format("{:.1f} ms  {:.1f}/s  {}x{}  {}  at {:.2f} {:.2f} {:.2f}{}{}{}", frameMs_,
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y, viewing_.preset, p.x, p.y, p.z,
-                           missing_ ? "\nthis preset or scene has no such layer" : "");
+                           missing_ ? "\nthis preset or scene has no such layer" : "",
+                           capturing_.empty() ? "" : "\n", capturing_);
     }
 
+    // What plays a script or leaves by itself is the same whoever starts it.
+    bool remembers() const { return options_.frames == 0 && options_.script.empty(); }
+
     int finish() {
+        if (remembers()) remember();
         if (!options_.record.empty())
             if (const Status kept = saveReplay(recorded_, options_.record); !kept) return refuse(kept);
         if (!options_.truthStem.empty() && truth_.picture()) {
@@ -231,6 +290,12 @@ class ViewerRun {
         if (options_.screenshot.empty() || !shown_) return 0;
         const Status saved = saveImage(render::readImage(renderer_, shown_), options_.screenshot);
         return saved ? 0 : refuse(saved);
+    }
+    void remember() const {
+        const std::string path = memoryPath();
+        Status kept = makeFolderOf(path);
+        if (kept) kept = writeFileSafely(path, memoryText(memoryOf(panels_, panel_)));
+        if (!kept) spdlog::warn("{}", kept.error().message);
     }
     static int refuse(const Status& status) {
         spdlog::error("{}", status.error().message);
@@ -256,7 +321,11 @@ class ViewerRun {
     TruthView truth_;
     PresetView other_;
     LightDragging dragging_;
-    LightEdits edits_;
+    LightOverlay overlay_;
+    EditedScene edited_;
+    EditHistory edits_;
+    capture::LiveCapture capture_;
+    std::string capturing_;  // what it says
     std::vector<Input> recorded_;
     double frameMs_ = 16;
     bool missing_ = false;  // the layer that was asked for

@@ -8,6 +8,7 @@
 #include "engine/core/settings.h"
 #include "engine/gpu/device.h"
 #include "engine/renderer/renderer.h"
+#include "engine/scene/asset_edits.h"
 #include "tools/viewer/view_camera.h"
 
 namespace ag::viewer {
@@ -29,12 +30,14 @@ struct ViewerOptions {
 // What is shown; the viewer edits all of it.
 struct Viewing {
     RenderScene& scene;
+    SceneAsset& asset;  // of the scene; its materials change with `edits`
+    AssetEdits edits;   // from how it was loaded, with what a session had changed
     CameraPose pose;
     render::RenderSettings& gi;
     Settings& settings;
     FrameGraphOptions& graph;
     std::string preset;
-    bool lightsEdited = false;
+    bool lightsEdited = false, skyEdited = false;
 };
 
 // Each returns the file that was written.

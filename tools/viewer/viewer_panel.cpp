@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "tools/viewer/scene_panel.h"
+
 namespace ag::viewer {
 namespace {
 
@@ -64,7 +66,7 @@ void cameraFields(ViewCamera& camera) {
         camera.position = {at[0], at[1], at[2]};
     ImGui::Checkbox("orbit (O)", &camera.orbits);
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(80);
+    ImGui::SetNextItemWidth(80 * uiScale());
     ImGui::DragFloat("m/s", &camera.speed, camera.speed * 0.02f, 1e-4f, 1e6f, "%.3g",
                      ImGuiSliderFlags_AlwaysClamp);
     float degrees = glm::degrees(camera.verticalFov);
@@ -74,14 +76,8 @@ void cameraFields(ViewCamera& camera) {
 
 void besideFields(PanelState& state) {
     int beside = int(state.beside);
-    ImGui::TextUnformatted("beside it:");
-    for (const auto& [name, value] : {std::pair("nothing", Beside::kNothing),
-                                      {"path tracing (T)", Beside::kTruth},
-                                      {"a preset (B)", Beside::kPreset}}) {
-        ImGui::SameLine();
-        ImGui::RadioButton(name, &beside, int(value));
-    }
-    state.beside = Beside(beside);
+    if (ImGui::Combo("beside it", &beside, "nothing\0path tracing (T)\0a preset (B)\0"))
+        state.beside = Beside(beside);
     if (state.beside == Beside::kNothing) return;
     if (state.beside == Beside::kPreset) presetCombo("the other", state.otherPreset);
     BesideSettings& s = state.besideSettings;
@@ -91,6 +87,13 @@ void besideFields(PanelState& state) {
     if (!error || state.beside == Beside::kPreset)
         ImGui::SliderFloat("ours to here", &s.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     ImGui::TextUnformatted(state.besideNumbers.c_str());
+}
+
+void overlayFields(OverlaySettings& s) {
+    if (!ImGui::CollapsingHeader("drawn in the world (V)")) return;
+    ImGui::Checkbox("area lights, by cluster", &s.areaLights);
+    ImGui::Checkbox("views of reflective shadow maps", &s.reflectiveMaps);
+    ImGui::Checkbox("views of shadow maps", &s.shadowMaps);
 }
 
 bool strengthField(RenderLight& light) {
@@ -174,15 +177,38 @@ void lightList(Viewing& v, const ViewCamera& camera) {
     v.lightsEdited = true;
 }
 
+void windowFields(WindowWishes& wishes) {
+    ImGui::Checkbox("fullscreen (F11)", &wishes.fullscreen);
+    ImGui::SameLine();
+    ImGui::Checkbox("vsync", &wishes.vsync);
+}
+
+// Two on a line: the panel has room for no more where the window is small.
+PanelEvent eventButtons() {
+    static constexpr std::pair<const char*, PanelEvent> kButtons[] = {
+        {"whole scene (F)", PanelEvent::kFrameScene},
+        {"picture (F12)", PanelEvent::kScreenshot},
+        {"session (F5)", PanelEvent::kSaveSession},
+        {"glTF (F6)", PanelEvent::kSaveScene},
+        {"capture (F10)", PanelEvent::kCapture}};
+    PanelEvent pressed = PanelEvent::kNone;
+    bool second = false;
+    for (const auto& [label, event] : kButtons) {
+        if (second) ImGui::SameLine();
+        second = !second;
+        if (ImGui::Button(label)) pressed = event;
+    }
+    return pressed;
+}
+
 }  // namespace
 
-PanelEvent drawPanel(PanelState& state, Viewing& v, ViewCamera& camera) {
-    PanelEvent event = PanelEvent::kNone;
-    ImGui::SetNextWindowPos({8, 40}, ImGuiCond_FirstUseEver);  // below the status line
-    ImGui::SetNextWindowBgAlpha(0.8f);
-    if (!ImGui::Begin("View", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return ImGui::End(), event;
-    ImGui::TextUnformatted("Tab: fly or use the mouse here   P: this panel");
-    ImGui::PushItemWidth(160);
+PanelEvent drawPanel(PanelState& state, const PanelLayout& layout, Viewing& v, ViewCamera& camera,
+                     const EditedScene& edited) {
+    dockNextPanel(layout, Dock::kLeft);
+    if (!ImGui::Begin("View", nullptr, kDockedFlags)) return ImGui::End(), PanelEvent::kNone;
+    ImGui::TextUnformatted("Tab: fly or point   P: hide this");
+    ImGui::PushItemWidth(140 * uiScale());
     layerCombo(state.layer);
     if (std::string preset = v.preset; presetCombo("preset", preset)) usePreset(preset, v);
     ImGui::Checkbox("automatic exposure", &v.gi.exposure.automatic);
@@ -191,19 +217,16 @@ PanelEvent drawPanel(PanelState& state, Viewing& v, ViewCamera& camera) {
     antialiasingFields(v.gi.antialiasing);
     ImGui::SliderFloat("bloom", &v.gi.bloom.share, 0, 0.5f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     besideFields(state);
+    overlayFields(state.overlay);
     if (ImGui::CollapsingHeader("camera")) cameraFields(camera);
-    if (ImGui::Button("whole scene (F)")) event = PanelEvent::kFrameScene;
-    ImGui::SameLine();
-    if (ImGui::Button("save session (F5)")) event = PanelEvent::kSaveSession;
-    ImGui::SameLine();
-    if (ImGui::Button("save glTF (F6)")) event = PanelEvent::kSaveScene;
-    ImGui::SameLine();
-    if (ImGui::Button("picture (F12)")) event = PanelEvent::kScreenshot;
+    windowFields(state.window);
+    const PanelEvent pressed = eventButtons();
     lightList(v, camera);
+    sceneFields(state.selection, v, edited, camera.speed * 0.01f);
     ImGui::PopItemWidth();
     if (!state.message.empty()) ImGui::TextUnformatted(state.message.c_str());
     ImGui::End();
-    return event;
+    return pressed;
 }
 
 }  // namespace ag::viewer

@@ -16,6 +16,7 @@
 #include "tools/workbench/commands.h"
 #include "tools/workbench/progress_line.h"
 #include "tools/workbench/scene_options.h"
+#include "tools/workbench/session.h"
 #include "tools/workbench/text_file.h"
 
 namespace ag::workbench {
@@ -28,6 +29,8 @@ struct BenchOptions {
     std::string size = "640x360", flickerSize = "160x90";
     std::string json, csv, plot, markdown;
     std::string term;  // empty: each technique's own
+    std::string sessionFile;
+    std::optional<Session> session;  // in place of scenes
     std::string cache = bench::defaultCacheFolder();
     uint32_t param = 0;
     bool plain = false, noFlicker = false, noPathTracing = false, again = false;
@@ -115,6 +118,11 @@ std::optional<uint32_t> takeNumber(std::string& name, char mark) {
 
 // "lamps:80" is lamps with 80 for its number, "sponza+80" is sponza with 80 lamps hung in it.
 SceneOptions sceneArguments(const BenchOptions& o, std::string name) {
+    if (o.session) {
+        SceneOptions arguments = o.session->scene;
+        arguments.size = o.size;
+        return arguments;
+    }
     SceneOptions arguments{.param = o.param, .size = o.size};
     arguments.hungLamps = takeNumber(name, '+').value_or(0);
     const std::string whole = name;
@@ -158,6 +166,25 @@ Result<std::vector<bench::Row>> rowsOf(const bench::RowCache& kept, uint64_t key
     Result<std::vector<bench::Row>> rows = measure();
     if (rows) kept.keep(key, *rows);
     return rows;
+}
+
+// Its scene in place of those named.
+Status openSession(BenchOptions& o) {
+    if (o.sessionFile.empty()) return Ok{};
+    auto session = loadSession(o.sessionFile);
+    if (!session) return session.error();
+    o.scenes = {o.sessionFile};
+    o.session = std::move(*session);
+    return Ok{};
+}
+
+// Its preset and settings, on everything that is seen.
+bench::Technique sessionTechnique(const Session& session) {
+    return {.name = "session",
+            .preset = session.preset,
+            .description = "what the viewer saved",
+            .term = "all",
+            .variants = {{"", session.assignments}}};
 }
 
 // What all scenes of a run share.
@@ -245,19 +272,27 @@ int runBench(BenchOptions o) {
     if (!size) return refuse(size.error().message);
     if (!flickerSize) return refuse(flickerSize.error().message);
     if (!o.ladders.empty()) return runLadders(o, *size);
-    auto techniques = chosenTechniques(o.techniques);
-    if (!techniques) return refuse(techniques.error().message);
+    if (const Status opened = openSession(o); !opened) return refuse(opened.error().message);
+    std::vector<const bench::Technique*> techniques;
+    const bench::Technique ofSession = o.session ? sessionTechnique(*o.session) : bench::Technique{};
+    if (o.session) techniques.push_back(&ofSession);
+    if (!o.session || !o.techniques.empty()) {
+        const auto chosen = chosenTechniques(o.techniques);
+        if (!chosen) return refuse(chosen.error().message);
+        techniques.insert(techniques.end(), chosen->begin(), chosen->end());
+    }
     const bench::Technique budget = bench::budgetTechnique(o.budgets);
-    if (!o.budgets.empty()) techniques->push_back(&budget);
+    if (!o.budgets.empty()) techniques.push_back(&budget);
     if (!o.term.empty() && !bench::isTerm(o.term))
         return refuse(
             fmt::format("there is no term '{}' (there are: {})", o.term, fmt::join(bench::terms(), ", ")));
     std::vector<bench::Technique> ofTerm;
-    for (const bench::Technique* t : *techniques)
+    for (const bench::Technique* t : techniques)
         ofTerm.push_back(*t);
     for (bench::Technique& t : ofTerm) {
         if (!o.term.empty()) t.term = o.term;
-        if (o.plain && t.variants.front().budgetMs == 0) t.variants = {bench::Variant{}};
+        if (o.plain && t.name != "session" && t.variants.front().budgetMs == 0)
+            t.variants = {bench::Variant{}};
     }
     if (const Status ready = prepareTextFiles({o.json, o.csv, o.plot, o.markdown}); !ready)
         return refuse(ready.error().message);
@@ -291,6 +326,10 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
             "comma-separated; NAME:NUMBER where one takes a number, NAME+LAMPS with lamps hung in it")
         ->delimiter(',')
         ->capture_default_str();
+    command
+        ->add_option("--session", o->sessionFile,
+                     "what the viewer saved: its scene, and a row with its preset and settings on all light")
+        ->excludes("--scenes");
     command->add_option("--techniques", o->techniques, "comma-separated; by default all of indirect light")
         ->delimiter(',');
     command
@@ -303,7 +342,7 @@ void addBenchCommand(CLI::App& program, int& exitCode) {
                      "comma-separated scenes: instead, what the first bounce's error is made of, with lights "
                      "and maps replaced by traced rays one after another")
         ->delimiter(',')
-        ->excludes("--scenes", "--techniques", "--budget-ms");
+        ->excludes("--scenes", "--techniques", "--budget-ms", "--session");
     command
         ->add_option("--clusterings", o->measure.clusterings,
                      "errors are means over so many, of what has clusters")

@@ -176,6 +176,35 @@ std::string shortcomingsOf(const SceneAsset& asset) {
     return line;
 }
 
+bool hasMaterial(const RenderScene& scene, bool (*is)(const Material&)) {
+    const GeometryArrays& g = *scene.geometry;
+    return std::ranges::any_of(scene.instances, [&](const RenderInstance& i) {
+        return is(g.materials[g.primitives[i.primitive].material]);
+    });
+}
+
+// What is unlit shows its colour and is not meant to light anything.
+bool hasOwnLight(const RenderScene& scene) {
+    return !scene.lights.empty() || scene.sky ||
+           hasMaterial(scene, [](const Material& m) { return !m.unlit && m.emissive != glm::vec3(0); });
+}
+
+// A sky beside an added sun. Unlit colours are radiances of 1 at most in any light: beside them white
+// surfaces get to be as bright.
+void addMissingSky(const SceneOptions& options, LoadedScene& loaded) {
+    constexpr float kSunOfClearSky = 100, kSunBesideUnlit = 2.5f;  // W/m²
+    constexpr float kSkyBesideUnlit = 0.25f;                       // W/(m² sr)
+    RenderLight& sun = loaded.scene.lights.front();
+    const bool unlit = hasMaterial(loaded.scene, [](const Material& m) { return m.unlit; });
+    sun.intensity = glm::vec3(unlit ? kSunBesideUnlit : kSunOfClearSky);
+    const glm::vec3 d = sun.direction;
+    loaded.skyAdded =
+        unlit ? fmt::format("{:g}", kSkyBesideUnlit) : fmt::format("{:.9g},{:.9g},{:.9g}", d.x, d.y, d.z);
+    loaded.scene.sky =
+        std::make_shared<const Sky>(unlit ? constantSky(glm::vec3(kSkyBesideUnlit)) : analyticSky(d, 3));
+    spdlog::warn("{} has no sky: a {} one is added", options.scene, unlit ? "plain" : "clear");
+}
+
 // A sun where there is no light at all; where none would reach what is seen, lamps beside it.
 void addMissingLight(const SceneOptions& options, const FirstSight& sight, RenderScene& scene) {
     constexpr float kLeastLit = 0.01f;
@@ -193,17 +222,12 @@ CameraPose poseAndLight(const SceneOptions& options, const std::optional<CameraP
                         MissingLight missing, LoadedScene& loaded) {
     RenderScene& scene = loaded.scene;
     const bool wanted = options.noSceneLights || options.lights;
-    const bool dark = scene.lights.empty() && !scene.sky && !hasEmissive(scene) && !wanted;
+    const bool dark = !hasOwnLight(scene) && !wanted;
     loaded.lightAdded = dark;
     if (given && !dark) return *given;
     const FirstSight sight = chooseFirstSight(scene, given, dark);
     if (dark) addMissingLight(options, sight, scene);
-    if (dark && missing == MissingLight::kSunAndSky) {
-        constexpr float kSunOfClearSky = 100;  // W/m²
-        scene.lights.front().intensity = glm::vec3(kSunOfClearSky);
-        scene.sky = std::make_shared<const Sky>(analyticSky(sight.sun.direction, 3));
-        spdlog::warn("{} has no sky: a clear one is added", options.scene);
-    }
+    if (dark && missing == MissingLight::kSunAndSky) addMissingSky(options, loaded);
     return sight.pose;
 }
 
@@ -274,6 +298,7 @@ Result<LoadedScene> loadScene(const SceneOptions& given, MissingLight missing) {
     if (const std::string lost = shortcomingsOf(*loaded.asset); !lost.empty())
         spdlog::warn("{}: {} (afterglow info says more)", options.scene, lost);
     if (const Status posed = choosePose(options, *loaded.asset); !posed) return posed.error();
+    if (const Status edited = applyEdits(options.edits, *loaded.asset); !edited) return edited.error();
     const auto camera = chooseCamera(options, *loaded.asset);
     if (!camera) return camera.error();
     loaded.scene =

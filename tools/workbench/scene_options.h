@@ -8,6 +8,7 @@
 
 #include "engine/core/number_option.h"
 #include "engine/core/result.h"
+#include "engine/scene/asset_edits.h"
 #include "engine/scene/static_scene.h"
 
 namespace ag::workbench {
@@ -35,6 +36,7 @@ struct SceneOptions {
     // Of a session: the scene's own lights as they were edited, and where it was seen from.
     std::optional<std::vector<PlacedLight>> lights;
     std::optional<CameraPose> pose;
+    AssetEdits edits;  // of a session
 };
 
 void addSceneOptions(CLI::App& command, SceneOptions& options);
@@ -44,6 +46,7 @@ struct LoadedScene {
     RenderScene scene;
     glm::uvec2 size{0};
     bool lightAdded = false;  // there was none
+    std::string skyAdded;     // as --sky takes it; empty: none was
 };
 
 // A name from the library of scenes becomes its file, with its view and sun where none are given.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/safe_file.h"
+#include "tools/workbench/session_edits.h"
 
 namespace ag::workbench {
 namespace {
@@ -102,6 +103,7 @@ Session sessionOf(const json& file) {
         for (const json& light : file.at("lights"))
             s.scene.lights->push_back(lightIn(light));
     }
+    s.scene.edits = readEdits(file);
     read(file, "preset", s.preset);
     read(file, "set", s.assignments);
     return s;
@@ -122,6 +124,7 @@ Status saveSession(const Session& s, const std::string& path) {
         for (const PlacedLight& light : *s.scene.lights)
             file["lights"].push_back(lightOf(light));
     }
+    writeEdits(s.scene.edits, file);
     return writeFileSafely(path, file.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
@@ -183,8 +186,9 @@ void describeLights(const RenderScene& scene, SceneOptions& options) {
         options.lights->push_back({light, scene.originWorld + glm::dvec3(light.position)});
 }
 
-std::string describeSun(const RenderLight& sun) {
-    return fmt::format("{:.9g},{:.9g},{:.9g}", sun.direction.x, sun.direction.y, sun.direction.z);
+std::string describeSky(const Sky& clear) {
+    const glm::vec3 d = clear.sunDirection;
+    return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}", d.x, d.y, d.z, clear.turbidity);
 }
 
 }  // namespace ag::workbench

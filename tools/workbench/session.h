@@ -28,6 +28,6 @@ Status useSession(const std::string& path, SceneOptions& scene, std::string& pre
 
 // The lights in place of the scene's own and of those that options add.
 void describeLights(const RenderScene& scene, SceneOptions& options);
-std::string describeSun(const RenderLight& sun);  // the way its light travels
+std::string describeSky(const Sky& clear);  // as --sky takes it
 
 }  // namespace ag::workbench

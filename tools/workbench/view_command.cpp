@@ -38,6 +38,8 @@ Result<std::string> saveAs(const std::string& path, Session session, const viewe
     session.scene.pose = viewing.pose;
     session.scene.view.clear(), session.scene.camera.clear();
     if (viewing.lightsEdited) describeLights(viewing.scene, session.scene);
+    if (viewing.skyEdited) session.scene.sky = describeSky(*viewing.scene.sky);
+    session.scene.edits = viewing.edits;
     session.preset = viewing.preset;
     session.assignments = changesFrom(viewing.preset, viewing.settings);
     if (const Status saved = saveSession(session, path); !saved) return saved.error();
@@ -48,7 +50,8 @@ Result<std::string> saveAsGltf(const SceneOptions& options, const viewer::Viewin
     const auto source = withLibraryScene(options);
     if (!source) return source.error();
     const std::string path = viewer::editedPath(source->scene);
-    const viewer::SceneEdits edits{viewing.scene.lights, viewing.scene.originWorld, viewing.pose};
+    const viewer::SceneEdits edits{viewing.scene.lights, viewing.scene.originWorld, viewing.pose,
+                                   viewer::movesInFile(viewing.asset, viewing.edits), viewing.edits.looks};
     if (const Status saved = viewer::saveEdited(source->scene, source->param, edits, path); !saved)
         return saved.error();
     return path;
@@ -82,11 +85,13 @@ int runView(ViewOptions& o) {
     }
     auto loaded = loadScene(session->scene, MissingLight::kSunAndSky);
     if (!loaded) return refuse(loaded.error().message);
-    if (loaded->lightAdded) session->scene.sky = describeSun(loaded->scene.lights.front());
+    if (loaded->lightAdded) session->scene.sky = loaded->skyAdded;
     if (o.session.empty()) o.session = "view-session.json";
     o.viewer.title = fmt::format("Afterglow: {}", session->scene.scene);
     o.viewer.size = loaded->size;
     viewer::Viewing viewing{.scene = loaded->scene,
+                            .asset = *loaded->asset,
+                            .edits = session->scene.edits,
                             .pose = poseOf(loaded->scene),
                             .gi = setup.gi,
                             .settings = setup.registry,
@@ -102,8 +107,8 @@ int runView(ViewOptions& o) {
 
 void addViewCommand(CLI::App& program, int& exitCode) {
     const auto o = std::make_shared<ViewOptions>();
-    CLI::App* command =
-        program.add_subcommand("view", "a scene in a window: fly, edit its lights, see every layer");
+    CLI::App* command = program.add_subcommand(
+        "view", "a scene in a window: fly, edit its lights, things and materials, see every layer");
     addSceneOptions(*command, o->given.scene);
     command->get_option("scene")->required(false);
     command->add_option("--preset", o->given.preset,
@@ -125,12 +130,16 @@ void addViewCommand(CLI::App& program, int& exitCode) {
         ->capture_default_str();
     command->add_flag("--validate", o->viewer.validate, "with Vulkan validation; any message exits with 1");
     command->footer(
-        "Keys: Tab flies (WASD, Space, Shift, mouse) or frees the mouse for the panels; O circles about what "
-        "is "
-        "ahead, F shows the whole scene, T traces paths beside it, 1-9 layers, P panel, F1 settings, F2 "
-        "passes, F3 times, F5 saves the "
-        "session, F6 the scene as glTF, Ctrl+Z and Ctrl+Y undo and redo lights, F9 profiler, F12 saves a "
-        "picture, Esc frees the mouse, then closes.");
+        "Keys: Tab flies (WASD, Space, Shift, mouse) or frees the mouse for the panels and for things, "
+        "lights and "
+        "the sky's sun, which are dragged; O circles about what is ahead, F shows the whole scene, T traces "
+        "paths "
+        "beside it, B renders another preset beside it, V draws lights and their maps in the world, 1-9 "
+        "layers, P "
+        "panel, F1 settings, F2 passes, F3 times, F5 saves the session, F6 the scene as glTF, Ctrl+Z and "
+        "Ctrl+Y "
+        "undo and redo, F9 profiler, F10 captures frames, F11 fullscreen, F12 saves a picture, Esc frees the "
+        "mouse, then closes.");
     command->callback([o, &exitCode] { exitCode = runView(*o); });
 }
 

@@ -1,0 +1,51 @@
+// Materials that change after they were loaded: what follows is what a renderer that loaded them so shows.
+#include <gtest/gtest.h>
+
+#include "engine/core/image_difference.h"
+#include "engine/renderer/renderer.h"
+#include "engine/scene/asset_edits.h"
+#include "engine/scene/static_scene.h"
+#include "tests/support/device_environment.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag {
+namespace {
+
+constexpr glm::uvec2 kSize{64, 48};
+constexpr uint32_t kFrames = 64;  // what settles has
+
+Image seen(render::Renderer& renderer, const RenderScene& scene) {
+    render::RenderSettings settings;
+    render::addBounces(settings);
+    settings.bounce.texelRays.enabled = false;  // they go on for longer
+    return render::renderLayer(renderer, scene, kSize, settings, render::Layer::kRadiance, kFrames);
+}
+
+double rmse(const Image& a, const Image& b) {
+    return compareImages(a, b)->relativeRmse;
+}
+
+TEST(MaterialEdits, AreSeenAsIfTheyHadBeenLoaded) {
+    SceneAsset asset = *scenegen::buildScene("cornell", 0);
+    RenderScene scene = staticScene(asset);
+    setCamera(scene, cameraOf(asset, 0), kSize);
+    render::Renderer renderer(test::device());
+    renderer.load(asset.geometry);
+    const Image before = seen(renderer, scene);
+
+    MaterialLook look = lookOf(asset.geometry, 0);
+    look.baseColor = {0.1f, 0.2f, 0.9f, 1};
+    look.emissive = {0.5f, 0.1f, 0};
+    setLook(look, asset.geometry.materials[0]);
+    ++asset.geometry.version;
+    renderer.loadMaterials(asset.geometry);
+    const Image edited = seen(renderer, scene);
+    EXPECT_GT(rmse(before, edited), 0.1) << "it shows";
+
+    render::Renderer fresh(test::device());
+    fresh.load(asset.geometry);
+    EXPECT_LT(rmse(seen(fresh, scene), edited), 0.02);
+}
+
+}  // namespace
+}  // namespace ag
