@@ -32,8 +32,8 @@ bool emissionField(glm::vec3& emissive) {
     bool changed =
         ImGui::ColorEdit3("##shines", &color.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs);
     ImGui::SameLine();
-    changed |= ImGui::DragFloat("shines, W/m2sr", &strength, std::max(strength, 0.1f) * 0.02f, 0,
-                                kBrightest, "%.4g", kClamped);
+    changed |= ImGui::DragFloat("shines, W/m2sr", &strength, std::max(strength, 0.1f) * 0.02f, 0, kBrightest,
+                                "%.4g", kClamped);
     if (changed) emissive = color * strength;
     return changed;
 }
