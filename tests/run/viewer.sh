@@ -121,7 +121,7 @@ sleep 3
 lamp_at() {  # saves the session; the lamp's x
   rm -f drag.json
   xdotool key F5
-  for _ in $(seq 50); do
+  for _ in $(seq 150); do
     [[ -s drag.json ]] && break
     sleep 0.2
   done
@@ -129,6 +129,7 @@ lamp_at() {  # saves the session; the lamp's x
 }
 pixel=512  # 1.5 m to the right at 3.4 m: 320 + 1.5 * 180 / (3.4 * tan 22.5)
 xdotool mousemove --window "$window" $pixel 180
+lamp_at >/dev/null  # by now frames are shown
 sleep 0.5
 xdotool mousedown 1
 sleep 0.5
