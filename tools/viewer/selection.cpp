@@ -4,6 +4,7 @@
 
 #include "engine/app/panel_layout.h"
 #include "tools/viewer/handle_style.h"
+#include "tools/viewer/world_lines.h"
 
 namespace ag::viewer {
 namespace {
@@ -19,13 +20,13 @@ void drawBox(const Screen& screen, const Bounds& box, glm::dvec3 origin) {
     const auto corner = [&](int i) {
         const glm::vec3 p(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
                           i & 4 ? box.max.z : box.min.z);
-        return projected(screen, origin + glm::dvec3(p));
+        return origin + glm::dvec3(p);
     };
     for (int i = 0; i < 8; ++i)
         for (const int axis : {1, 2, 4}) {
             if (i & axis) continue;
-            const auto a = corner(i), b = corner(i | axis);
-            if (a && b) ImGui::GetBackgroundDrawList()->AddLine(toImGui(*a), toImGui(*b), kBox);
+            if (const auto edge = projectedLine(screen, corner(i), corner(i | axis)))
+                ImGui::GetBackgroundDrawList()->AddLine(toImGui(edge->from), toImGui(edge->to), kBox);
         }
 }
 
