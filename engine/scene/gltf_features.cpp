@@ -30,6 +30,9 @@ constexpr std::array kExtensions = {
     Extension{"KHR_mesh_quantization", kUsed, ""},
     Extension{"KHR_node_visibility", kUsed, ""},
     Extension{"KHR_texture_transform", kUsed, ""},
+    Extension{"EXT_lights_image_based", kApproximated,
+              "the finest of its specular images are the sky; its irradiance follows from them; --sky takes "
+              "its place"},
     Extension{"KHR_materials_ior", kApproximated,
               "right where light comes head-on; below 1.5 grazing light is reflected less than it should be"},
     Extension{"KHR_materials_specular", kApproximated,
@@ -42,7 +45,6 @@ constexpr std::array kExtensions = {
     Extension{"KHR_materials_variants", kApproximated, "the variant that the file names first is shown"},
     Extension{"KHR_texture_basisu", kApproximated,
               "a texture's PNG or JPEG is shown; a texture that has none is left out"},
-    Extension{"EXT_lights_image_based", kNotSupported, "no light of the surroundings: --sky gives some"},
     Extension{"KHR_animation_pointer", kNotSupported, "what it animates rests"},
     Extension{"KHR_materials_anisotropy", kNotSupported, "highlights are round"},
     Extension{"KHR_materials_clearcoat", kNotSupported, "the coat's highlight is missing"},
@@ -86,7 +88,7 @@ std::map<std::string, uint64_t> extensionUses(const Model& model) {
     };
     const auto countAll = [&](const auto& parts) { std::ranges::for_each(parts, count); };
     countAll(model.materials), countAll(model.nodes), countAll(model.meshes);
-    countAll(model.textures), countAll(model.bufferViews);
+    countAll(model.textures), countAll(model.bufferViews), countAll(model.scenes);
     for (const tinygltf::Mesh& mesh : model.meshes)
         countAll(mesh.primitives);
     for (const Material& m : model.materials)

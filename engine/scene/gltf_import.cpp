@@ -259,6 +259,7 @@ Result<SceneAsset> importGltf(const std::string& path, const ImportLimits& limit
     asset.features = gltf::featuresOf(model);
     gltf::importMaterials(model, asset);
     if (const gltf::Fault f = gltf::importTextures(model, asset, limits)) return fail(f);
+    gltf::importSky(model, asset);
     std::vector<int32_t> meshOfNode, newIndex;
     if (const gltf::Fault f = gltf::importMeshes(model, asset, meshOfNode)) return fail(f);
     splitLargePrimitives(asset);

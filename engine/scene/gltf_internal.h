@@ -50,6 +50,8 @@ int imageOf(const tinygltf::Model& model, int texture);
 void importMaterials(const tinygltf::Model& model, SceneAsset& asset);
 // After importMaterials: sets every material's class and layers.
 Fault importTextures(const tinygltf::Model& model, SceneAsset& asset, const ImportLimits& limits);
+// The surroundings that light the file's scene; none: as it was.
+void importSky(const tinygltf::Model& model, SceneAsset& asset);
 // The set of texture coordinates that a material's textures are looked up with, and whether another of its
 // textures asks for a second set.
 std::pair<int, bool> uvSetsOf(const tinygltf::Material& m);

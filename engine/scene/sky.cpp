@@ -139,12 +139,11 @@ Sky analyticSky(glm::vec3 sunDirection, float turbidity) {
 }
 
 const char* whyNoSky(const Image& picture) {
-    constexpr float kMostRadiance = 1e6f;
     const bool single = picture.width == 1 && picture.height == 1;
     if (!single && picture.width != 2 * picture.height) return "is not twice as wide as high";
     for (const glm::vec3& p : picture.pixels)
         for (int c = 0; c < 3; ++c)
-            if (!(p[c] >= 0) || !(p[c] <= kMostRadiance)) return "holds what is no radiance from 0 to 1e6";
+            if (!(p[c] >= 0) || !(p[c] <= kMostSkyRadiance)) return "holds what is no radiance from 0 to 1e6";
     return nullptr;
 }
 

@@ -31,6 +31,7 @@ Sky constantSky(glm::vec3 radiance);
 Sky analyticSky(glm::vec3 sunDirection, float turbidity);
 
 constexpr float kLeastTurbidity = 2, kMostTurbidity = 10;
+constexpr float kMostSkyRadiance = 1e6f;
 
 // nullptr if a picture can be a sky, else what is wrong with it.
 const char* whyNoSky(const Image& picture);

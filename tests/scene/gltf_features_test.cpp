@@ -65,19 +65,76 @@ std::vector<unsigned char> twoHalves() {
     return texels;
 }
 
-json webpImage() {
+json webpOf(const std::vector<unsigned char>& texels) {  // 4x4
     uint8_t* encoded = nullptr;
-    const std::vector<unsigned char> texels = twoHalves();
     const size_t size = WebPEncodeLosslessRGBA(texels.data(), 4, 4, 16, &encoded);
     const std::vector<unsigned char> bytes(encoded, encoded + size);
     WebPFree(encoded);
     return {{"uri", "data:image/webp;base64," + test::base64(bytes)}};
 }
 
+json webpImage() {
+    return webpOf(twoHalves());
+}
+
 json ktxImage() {
     const std::vector<unsigned char> bytes = {0xab, 'K',  'T',  'X',  ' ',  '2',
                                               '0',  0xbb, '\r', '\n', 0x1a, '\n'};
     return {{"uri", "data:image/ktx2;base64," + test::base64(bytes)}};
+}
+
+// Faces of a plain colour, 255 over `share` each; that towards -Z is twoHalves().
+json surroundings(unsigned char share) {
+    json d = triangle();
+    json faces = json::array();
+    for (int face = 0; face < 5; ++face) {
+        std::vector<unsigned char> texels;
+        for (int i = 0; i < 16; ++i)
+            for (const int c : {face == 0 ? 255 : 0, face == 2 ? 255 : 0, face == 4 ? 255 : 0, int(share)})
+                texels.push_back(static_cast<unsigned char>(c));
+        d["images"].push_back(webpOf(texels));
+        faces.push_back(face);
+    }
+    d["images"].push_back(webpImage());
+    faces.push_back(5);
+    d["extensionsUsed"] = {"EXT_lights_image_based", "EXT_texture_webp"};
+    d["extensions"]["EXT_lights_image_based"]["lights"] = {
+        {{"specularImageSize", 4}, {"specularImages", {faces}}, {"intensity", 2}}};
+    d["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+    return d;
+}
+
+TEST(GltfFeatures, ImageBasedLightIsTheSky) {
+    json d = surroundings(51);
+    const SceneAsset asset = import(d);
+    ASSERT_TRUE(asset.sky);
+    const auto seen = [](const SceneAsset& a, glm::vec3 d) { return skyRadiance(*a.sky, glm::normalize(d)); };
+    EXPECT_LT(glm::distance(seen(asset, {1, 0, 0}), glm::vec3(10, 0, 0)), 0.01f) << "twice 1 over a fifth";
+    EXPECT_LT(glm::distance(seen(asset, {0, 1, 0}), glm::vec3(0, 10, 0)), 0.01f);
+    EXPECT_LT(glm::distance(seen(asset, {0, 0, 1}), glm::vec3(0, 0, 10)), 0.01f);
+    EXPECT_LT(glm::distance(seen(asset, {-0.6f, 0.2f, -1}), glm::vec3(10, 0, 0)), 0.3f)
+        << "left, but for what is interpolated";
+    EXPECT_LT(glm::distance(seen(asset, {0.6f, 0.2f, -1}), glm::vec3(0, 2, 0)), 0.3f) << "right";
+    EXPECT_EQ(whyNoSky(asset.sky->radiance), nullptr);
+    EXPECT_TRUE(reports(asset, "EXT_lights_image_based", FeatureSupport::kApproximated));
+
+    // A quarter turn about the axis upwards: what was at +X is at -Z.
+    d["extensions"]["EXT_lights_image_based"]["lights"][0]["rotation"] = {0, std::numbers::sqrt2 / 2, 0,
+                                                                          std::numbers::sqrt2 / 2};
+    EXPECT_LT(glm::distance(seen(import(d), {0, 0, -1}), glm::vec3(10, 0, 0)), 0.01f);
+}
+
+TEST(GltfFeatures, ImageBasedLightWithoutItsImagesIsLeftOut) {
+    for (const json& broken : {json(7), json({0, 1, 2}), json({0, 1, 2, 3, 4, 99}), json("text")}) {
+        json d = surroundings(255);
+        d["extensions"]["EXT_lights_image_based"]["lights"][0]["specularImages"] = {broken};
+        const SceneAsset asset = import(d);
+        EXPECT_FALSE(asset.sky);
+        EXPECT_EQ(asset.warnings.size(), 1u);
+    }
+    json d = surroundings(255);
+    d["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 3;
+    EXPECT_FALSE(import(d).sky);
 }
 
 TEST(GltfFeatures, ReportSaysWhatIsLost) {
