@@ -9,11 +9,33 @@ namespace {
 constexpr PixelListNames kAlone = {"val_gloss.alone", "val_gloss.none_alone", "val_gloss.alone_groups",
                                    "val_gloss.no_alone_groups"};
 
+// Of the lights of one list.
+void addAlone(const Surfaces& all, const ValTiles& t, const PixelList& alone, const GlossGather& of,
+              ImageHandle result) {
+    PassBuilder pass = t.scope.compute(of.name, "val_shading/gather_gloss_alone.comp");
+    readLights(pass, t.lights, of.shape, of.taps);
+    pass.sample("normalMap", all.normal)
+        .sample("depthMap", all.depth)
+        .sample("albedoMap", all.albedo)
+        .sample("reflectanceMap", all.reflectance)
+        .read("camera", all.camera)
+        .read("lists", t.lists)
+        .read("counts", t.counts)
+        .read("alone", alone.pixels)
+        .readWrite("result", result)
+        .constant("kList", of.list)
+        .constant("kSpacing", t.gbuffer.spacing / all.spacing)
+        .push(t.push)
+        .dispatchIndirect(alone.groups);
+}
+
 }  // namespace
 
-ImageHandle addGlossUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& cells,
-                               ImageHandle gloss, const ShadowedVals& lights, const ValShadingSettings& s) {
+ImageHandle addGlossUpsampling(const Surfaces& all, const ValTiles& tiles, ImageHandle gloss,
+                               const ValShadingSettings& s) {
+    const Surfaces& cells = tiles.gbuffer;
     if (cells.spacing == all.spacing) return gloss;
+    const GraphScope scope = tiles.scope;
     const ImageHandle result = scope.image("val_gloss.result", scope.info(all.reflectance));
     const PixelList alone = addPixelList(scope, kAlone, all.size);
     scope.compute("val_gloss.upsample", "val_shading/upsample_gloss.comp")
@@ -29,17 +51,8 @@ ImageHandle addGlossUpsampling(GraphScope scope, const Surfaces& all, const Surf
         .write("result", result)
         .push(upsamplingPush(all, cells))
         .dispatchThreads(all.size.x, all.size.y);
-    PassBuilder pass = scope.compute("val_gloss.gather_alone", "val_shading/gather_gloss_alone.comp");
-    readLights(pass, lights, s.shape, s.taps);
-    pass.sample("normalMap", all.normal)
-        .sample("depthMap", all.depth)
-        .sample("albedoMap", all.albedo)
-        .sample("reflectanceMap", all.reflectance)
-        .read("camera", all.camera)
-        .read("alone", alone.pixels)
-        .readWrite("result", result)
-        .push(glm::uvec3(lights.vals.first, lights.vals.count, lights.isms.tileSize))
-        .dispatchIndirect(alone.groups);
+    addAlone(all, tiles, alone, {"val_gloss.near_alone", io::kNearList, s.shape, s.taps}, result);
+    addAlone(all, tiles, alone, {"val_gloss.far_alone", io::kFarList, s.farShape, s.farTaps}, result);
     return result;
 }
 

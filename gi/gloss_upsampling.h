@@ -4,13 +4,13 @@
 
 #include "gi/surfaces.h"
 #include "gi/val_shading.h"
+#include "gi/val_tiles.h"
 
 namespace ag::gi {
 
-// `gloss`: of `cells`, W/(m² sr), which have albedo and reflectance; comes back as it is if those are all
-// pixels. `settings`: shape and taps of near lights serve for all of those met so.
-ImageHandle addGlossUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& cells,
-                               ImageHandle gloss, const ShadowedVals& lights,
+// `gloss`: of the tiles' cells, W/(m² sr), which have albedo and reflectance; comes back as it is if those
+// are all pixels.
+ImageHandle addGlossUpsampling(const Surfaces& all, const ValTiles& tiles, ImageHandle gloss,
                                const ValShadingSettings& settings);
 
 }  // namespace ag::gi

@@ -72,13 +72,6 @@ WorkList addGlossyGroups(const ValTiles& t, ImageHandle gloss) {
     return glossy;
 }
 
-struct GlossGather {
-    std::string_view name;
-    uint32_t list;  // kNearList or kFarList
-    ValShape shape;
-    uint32_t taps;
-};
-
 Surfaces withMaterials(GraphScope scope, const Surfaces& all, const Surfaces& downsampled) {
     const uint32_t spacing = downsampled.spacing / all.spacing;
     Surfaces cells = downsampled;
@@ -159,7 +152,7 @@ ImageHandle addValGloss(GraphScope scope, const Surfaces& all, const Surfaces& d
     const WorkList anew = share.some ? addGroupsAnew(t, share, kGlossyAnew, &glossy) : glossy;
     addGloss(t, {"val_gloss.near", io::kNearList, settings.shape, settings.taps}, anew, gloss);
     addGloss(t, {"val_gloss.far", io::kFarList, settings.farShape, settings.farTaps}, anew, gloss);
-    return addGlossUpsampling(scope, all, cells, gloss, lights, settings);
+    return addGlossUpsampling(all, t, gloss, settings);
 }
 
 }  // namespace ag::gi

@@ -16,6 +16,14 @@ enum class ValShape : uint32_t {
     kPolygon,     // the convex polygon of its farthest texels by its edges
 };
 
+// What gloss is gathered of, a list at a time.
+struct GlossGather {
+    std::string_view name;
+    uint32_t list;  // kNearList or kFarList
+    ValShape shape;
+    uint32_t taps;
+};
+
 // Passes and resources; literals, because the graph keeps views of them.
 struct ValTileNames {
     std::string_view classify, lists, counts;

@@ -7,38 +7,11 @@ layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 5) const uint kList = 0;
 #include "common/texels.glsl"
 #include "val_shading/gather_inputs.glsl"
-#include "val_shading/gloss.glsl"
+#include "val_shading/glossy_pixel.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 8) uniform sampler2D albedoMap;
-layout(set = 0, binding = 9) uniform sampler2D reflectanceMap;
 layout(set = 0, binding = 10, rgba16f) uniform image2D gloss;
 layout(set = 0, binding = 11) UINT_TEXELS(listed);
-
-struct GlossyPixel {
-    Receiver receiver;
-    Specular specular;
-    bool glossy;
-    vec3 radiance;  // sum, W/(m² sr)
-};
-
-GlossyPixel glossyPixelAt(ivec2 pixel) {
-    float depth = texelFetch(depthMap, pixel, 0).x;
-    vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0), reflectance = texelFetch(reflectanceMap, pixel, 0);
-    vec3 x = worldFromPixel(camera.camera.worldFromClip, camera.camera.size, pixel, depth);
-    GlossyPixel g;
-    g.receiver = Receiver(x, normalAndRoughness.xyz, kList == kNearList ? widthOf(pixel, depth) : 0.0, vec3(0.0), vec3(0.0));
-    g.specular = specularOf(normalize(camera.camera.position - x), normalAndRoughness.w, reflectance, texelFetch(albedoMap, pixel, 0).rgb);
-    g.glossy = depth > 0.0 && any(greaterThan(reflectance, vec4(0.0)));
-    g.radiance = vec3(0.0);
-    return g;
-}
-
-void addGloss(AreaLight l, inout GlossyPixel g) {
-    Receiver r = g.receiver;
-    vec3 e = irradianceFrom(l, r.position, r.normal, r.width, push.p.ismTileSize);
-    g.radiance += specularRadiance(g.specular, r.position, r.normal, l, e);
-}
 
 void addGlossToAll(AreaLight l, inout GlossyPixel g[kPixels]) {
     [[unroll]] for (int p = 0; p < kPixels; ++p) addGloss(l, g[p]);
