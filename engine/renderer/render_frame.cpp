@@ -41,6 +41,7 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     // To the eye
     RenderOutputs& out = f.outputs;
     out.radiance = addRadiance(scope, f.gbuffer, {f.direct, f.sky, f.bounce, scene});
+    out.radiance = addReflections(scope, scene, f.gbuffer, f.bounce, out.radiance, s.reflections);
     out.radiance = addBlendedLayers(scope, scene, f, lights, out.radiance, s, h.blended);
     out.radiance = addAntialiasing(scope, scene, surfaces, out.radiance, s.antialiasing, h.antialiasing);
     out.exposure = addExposure(scope, out.radiance, scene.units, s.composite.exposure, scene.grid.version,

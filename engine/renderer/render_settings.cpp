@@ -250,6 +250,7 @@ void registerSettings(Settings& settings, RenderSettings& s) {
     registerFields(settings, "light_clusters", s.lightClusters);
     registerFields(settings, "punctual_shadows", s.punctualShadows);
     registerFields(settings, "punctual_lighting", s.punctualLighting);
+    registerFields(settings, "reflections", s.reflections);
     registerFields(settings, "blending", s.blending);
     registerFields(settings, "antialiasing", s.antialiasing);
     registerFields(settings, "bloom", s.bloom);

@@ -12,6 +12,7 @@
 #include "engine/renderer/bloom.h"
 #include "engine/renderer/composite.h"
 #include "engine/renderer/punctual_lighting.h"
+#include "engine/renderer/reflections.h"
 #include "engine/renderer/shadow_maps.h"
 #include "gi/occluder_trees.h"
 #include "gi/published/interleaved_shading.h"
@@ -47,6 +48,7 @@ struct RenderSettings {
     LightClusterSettings lightClusters;
     PunctualShadowSettings punctualShadows;
     PunctualLightingSettings punctualLighting;
+    ReflectionSettings reflections;
     BlendingSettings blending;
     AntialiasingSettings antialiasing;
     BloomSettings bloom;

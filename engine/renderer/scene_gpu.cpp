@@ -42,6 +42,29 @@ io::Material materialRow(const Material& m, RenderUnits units) {
             .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], m.transmission}};
 }
 
+bool isGlossy(const Material& m) {
+    return m.metallic > 0 || m.specular > 0;
+}
+
+// Of all texels where that is a texture's.
+float leastRoughness(const Material& m, const TextureLayers& textures) {
+    if (m.metallicRoughnessLayer < 0) return m.roughness;
+    const std::vector<uint8_t>& texels = textures.linear[size_t(m.metallicRoughnessLayer)];
+    uint8_t least = 255;
+    for (size_t green = 1; green < texels.size(); green += 4)
+        least = std::min(least, texels[green]);
+    return m.roughness * float(least) / 255;
+}
+
+// Of all materials that are not Lambert.
+float leastRoughness(const GeometryArrays& geometry) {
+    float least = 1;
+    for (const Material& m : geometry.materials)
+        if (isGlossy(m))
+            least = std::min(least, leastRoughness(m, geometry.textures[uint32_t(m.textureClass)]));
+    return least;
+}
+
 // A class without textures still needs something bound: one black texel.
 std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, VkFormat format, uint32_t size,
                                        const std::vector<std::vector<uint8_t>>& layers) {
@@ -104,6 +127,7 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     indices_ = gpu::loadBuffer(device_, {.name = "scene.indices", .vertexOrIndex = true}, geometry.indices);
     skin_.load(geometry);
     ++loads_;
+    leastRoughness_ = leastRoughness(geometry);
     loadTextures(geometry);
     useUnits(geometry, {});
     geometryVersion_ = geometry.version;
@@ -130,7 +154,7 @@ void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) 
     for (const Material& m : geometry.materials) {
         rows.push_back(materialRow(m, units));
         strongestEmission_ = std::max({strongestEmission_, m.emissive.x, m.emissive.y, m.emissive.z});
-        hasGlossy_ = hasGlossy_ || m.metallic > 0 || m.specular > 0;
+        hasGlossy_ = hasGlossy_ || isGlossy(m);
         hasNormalMaps_ = hasNormalMaps_ || m.normalLayer >= 0;
     }
     materials_ = gpu::loadBuffer(device_, {.name = "scene.materials", .texelFormat = gpu::kVec4Texels}, rows);
@@ -250,6 +274,7 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
                    .hasGlossy = hasGlossy_,
                    .hasNormalMaps = hasNormalMaps_};
     view.skin = skin_.import(scope, scene, *positions_, *attributes_);
+                   .leastRoughness = leastRoughness_,
     view.loadedVersion = combineHash(geometryVersion_, loads_);
     view.geometry = {positions_.get(), attributes_.get(),           indices_.get(),
                      geometryVersion_, view.skin.deformedPositions, view.skin.deformedAttributes};

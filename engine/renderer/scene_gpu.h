@@ -55,7 +55,9 @@ struct SceneView {
     RenderUnits units;                                        // of everything above
     float extent = 0;                                         // see steadyExtent()
     bool hasEmissive = false;
-    bool hasGlossy = false;  // a material that is not Lambert
+    bool hasGlossy = false;       // a material that is not Lambert
+    float leastRoughness = 1;     // of those that are not
+    bool wholeMaterials = false;  // what light goes on from reflects it with its specular lobe, too
     bool hasNormalMaps = false;
     BufferHandle surfaceSamples;  // io::SurfaceSample; also a texel buffer of vec4
     BufferHandle pointAreas;      // m² that a sample of each instance stands for: a texel buffer of float
@@ -130,6 +132,8 @@ class SceneGpu {
     float strongestEmission_ = 0;
     uint64_t materialsVersion_ = 0;
     bool hasGlossy_ = false, hasNormalMaps_ = false;
+    float leastRoughness_ = 1;
+    bool sampledWhole_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_, drawnRows_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;

@@ -59,6 +59,18 @@ AG_FUNCTION vec3 metallicRoughnessBrdf(vec3 n, vec3 v, vec3 l, vec3 baseColor, f
     vec3 h = normalize(v + l);
     float alpha = max(roughness * roughness, kLeastAlpha);
     vec3 f90 = vec3(specularF90(metallic, specular));
+// A half vector as likely as the viewer v sees it, both about the normal z (Heitz 2018, Sampling the GGX
+// Distribution of Visible Normals): the lobe then weighs Fresnel's term times smithMasking of the light.
+AG_FUNCTION vec3 visibleHalfVector(vec3 v, float alpha, vec2 xi) {
+    vec3 s = normalize(vec3(alpha * v.x, alpha * v.y, v.z));
+    float across = s.x * s.x + s.y * s.y;
+    vec3 t = across > 1e-12f ? vec3(-s.y, s.x, 0.0f) * inversesqrt(across) : vec3(1.0f, 0.0f, 0.0f);
+    float r = sqrt(xi.x), phi = 2.0f * kPi * xi.y, x = r * cos(phi), half_ = 0.5f * (1.0f + s.z);
+    float y = (1.0f - half_) * sqrt(max(1.0f - x * x, 0.0f)) + half_ * r * sin(phi);
+    vec3 h = x * t + y * cross(s, t) + sqrt(max(1.0f - x * x - y * y, 0.0f)) * s;
+    return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-6f)));
+}
+
     vec3 f = fresnelSchlick(specularF0(baseColor, metallic, specular), f90, dot(v, h));
     float lobe = ggxDistribution(dot(n, h), alpha) * smithMasking(nv, alpha) * smithMasking(nl, alpha) /
                  (4.0f * nv * nl);

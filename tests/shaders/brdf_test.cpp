@@ -1,0 +1,51 @@
+// Drawing half vectors by the lobe: what it weighs must come to what the lobe reflects.
+#include <gtest/gtest.h>
+
+#include "common/brdf.h"
+#include "common/sampling.h"
+
+namespace ag::io {
+namespace {
+
+// Of light from everywhere, with Fresnel's term 1, by midpoints over half vectors and by drawing them.
+double reflectedByQuadrature(vec3 v, float alpha) {
+    constexpr int kSteps = 1500;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            // Tangents about the lobe's width get as many steps as the long tail.
+            const double s = (i + 0.5) / kSteps, tangent = alpha * s / (1 - s),
+                         phi = 2 * kPi * (j + 0.5) / kSteps;
+            const double c = 1 / std::sqrt(1 + tangent * tangent), sine = tangent * c;
+            const vec3 h(float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(c));
+            const vec3 l = 2 * dot(v, h) * h - v;
+            if (dot(v, h) <= 0 || l.z <= 0) continue;
+            const double solidAngle = sine * c * c * alpha / ((1 - s) * (1 - s)) / kSteps * 2 * kPi / kSteps;
+            sum += double(ggxDistribution(h.z, alpha) * smithMasking(v.z, alpha) * smithMasking(l.z, alpha) *
+                          dot(v, h) / v.z) *
+                   solidAngle;
+        }
+    return sum;
+}
+
+double reflectedByDraws(vec3 v, float alpha) {
+    constexpr uint kDraws = 1u << 16;
+    double sum = 0;
+    for (uint i = 0; i < kDraws; ++i) {
+        const vec3 h = visibleHalfVector(v, alpha, hammersley(i, kDraws)), l = 2 * dot(v, h) * h - v;
+        if (l.z > 0) sum += double(smithMasking(l.z, alpha));
+    }
+    return sum / kDraws;
+}
+
+TEST(Brdf, VisibleHalfVectorsReflectWhatTheLobeDoes) {
+    for (const float alpha : {0.02f, 0.3f, 1.0f})
+        for (const float cosine : {1.0f, 0.6f, 0.15f}) {
+            const vec3 v(std::sqrt(1 - cosine * cosine), 0, cosine);
+            EXPECT_NEAR(reflectedByDraws(v, alpha), reflectedByQuadrature(v, alpha), 0.004)
+                << alpha << ' ' << cosine;
+        }
+}
+
+}  // namespace
+}  // namespace ag::io
