@@ -130,7 +130,8 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     asked.composite.exposure += std::log2(units_.light);
     const PixelGrid grid = choosePixels(asked.antialiasing, size, scene, history_.picture.next(scene, asked),
                                         history_.antialiasing);
-    SceneView view = scene_.import(graph_, scene, grid, tracedBy(asked, given));
+    SceneView view =
+        scene_.import(graph_, scene, grid, tracedBy(asked, given), asked.bounce.valShading.glossy);
     view.units = units_;
     view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
     const RenderFrame frame = addFrame(graph_, view, asked, history_);

@@ -207,7 +207,9 @@ void SceneGpu::reserveDraws(const RenderScene& scene) {
 }
 
 // Points stay on their instances while these move; they are chosen anew when instances come or go.
-void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
+void SceneGpu::sampleSurfacesAnew(const RenderScene& scene, bool wholeMaterials) {
+    if (wholeMaterials != sampledWhole_ && hasGlossy_) sampledVersion_ = sampledSet_ = 0;
+    sampledWhole_ = wholeMaterials;
     const bool mayDiffer = scene.allInstancesChanged || sampledVersion_ == 0;
     if (sampledVersion_ == scene.instancesVersion || !mayDiffer) return;
     sampledVersion_ = scene.instancesVersion;
@@ -226,7 +228,7 @@ void SceneGpu::sampleSurfacesAnew(const RenderScene& scene) {
                                chosen.samples);
     pointAreas_ = gpu::loadBuffer(device_, {.name = "scene.point_areas", .texelFormat = VK_FORMAT_R32_SFLOAT},
                                   chosen.pointAreas);
-    auto points = chooseBouncePoints(scene, chosen, kBouncePoints);
+    auto points = chooseBouncePoints(scene, chosen, kBouncePoints, wholeMaterials);
     bouncePointCount_ = uint32_t(points.size());
     const auto shining = chooseEmissivePoints(scene, kEmissivePoints, lightUnit_);
     emissivePointCount_ = uint32_t(shining.size());
@@ -259,11 +261,11 @@ ViewSlots viewSlots(const RenderScene& scene) {
 }
 
 SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const PixelGrid& grid,
-                           std::optional<gi::TracedBy> traced) {
+                           std::optional<gi::TracedBy> traced, bool wholeMaterials) {
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
-    sampleSurfacesAnew(scene);
+    sampleSurfacesAnew(scene, wholeMaterials);
     noteMovements(scene);
     SceneView view{.scene = &scene,
                    .draws = &draws_,
@@ -272,9 +274,10 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
                    .eye = jittered(scene.camera, grid),
                    .hasEmissive = strongestEmission_ > 0,
                    .hasGlossy = hasGlossy_,
+                   .leastRoughness = leastRoughness_,
+                   .wholeMaterials = wholeMaterials && hasGlossy_,
                    .hasNormalMaps = hasNormalMaps_};
     view.skin = skin_.import(scope, scene, *positions_, *attributes_);
-                   .leastRoughness = leastRoughness_,
     view.loadedVersion = combineHash(geometryVersion_, loads_);
     view.geometry = {positions_.get(), attributes_.get(),           indices_.get(),
                      geometryVersion_, view.skin.deformedPositions, view.skin.deformedAttributes};
@@ -299,7 +302,8 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
         view.pointAreas = scope.importBuffer("scene.point_areas", *pointAreas_, sampledSet_);
         view.surfaceSamples = scope.importBuffer("scene.surface_samples", *samples_, sampledSet_);
         view.surfaceSampleCount = sampleCount_;
-        view.bouncePoints = scope.importBuffer("scene.bounce_points", *bouncePoints_, sampledSet_);
+        view.bouncePoints = scope.importBuffer("scene.bounce_points", *bouncePoints_,
+                                               combineHash(sampledSet_, uint64_t(sampledWhole_)));
         view.bouncePointCount = bouncePointCount_;
         view.emissivePointCount = emissivePointCount_;
         view.emissiveFlux = emissiveFlux_;

@@ -93,7 +93,7 @@ class SceneGpu {
     // Once a frame before the passes are declared: bounds, buckets.
     void beginFrame(const RenderScene& scene, JobRunner& jobs) { draws_.beginFrame(scene, jobs); }
     SceneView import(GraphScope scope, const RenderScene& scene, const PixelGrid& grid,
-                     std::optional<gi::TracedBy> traced = {});
+                     std::optional<gi::TracedBy> traced, bool wholeMaterials);
     // After the passes are declared (all views culled), before they are recorded: copies what changed.
     // `previous`: whether a pass reads where things were in the frame before.
     enum class Previous : uint8_t { kUnread, kKept };
@@ -118,7 +118,7 @@ class SceneGpu {
     void uploadDraws(VkCommandBuffer commands, const ViewDraws& draws, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
     void reserveDraws(const RenderScene& scene);
-    void sampleSurfacesAnew(const RenderScene& scene);
+    void sampleSurfacesAnew(const RenderScene& scene, bool wholeMaterials);
     void noteMovements(const RenderScene& scene);
     std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
                                        VkFormat texel, bool indirect);

@@ -28,11 +28,12 @@ glm::vec3 linearOf(const uint8_t* texel) {
     return glm::convertSRGBToLinear(glm::vec3(texel[0], texel[1], texel[2]) / 255.0f);
 }
 
-float metallicAt(const GeometryArrays& g, const Material& m, size_t texel) {
-    if (m.metallicRoughnessLayer < 0) return m.metallic;
-    return m.metallic *
-           float(g.textures[size_t(m.textureClass)].linear[size_t(m.metallicRoughnessLayer)][texel * 4 + 2]) /
-           255;
+// Factors of the material's.
+glm::vec2 roughnessAndMetallicAt(const GeometryArrays& g, const Material& m, size_t texel) {
+    if (m.metallicRoughnessLayer < 0) return glm::vec2(1);
+    const uint8_t* const at =
+        &g.textures[size_t(m.textureClass)].linear[size_t(m.metallicRoughnessLayer)][texel * 4];
+    return glm::vec2(at[1], at[2]) / 255.0f;
 }
 
 // The mean over a window of the material's textures of what `at` has in a texel: a point stands for more than
@@ -55,12 +56,17 @@ glm::vec3 colorOf(const GeometryArrays& g, const Material& m, int32_t layer, siz
                      : linearOf(&g.textures[size_t(m.textureClass)].srgb[size_t(layer)][texel * 4]);
 }
 
-glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv) {
-    if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0)
-        return io::diffuseAlbedo(glm::vec3(m.baseColor), m.metallic);
+glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv, bool whole) {
+    const auto reflects = [&](glm::vec3 base, glm::vec2 roughnessAndMetallic) {
+        const float rough = m.roughness * roughnessAndMetallic.x,
+                    metallic = m.metallic * roughnessAndMetallic.y;
+        return whole ? io::wholeReflectance(base, metallic, rough, m.specular)
+                     : io::diffuseAlbedo(base, metallic);
+    };
+    const glm::vec3 base(m.baseColor);
+    if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0) return reflects(base, glm::vec2(1));
     return meanAbout(m, vertexUv, 8, [&](size_t texel) {
-        const glm::vec3 base = glm::vec3(m.baseColor) * colorOf(g, m, m.baseColorLayer, texel);
-        return io::diffuseAlbedo(base, metallicAt(g, m, texel));
+        return reflects(base * colorOf(g, m, m.baseColorLayer, texel), roughnessAndMetallicAt(g, m, texel));
     });
 }
 
@@ -147,11 +153,11 @@ gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& tree
 }
 
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
-                                                uint32_t count) {
+                                                uint32_t count, bool whole) {
     const GeometryArrays& g = *scene.geometry;
     const DeformedVertices deformed = deformSkinnedMeshes(scene);
     const auto albedo = [&](uint32_t instance, glm::vec2 uv) {
-        return albedoAbout(g, materialOf(scene, instance), uv);
+        return albedoAbout(g, materialOf(scene, instance), uv, whole);
     };
     return chooseBouncePoints(instancesOf(scene, deformed), samples, albedo, count);
 }

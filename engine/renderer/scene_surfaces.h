@@ -9,8 +9,9 @@ namespace ag::render {
 
 // See gi/surface_sampling.h, gi/bounce_points.h. Alpha-blended surfaces have no points.
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
+// `whole`: they reflect what specular lobes do, too.
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
-                                                uint32_t count);
+                                                uint32_t count, bool whole);
 // On emissive surfaces; their radiance is over `lightUnit`. Empty: nothing shines.
 std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint32_t count, float lightUnit);
 gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of = gi::TreesOf::kAll);

@@ -34,6 +34,18 @@ AG_FUNCTION vec3 sheetTransmits(vec3 baseColor, float metallic, float coverage, 
     return vec3(1.0f) - coverage * (vec3(1.0f) - glass);
 }
 
+// Share of light from everywhere that the whole surface reflects, lobe and base, for light that goes on from
+// it as if all of it were diffuse. The polynomials are the lobe's means over all directions of Fresnel's term
+// at 0 and at 1 (within 0.003, by quadrature).
+AG_FUNCTION vec3 wholeReflectance(vec3 baseColor, float metallic, float roughness, float specular) {
+    float r = roughness;
+    float headOn = 0.95292f + r * (-0.06587f + r * (0.81978f + r * (-2.90110f + r * 1.57043f)));
+    float grazing = max(0.04941f + r * (-0.01769f + r * (-0.13879f + r * 0.11117f)), 0.0f);
+    vec3 f0 = specularF0(baseColor, metallic, specular);
+    vec3 lobe = f0 * headOn + vec3(specularF90(metallic, specular) * grazing);
+    return (vec3(1.0f) - f0) * diffuseAlbedo(baseColor, metallic) + lobe;
+}
+
 // Trowbridge-Reitz distribution of half vectors, alpha = roughness².
 AG_FUNCTION float ggxDistribution(float nh, float alpha) {
     float a2 = alpha * alpha;
@@ -45,6 +57,18 @@ AG_FUNCTION float ggxDistribution(float nh, float alpha) {
 AG_FUNCTION float smithMasking(float cosine, float alpha) {
     float a2 = alpha * alpha;
     return 2.0f * cosine / max(cosine + sqrt(a2 + (1.0f - a2) * cosine * cosine), 1e-12f);
+}
+
+// A half vector as likely as the viewer v sees it, both about the normal z (Heitz 2018, Sampling the GGX
+// Distribution of Visible Normals): the lobe then weighs Fresnel's term times smithMasking of the light.
+AG_FUNCTION vec3 visibleHalfVector(vec3 v, float alpha, vec2 xi) {
+    vec3 s = normalize(vec3(alpha * v.x, alpha * v.y, v.z));
+    float across = s.x * s.x + s.y * s.y;
+    vec3 t = across > 1e-12f ? vec3(-s.y, s.x, 0.0f) * inversesqrt(across) : vec3(1.0f, 0.0f, 0.0f);
+    float r = sqrt(xi.x), phi = 2.0f * kPi * xi.y, x = r * cos(phi), half_ = 0.5f * (1.0f + s.z);
+    float y = (1.0f - half_) * sqrt(max(1.0f - x * x, 0.0f)) + half_ * r * sin(phi);
+    vec3 h = x * t + y * cross(s, t) + sqrt(max(1.0f - x * x - y * y, 0.0f)) * s;
+    return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-6f)));
 }
 
 // Roughness below this is a mirror to a light that is a point: it reflects nothing one could sample.
@@ -59,18 +83,6 @@ AG_FUNCTION vec3 metallicRoughnessBrdf(vec3 n, vec3 v, vec3 l, vec3 baseColor, f
     vec3 h = normalize(v + l);
     float alpha = max(roughness * roughness, kLeastAlpha);
     vec3 f90 = vec3(specularF90(metallic, specular));
-// A half vector as likely as the viewer v sees it, both about the normal z (Heitz 2018, Sampling the GGX
-// Distribution of Visible Normals): the lobe then weighs Fresnel's term times smithMasking of the light.
-AG_FUNCTION vec3 visibleHalfVector(vec3 v, float alpha, vec2 xi) {
-    vec3 s = normalize(vec3(alpha * v.x, alpha * v.y, v.z));
-    float across = s.x * s.x + s.y * s.y;
-    vec3 t = across > 1e-12f ? vec3(-s.y, s.x, 0.0f) * inversesqrt(across) : vec3(1.0f, 0.0f, 0.0f);
-    float r = sqrt(xi.x), phi = 2.0f * kPi * xi.y, x = r * cos(phi), half_ = 0.5f * (1.0f + s.z);
-    float y = (1.0f - half_) * sqrt(max(1.0f - x * x, 0.0f)) + half_ * r * sin(phi);
-    vec3 h = x * t + y * cross(s, t) + sqrt(max(1.0f - x * x - y * y, 0.0f)) * s;
-    return normalize(vec3(alpha * h.x, alpha * h.y, max(h.z, 1e-6f)));
-}
-
     vec3 f = fresnelSchlick(specularF0(baseColor, metallic, specular), f90, dot(v, h));
     float lobe = ggxDistribution(dot(n, h), alpha) * smithMasking(nv, alpha) * smithMasking(nl, alpha) /
                  (4.0f * nv * nl);

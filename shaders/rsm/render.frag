@@ -6,6 +6,8 @@
 #define AG_SCENE_MATERIALS
 #include "scene/scene.glsl"
 
+layout(constant_id = 4) const bool kWholeMaterials = false;  // else their Lambert part
+
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
@@ -20,5 +22,5 @@ void main() {
     SurfaceMaterial m = tintedMaterial(material, uv, color);
     vec3 n = unitNormal(normal);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
-    outAlbedo = vec4(bounceAlbedo(material, m), 1.0);
+    outAlbedo = vec4(bounceAlbedo(material, m, kWholeMaterials), 1.0);
 }

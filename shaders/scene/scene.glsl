@@ -137,9 +137,11 @@ SurfaceMaterial tintedMaterial(uint index, vec2 uv, vec3 color) {
 }
 
 // Of an RSM's texel. A single-sided surface blocks light from both sides and reflects it from the front alone,
-// where a camera sees it.
-vec3 bounceAlbedo(uint material, SurfaceMaterial m) {
-    return gl_FrontFacing || isDoubleSided(material) ? diffuseAlbedo(m.baseColor.rgb, m.metallic) : vec3(0.0);
+// where a camera sees it. `whole`: with what the specular lobe reflects.
+vec3 bounceAlbedo(uint material, SurfaceMaterial m, bool whole) {
+    if (!gl_FrontFacing && !isDoubleSided(material)) return vec3(0.0);
+    return whole ? wholeReflectance(m.baseColor.rgb, m.metallic, m.roughness, m.specular)
+                 : diffuseAlbedo(m.baseColor.rgb, m.metallic);
 }
 #endif
 

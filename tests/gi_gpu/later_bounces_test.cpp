@@ -2,6 +2,7 @@
 // before.
 #include <gtest/gtest.h>
 
+#include "common/brdf.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/scenegen/scenes.h"
 
@@ -76,6 +77,26 @@ TEST(LaterBounces, FurnaceConvergesToTheGeometricSeries) {
                     all / (first / (1 - rho)));
         EXPECT_NEAR(one / first, 1, 0.02);
         EXPECT_NEAR(all / (first / (1 - rho)), 1, 0.03);
+    }
+}
+
+// Lobes reflect as much as they should, if not where to; of the Lambert part alone metal would reflect
+// nothing.
+TEST(LaterBounces, MetalPassesLightOn) {
+    SceneAsset asset = *scenegen::buildScene("furnace", 50);
+    for (Material& m : asset.geometry.materials)
+        m.metallic = 1, m.roughness = 0.4f;
+    const glm::vec3 base(asset.geometry.materials[0].baseColor);
+    for (const bool whole : {true, false}) {
+        Bench b(asset, {96, 54});
+        b.settings.bounce.laterBounces.enabled = true;
+        b.settings.bounce.ismAtlas.enabled = false;
+        b.settings.bounce.valShading.glossy = whole;
+        for (int i = 0; i < 70; ++i)
+            b.frame();
+        const double rho = whole ? double(io::wholeReflectance(base, 1, 0.4f, 1).x) : 0,
+                     falls = 4 * 3.14159265 / 24, truth = falls * rho / (1 - rho);
+        EXPECT_NEAR(meanOnSurfaces(b), truth, 0.03 * falls) << whole;
     }
 }
 

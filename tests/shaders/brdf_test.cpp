@@ -47,5 +47,36 @@ TEST(Brdf, VisibleHalfVectorsReflectWhatTheLobeDoes) {
         }
 }
 
+// Of light from everywhere: lobe and base, each by draws of its own.
+vec3 reflectedOfEvenLight(vec3 base, float metallic, float roughness) {
+    constexpr uint kDraws = 1u << 15;
+    const float alpha = std::max(roughness * roughness, kLeastAlpha);
+    const vec3 f0 = specularF0(base, metallic, 1), f90(specularF90(metallic, 1));
+    vec3 sum(0);
+    for (uint i = 0; i < kDraws; ++i) {
+        const float c = std::sqrt(radicalInverse3(i)), lower = std::sqrt(hashToUnit(i));
+        const vec3 v(std::sqrt(1 - c * c), 0, c);
+        const vec2 xi = hammersley(i, kDraws);
+        const vec3 h = visibleHalfVector(v, alpha, xi), l = 2 * dot(v, h) * h - v;
+        if (l.z > 0) sum += fresnelSchlick(f0, f90, dot(v, h)) * smithMasking(l.z, alpha);
+        const float across = std::sqrt(1 - lower * lower), phi = 2 * kPi * xi.y;
+        const vec3 under(across * std::cos(phi), across * std::sin(phi), lower);
+        const vec3 kept = fresnelSchlick(f0, f90, dot(v, normalize(v + under)));
+        sum += (1.0f - kept) * diffuseAlbedo(base, metallic);
+    }
+    return sum / float(kDraws);
+}
+
+TEST(Brdf, WholeReflectanceIsThatOfEvenLight) {
+    for (const float roughness : {0.05f, 0.3f, 0.5f, 0.8f, 1.0f})
+        for (const float metallic : {0.0f, 0.5f, 1.0f}) {
+            const vec3 base(0.8f, 0.5f, 0.1f), truth = reflectedOfEvenLight(base, metallic, roughness),
+                                               fit = wholeReflectance(base, metallic, roughness, 1);
+            for (int k = 0; k < 3; ++k)
+                EXPECT_NEAR(fit[k], truth[k], 0.006) << roughness << ' ' << metallic;
+        }
+    EXPECT_EQ(wholeReflectance(vec3(0.3f), 0, 1, 0), vec3(0.3f)) << "Lambert";
+}
+
 }  // namespace
 }  // namespace ag::io

@@ -24,5 +24,5 @@ void main() {
     vec3 n = normalize(normal);
     outPosition = vec4(position, 1.0);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
-    outAlbedo = vec4(bounceAlbedo(material, m), 1.0);
+    outAlbedo = vec4(bounceAlbedo(material, m, false), 1.0);
 }
