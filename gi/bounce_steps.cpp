@@ -33,14 +33,17 @@ void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlas
     f.isms = addIsmAtlas(scope, f.surfacePoints, in.occluders.trees, f.vals, s);
 }
 
-GatherGrid addGatherGrid(const BounceLightInputs& in, const BounceLightSettings& s, BounceLightHistory& h,
-                         const BounceLight& f) {
+GatherGrid gatherGridOf(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+                        BounceLightHistory& h, const BounceLight& f) {
     const Versions& v = in.world.versions;
     uint64_t light = f.rsm.inputsVersion;
-    for (const uint64_t part :
-         {v.scene, v.instances, v.lights, v.camera, v.origin, in.sky.version, hashValue(in.surfaces.size)})
+    // Nobody may have asked for the light yet: then the pixels of earlier turns have none.
+    const uint64_t wanted =
+        hasAllPixels(scope, kUpsampling) + 2 * hasAllPixels(scope, kFirstBounceUpsampling);
+    for (const uint64_t part : {v.scene, v.instances, v.lights, v.camera, v.origin, in.sky.version,
+                                in.occluders.trees.staticVersion, hashValue(in.surfaces.size), wanted})
         light = combineHash(light, part);
-    return chooseGatherGrid(light, f.vals.count > 0 && castsTexelRays(s.texelRays, in.occluders), s,
+    return chooseGatherGrid(light, f.firstCount > 0 && castsTexelRays(s.texelRays, in.occluders), s,
                             h.gatherGrid);
 }
 
@@ -53,21 +56,19 @@ void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& 
     if (grid.turn > 0 && grid.begins) forgetPixels(scope);
     f.irradiance = addDenoiser(scope, gathered, in.world.versions.origin, {f.irradiance, light, steps},
                                s.denoiser, h.denoiser);
-    if (grid.turn > 0) {
-        const Downsampling pixels(s.spacing, grid.place);
-        f.irradiance = addPlacing(scope, in.surfaces, f.irradiance, pixels, kUpsampling);
-        f.bounce1 =
-            goesOn ? addPlacing(scope, in.surfaces, f.bounce1, pixels, kFirstBounceUpsampling) : f.irradiance;
-        return;
-    }
     // Pixels meet area lights, not points that share maps.
     const bool areas = s.valShading.shape != ValShape::kPoint && !f.isms.shared;
     const Vals vals = areas ? f.vals : Vals{};
     const LightsOfPixels all{{vals, f.isms}, s.valShading.taps},
         first{{firstVals(vals, f.firstCount), f.isms}, s.valShading.taps};
-    f.irradiance = addUpsampling(scope, in.surfaces, gathered, f.irradiance, kUpsampling, all);
-    f.bounce1 = goesOn ? addUpsampling(scope, in.surfaces, gathered, f.bounce1, kFirstBounceUpsampling, first)
-                       : f.irradiance;
+    const auto toPixels = [&](const Irradiance& made, const UpsamplingNames& names,
+                              const LightsOfPixels& of) {
+        return grid.turn > 0 && hasAllPixels(scope, names)
+                   ? addPlacing(scope, in.surfaces, gathered, made, names)
+                   : addUpsampling(scope, in.surfaces, gathered, made, names, of);
+    };
+    f.irradiance = toPixels(f.irradiance, kUpsampling, all);
+    f.bounce1 = goesOn ? toPixels(f.bounce1, kFirstBounceUpsampling, first) : f.irradiance;
 }
 
 }  // namespace ag::gi

@@ -16,8 +16,8 @@ void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLi
 // Points on surfaces, and what each light of `f.vals` sees of them.
 void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlasSettings& s, BounceLight& f);
 // Which pixels light is gathered at in this frame, and for how long yet if nothing changes.
-GatherGrid addGatherGrid(const BounceLightInputs& in, const BounceLightSettings& s, BounceLightHistory& h,
-                         const BounceLight& f);
+GatherGrid gatherGridOf(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
+                        BounceLightHistory& h, const BounceLight& f);
 // The irradiance gathered at `gathered` made steady and smooth, and brought to all pixels; at the pixels of
 // `grid`, where there is one.
 void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& gathered,

@@ -16,9 +16,15 @@ uint32_t turnsOf(const BounceLightSettings& s) {
 }
 
 // While clusters change, what they send does: without new rays the old ones would count again.
-uint32_t framesOfTurn(const BounceLightSettings& s, uint32_t turn) {
+uint32_t raysOfTurn(const BounceLightSettings& s, uint32_t turn) {
     return turn == 0 ? std::max(s.texelRays.settleFrames, s.valClustering.settleFrames)
                      : s.texelRays.settleFrames / kLaterShare;
+}
+
+// In the first turn later bounces come to rest, too: light of the sky on points goes on to them.
+uint32_t framesOfTurn(const BounceLightSettings& s, uint32_t turn) {
+    const bool waits = turn == 0 && s.laterBounces.enabled;
+    return std::max(raysOfTurn(s, turn), waits ? s.laterBounces.settleFrames + s.sky.settleFrames : 0);
 }
 
 // A frame in which the surfaces are new comes before the rays.
@@ -36,15 +42,14 @@ uint32_t framesToRest(const BounceLightSettings& s) {
 GatherGrid chooseGatherGrid(uint64_t light, bool castsRays, const BounceLightSettings& s,
                             GatherGridHistory& h) {
     h.changes += std::exchange(h.settings, s) != s;
-    h.settling.advance(combineHash(light, h.changes), framesToRest(s));
-    GatherGrid grid{.place = glm::uvec2(s.spacing / 2), .frames = framesOfTurn(s, 0)};
-    if (!castsRays) return grid;
+    h.settling.advance(combineHash(combineHash(light, castsRays), h.changes), framesToRest(s));
+    GatherGrid grid{.place = glm::uvec2(s.spacing / 2)};
+    const uint32_t turns = castsRays ? turnsOf(s) : 1;
     uint32_t since = h.settling.sinceChange;
-    while (grid.turn + 1 < turnsOf(s) && since >= kBegins + grid.frames) {
-        since -= kBegins + grid.frames;
-        grid.frames = framesOfTurn(s, ++grid.turn);
-    }
+    while (grid.turn + 1 < turns && since >= kBegins + framesOfTurn(s, grid.turn))
+        since -= kBegins + framesOfTurn(s, grid.turn++);
     grid.begins = since == 0;
+    grid.frames = raysOfTurn(s, grid.turn);
     grid.place = (grid.place + glm::uvec2(grid.turn % s.spacing, grid.turn / s.spacing)) % s.spacing;
     return grid;
 }

@@ -23,6 +23,7 @@ struct Surfaces {
     glm::uvec2 size{0};
     bool normalMapped = false;  // normals of a surface differ from pixel to pixel
     uint32_t spacing = 1;       // of the camera's pixels from one of these to the next
+    glm::uvec2 place{0};        // of these in squares of so many
     RenderCamera view;          // of these pixels
     BufferHandle camera;        // the same as io::CameraConstants
 };

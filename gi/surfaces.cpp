@@ -51,6 +51,7 @@ Surfaces addDownsampled(GraphScope scope, const Surfaces& all, const Downsamplin
         .size = size,
         .normalMapped = all.normalMapped,
         .spacing = all.spacing * by.spacing,
+        .place = by.place,
         .view = downsampled(all.view, all.size, by),
     };
     g.camera = addCamera(scope, names.camera, g.view, size);

@@ -61,7 +61,8 @@ io::UpsamplingPush upsamplingPush(const Surfaces& all, const Surfaces& downsampl
     return {.rays = rays,
             .footprint = 2 * float(spacing) * glm::length(rays.down),
             .near = all.view.near,
-            .spacing = spacing};
+            .spacing = spacing,
+            .place = downsampled.place};
 }
 
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
@@ -88,15 +89,19 @@ Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& 
     return up.irradiance;
 }
 
-Irradiance addPlacing(GraphScope scope, const Surfaces& all, const Irradiance& gathered,
-                      const Downsampling& pixels, const UpsamplingNames& names) {
+bool hasAllPixels(GraphScope scope, const UpsamplingNames& names) {
+    return scope.wasWanted(names.near) || scope.wasWanted(names.place);
+}
+
+Irradiance addPlacing(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                      const Irradiance& gathered, const UpsamplingNames& names) {
+    if (isGatheredAtAll(all, downsampled, gathered)) return gathered;
     const ImageHandle result = scope.image(names.irradiance, upsampledInfo(all));
-    const glm::uvec2 cells = scope.info(gathered.image).size;
     scope.compute(names.place, "upsampling/place.comp")
         .sample("light", gathered.image)
         .readWrite("result", result)
-        .push(glm::ivec3(pixels.place, pixels.spacing))
-        .dispatchThreads(cells.x, cells.y);
+        .push(glm::ivec3(downsampled.place, downsampled.spacing / all.spacing))
+        .dispatchThreads(downsampled.size.x, downsampled.size.y);
     return {result, {}};
 }
 

@@ -62,9 +62,10 @@ struct LightsOfPixels {
 Irradiance addUpsampling(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
                          const Irradiance& gathered, const UpsamplingNames& names, const LightsOfPixels& of);
 
-// What was gathered at one pixel of each square to just those of what addUpsampling() left: the others stay
-// as they are.
-Irradiance addPlacing(GraphScope scope, const Surfaces& all, const Irradiance& gathered,
-                      const Downsampling& pixels, const UpsamplingNames& names);
+// Whether the frame before left light at all pixels.
+bool hasAllPixels(GraphScope scope, const UpsamplingNames& names);
+// What was gathered at the pixels of `downsampled` to just those: the others stay as they are.
+Irradiance addPlacing(GraphScope scope, const Surfaces& all, const Surfaces& downsampled,
+                      const Irradiance& gathered, const UpsamplingNames& names);
 
 }  // namespace ag::gi

@@ -36,9 +36,10 @@ GLFWmonitor* monitorOf(glm::ivec4 window) {
     for (int i = 0; i < count; ++i) {
         glm::ivec2 at;
         glfwGetMonitorPos(monitors[i], &at.x, &at.y);
-        const GLFWvidmode& mode = *glfwGetVideoMode(monitors[i]);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        if (!mode) continue;
         const glm::ivec2 inside = middle - at;
-        if (inside.x >= 0 && inside.y >= 0 && inside.x < mode.width && inside.y < mode.height)
+        if (inside.x >= 0 && inside.y >= 0 && inside.x < mode->width && inside.y < mode->height)
             return monitors[i];
     }
     return count > 0 ? monitors[0] : nullptr;
@@ -125,16 +126,18 @@ glm::uvec2 Window::framebufferSize() const {
 
 void Window::setFullscreen(bool fullscreen) {
     if (fullscreen == fullscreen_) return;
-    fullscreen_ = fullscreen;
-    if (!fullscreen)
+    if (!fullscreen) {
+        fullscreen_ = false;
         return glfwSetWindowMonitor(window_, nullptr, windowed_.x, windowed_.y, windowed_.z, windowed_.w,
                                     GLFW_DONT_CARE);
+    }
     glfwGetWindowPos(window_, &windowed_.x, &windowed_.y);
     glfwGetWindowSize(window_, &windowed_.z, &windowed_.w);
     GLFWmonitor* monitor = monitorOf(windowed_);
-    if (!monitor) return;
-    const GLFWvidmode& mode = *glfwGetVideoMode(monitor);
-    glfwSetWindowMonitor(window_, monitor, 0, 0, mode.width, mode.height, mode.refreshRate);
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (!mode) return;
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    fullscreen_ = true;
 }
 
 void Window::poll() {

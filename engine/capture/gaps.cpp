@@ -90,9 +90,8 @@ Gap beforeFirstPass(const Frame& f, const Frame& before) {
 
 Gap betweenPasses(const Span& a, const Span& b) {
     return {Gap::Of::kDevice, a.endNs, b.beginNs,
-            fmt::format("{:.2f} ms between {} and {}: {} waits until {} is all done, and the driver takes "
-                        "that long from one to the other.",
-                        ms(b.beginNs - a.endNs), a.name, b.name, b.name, a.name)};
+            fmt::format("{:.2f} ms between {} and {}, with a barrier round each pass, as a capture has them.",
+                        ms(b.beginNs - a.endNs), a.name, b.name)};
 }
 
 }  // namespace

@@ -44,10 +44,12 @@ void LiveCapture::declare(GraphScope scope, const render::RenderFrame& frame) {
     if (recorder_) recorder_->declare(scope, frame);
 }
 
-void LiveCapture::note(const Subject& subject) {
-    if (!recorder_) return;
+bool LiveCapture::note(const Subject& subject) {
+    if (!recorder_) return false;
     recorder_->note(subject.scene, std::exchange(systems_, {}));
-    if (recorder_->complete()) finish(subject);
+    if (!recorder_->complete()) return false;
+    finish(subject);
+    return true;
 }
 
 void LiveCapture::finish(const Subject& subject) {

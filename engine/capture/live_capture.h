@@ -39,7 +39,9 @@ class LiveCapture {
     void noteSystems(const Schedule& schedule);  // after each run of one
     FrameGraphOptions options(const FrameGraphOptions& asked) const;
     void declare(GraphScope scope, const render::RenderFrame& frame);
-    void note(const Subject& subject);  // when it was submitted, while recording
+    // When it was submitted, while recording. True: others were rendered after it, for the pictures, so that
+    // its handles are worth nothing any more.
+    bool note(const Subject& subject);
 
     // What there is to tell the user, for a few seconds; else empty.
     std::string message();

@@ -91,9 +91,10 @@ function choose(index) {
   columnsOf.forEach((d, i) => d.classList.toggle('chosen', i === index));
   const f = capture.frames[index], all = f.bars.filter(b => b.end !== null);
   const from = Math.min(...all.map(b => b.begin)), to = Math.max(...all.map(b => b.end));
-  const ran = f.bars.filter(b => b.kind === 'gpu' && b.end !== null);
+  const ran = all.filter(b => b.kind === 'gpu'), steps = all.filter(b => b.kind !== 'gap');
+  const length = steps.length ? Math.max(...steps.map(b => b.end)) - Math.min(...steps.map(b => b.begin)) : 0;
   $('which').textContent = `frame ${f.number}${f.forced ? ' (warm-up, nothing skipped)' : ''}: GPU ` +
-    `${f.ms.toFixed(3)} ms in ${ran.length} passes; ${(to - from).toFixed(3)} ms from the first of its steps to the last`;
+    `${f.ms.toFixed(3)} ms in ${ran.length} passes; ${length.toFixed(3)} ms from the first of its steps to the last`;
   $('counters').textContent = f.counters.map(c => `${c.name} ${brief(c.value)}`).join(', ');
   showDearest(f);
   showFindings(f.findings);

@@ -188,6 +188,13 @@ bool GraphScope::isRead(BufferHandle buffer) const {
     });
 }
 
+bool GraphScope::wasWanted(std::string_view pass) const {
+    const FrameGraph::Impl& impl = *graph_->impl_;
+    const auto found = impl.statsOfName.find(hashName(id_, pass));
+    return found != impl.statsOfName.end() && impl.framesRun > 0 &&
+           impl.stats[found->second].wantedIn == impl.framesRun;
+}
+
 const ImageInfo& GraphScope::info(ImageHandle image) const {
     return graph_->impl_->resources[image.index].image;
 }

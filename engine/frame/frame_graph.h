@@ -167,6 +167,8 @@ class GraphScope {
     BufferHandle importBuffer(std::string_view name, const BufferInfo& info, uint64_t version) const;
 
     bool isRead(BufferHandle buffer) const;  // by a pass declared so far
+    // Whether the pass was asked for in the frame before: what it makes was there at its end.
+    bool wasWanted(std::string_view pass) const;
     const ImageInfo& info(ImageHandle image) const;
     const BufferInfo& info(BufferHandle buffer) const;
 

@@ -222,7 +222,9 @@ template <class Run>
 void FrameGraph::Impl::runPasses(Run&& run) {
     report.clear();
     records.clear();
+    ++framesRun;
     for (const Pass& pass : passes) {
+        if (pass.wanted) stats[pass.stats].wantedIn = framesRun;
         const PassReport before = reportOf(pass);
         if (pass.runs) {
             run(pass);

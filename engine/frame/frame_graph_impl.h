@@ -179,6 +179,7 @@ struct PassStats {
     std::unique_ptr<const std::string> fullName;  // stays where it is; none: the scope is no more
     double gpuMs = 0, cpuMs = 0;
     uint64_t runCount = 0;
+    uint64_t wantedIn = 0;         // number of the last frame in which it was not dropped
     uint64_t checkedPipeline = 0;  // bindings were checked against it
     // When it ran last:
     uint64_t ownKey = 0;
@@ -222,6 +223,7 @@ struct FrameGraph::Impl {
     std::vector<GroupPart> parts;
     std::vector<std::byte> data;
     std::vector<PassCallback> callbacks;
+    uint64_t framesRun = 0;
     std::vector<PassReport> report;
     std::vector<PassRecord> records;
     std::vector<PassSpan> spans;  // of frame `spansFrame`

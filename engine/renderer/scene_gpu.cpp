@@ -26,66 +26,6 @@ io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& g
                     instance.skinnedMesh, 0}};
 }
 
-io::Material materialRow(const Material& m, RenderUnits units) {
-    return {.baseColor = m.baseColor,
-            .emissive = m.emissive / units.light,
-            .alphaCutoff = m.alphaMode == AlphaMode::kMask ? m.alphaCutoff
-                           : m.coversWholly                ? -1.0f
-                                                           : 0.0f,
-            .metallic = m.metallic,
-            .roughness = m.roughness,
-            .specular = m.specular,
-            .normalScale = m.normalScale,
-            .layers = {m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer},
-            .uvRow0 = {m.uvTransform[0][0], m.uvTransform[1][0], m.uvTransform[2][0],
-                       m.doubleSided ? 1.0f : 0.0f},
-            .uvRow1 = {m.uvTransform[0][1], m.uvTransform[1][1], m.uvTransform[2][1], m.transmission}};
-}
-
-bool isGlossy(const Material& m) {
-    return m.metallic > 0 || m.specular > 0;
-}
-
-// Of all texels where that is a texture's.
-float leastRoughness(const Material& m, const TextureLayers& textures) {
-    if (m.metallicRoughnessLayer < 0) return m.roughness;
-    const std::vector<uint8_t>& texels = textures.linear[size_t(m.metallicRoughnessLayer)];
-    uint8_t least = 255;
-    for (size_t green = 1; green < texels.size(); green += 4)
-        least = std::min(least, texels[green]);
-    return m.roughness * float(least) / 255;
-}
-
-// Of all materials that are not Lambert.
-float leastRoughness(const GeometryArrays& geometry) {
-    float least = 1;
-    for (const Material& m : geometry.materials)
-        if (isGlossy(m))
-            least = std::min(least, leastRoughness(m, geometry.textures[uint32_t(m.textureClass)]));
-    return least;
-}
-
-// A class without textures still needs something bound: one black texel.
-std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, VkFormat format, uint32_t size,
-                                       const std::vector<std::vector<uint8_t>>& layers) {
-    const uint32_t side = layers.empty() ? 1 : size;
-    uint32_t mips = 1;
-    while ((side >> mips) > 0)
-        ++mips;
-    auto image = std::make_unique<gpu::Image>(
-        device, gpu::ImageDesc{.name = name,
-                               .format = format,
-                               .size = {side, side},
-                               .layers = std::max<uint32_t>(uint32_t(layers.size()), 1),
-                               .mips = mips,
-                               .array = true});
-    const std::array<std::byte, 4> black{};
-    if (layers.empty()) gpu::uploadImage(device, *image, 0, black, false);
-    for (uint32_t layer = 0; layer < layers.size(); ++layer)
-        gpu::uploadImage(device, *image, layer, std::as_bytes(std::span(layers[layer])), true);
-    return image;
-}
-
 // Which instances there are, wherever they stand.
 uint64_t instanceSet(const RenderScene& scene) {
     uint64_t hash = scene.geometry->version;
@@ -127,48 +67,10 @@ void SceneGpu::load(const GeometryArrays& geometry) {
     indices_ = gpu::loadBuffer(device_, {.name = "scene.indices", .vertexOrIndex = true}, geometry.indices);
     skin_.load(geometry);
     ++loads_;
-    leastRoughness_ = leastRoughness(geometry);
+    noteTextures(geometry);
     loadTextures(geometry);
     useUnits(geometry, {});
     geometryVersion_ = geometry.version;
-}
-
-// Points on surfaces keep their albedo and emission, so they are chosen anew; trees when all is at rest.
-void SceneGpu::changeMaterials(const GeometryArrays& geometry, RenderUnits units) {
-    loadMaterials(geometry, units);
-    sampledVersion_ = 0;
-    geometryVersion_ = geometry.version;
-}
-
-void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
-    loadMaterials(geometry, units);
-    lightUnit_ = units.light;
-    instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
-    trees_.forget();
-}
-
-void SceneGpu::loadMaterials(const GeometryArrays& geometry, RenderUnits units) {
-    std::vector<io::Material> rows;
-    strongestEmission_ = 0;
-    hasGlossy_ = hasNormalMaps_ = false;
-    for (const Material& m : geometry.materials) {
-        rows.push_back(materialRow(m, units));
-        strongestEmission_ = std::max({strongestEmission_, m.emissive.x, m.emissive.y, m.emissive.z});
-        hasGlossy_ = hasGlossy_ || isGlossy(m);
-        hasNormalMaps_ = hasNormalMaps_ || m.normalLayer >= 0;
-    }
-    materials_ = gpu::loadBuffer(device_, {.name = "scene.materials", .texelFormat = gpu::kVec4Texels}, rows);
-    materialsVersion_ = combineHash(geometry.version, hashValue(units.light));
-}
-
-void SceneGpu::loadTextures(const GeometryArrays& geometry) {
-    for (uint32_t c = 1; c < kTextureClassCount; ++c) {
-        const uint32_t size = textureClassSize(TextureClass(c));
-        srgb_[c - 1] =
-            loadLayers(device_, "scene.srgb", VK_FORMAT_R8G8B8A8_SRGB, size, geometry.textures[c].srgb);
-        linear_[c - 1] =
-            loadLayers(device_, "scene.linear", VK_FORMAT_R8G8B8A8_UNORM, size, geometry.textures[c].linear);
-    }
 }
 
 std::unique_ptr<gpu::Buffer> SceneGpu::grown(std::unique_ptr<gpu::Buffer> old, const char* name,

@@ -110,6 +110,8 @@ class SceneGpu {
         uint64_t used = 0;
     };
     void loadMaterials(const GeometryArrays& geometry, RenderUnits units);
+    void noteTextures(const GeometryArrays& geometry);
+    float leastRoughnessOf(const Material& m) const;
     void loadTextures(const GeometryArrays& geometry);
     void stage(VkCommandBuffer commands, uint32_t frameSlot, std::span<const std::byte> bytes,
                const gpu::Buffer& to, uint64_t offset);
@@ -133,6 +135,8 @@ class SceneGpu {
     uint64_t materialsVersion_ = 0;
     bool hasGlossy_ = false, hasNormalMaps_ = false;
     float leastRoughness_ = 1;
+    // Of a linear layer that is some material's roughness.
+    std::array<std::vector<std::optional<uint8_t>>, kTextureClassCount> leastGreen_;
     bool sampledWhole_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_, drawnRows_;

@@ -1,6 +1,7 @@
 // EXT_lights_image_based as a sky. Its specular images are prefiltered for one roughness each; the finest
 // level is what they were all made from, so that alone is read, and what its coefficients of irradiance say
 // follows from it.
+#include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/quaternion.hpp>
@@ -58,7 +59,9 @@ bool readFace(const Model& model, const Value* index, Cube& cube, std::vector<gl
     if (isSkippedImage(image) || image.width != image.height) return false;
     if (cube.side == 0) cube.side = image.width;
     if (cube.side != image.width) return false;
-    for (size_t i = 0; i < size_t(cube.side) * size_t(cube.side); ++i)
+    const size_t texels = size_t(cube.side) * size_t(cube.side);
+    face.reserve(texels);
+    for (size_t i = 0; i < texels; ++i)
         face.push_back(radianceOf(&image.image[4 * i]));
     return true;
 }

@@ -11,7 +11,7 @@
 struct BvhRay {
     vec3 origin, direction;
     float reach;
-    float opaqueFrom;  // in [0, 1): by which masked triangles let it through, each as if drawn by itself
+    float opaqueFrom;  // the ray's random number in [0, 1); each masked triangle shifts it by one of its own
     bool any;          // the first hit will do
     int triangle;      // that was met
 };

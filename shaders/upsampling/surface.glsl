@@ -26,11 +26,11 @@ Surface surfaceAt(ivec2 pixel) {
 float likenessOf(Surface s, ivec2 cell) {
     ivec2 there = clamp(cell, ivec2(0), textureSize(cellDepths, 0) - 1);
     int spacing = int(push.p.spacing);
-    Surface other = surfaceAt(there * spacing + spacing / 2, texelFetch(cellDepths, there, 0).x,
+    Surface other = surfaceAt(there * spacing + ivec2(push.p.place), texelFetch(cellDepths, there, 0).x,
                               texelFetch(cellNormals, there, 0).xyz);
     float like = likeness(s.normal, other.place - s.place, push.p.footprint * s.depth, other.normal);
     return other.depth > 0.0 ? like : 0.0;
 }
 
 // In cells.
-vec2 cellsAt(ivec2 pixel) { return (vec2(pixel) - float(push.p.spacing / 2)) / float(push.p.spacing); }
+vec2 cellsAt(ivec2 pixel) { return (vec2(pixel) - vec2(push.p.place)) / float(push.p.spacing); }

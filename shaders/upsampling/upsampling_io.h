@@ -11,6 +11,7 @@ struct UpsamplingPush {
     float footprint;  // m that two gathered pixels cover at 1 m depth
     float near;       // m
     uint spacing;     // pixels from one that was gathered to the next
+    uvec2 place;      // of those in squares of so many
 };
 
 AG_END

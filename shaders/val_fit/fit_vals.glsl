@@ -121,7 +121,7 @@ float thicknessOf(Cluster c) { return sqrt(max(dot(c.normal, covarianceOf(c) * c
 bool seesPlace(uint texel, vec3 place) {
     RsmSurface s = AG_RSM_FETCH(texels, texel);
     vec3 start = s.position + s.normal * push.p.offset;
-    BvhRay ray = BvhRay(start, place - start, 1.0, 0.5, true, -1);
+    BvhRay ray = BvhRay(start, place - start, 1.0, hashToUnit(texel), true, -1);
     traceTree(ray, kBvhStatic);
     return ray.triangle < 0;
 }

@@ -58,6 +58,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     SceneAsset asset = *scenegen::buildScene(c.scene, c.param);
     asset.geometry.materials[0].alphaMode = AlphaMode::kMask;
     asset.geometry.materials[0].specular = 1;
+    if (c.options) asset.geometry.materials[0].roughness = 0.1f;
     RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
     ASSERT_TRUE(render::applyPreset(c.preset, settings.gi));
     settings.gi.bounce.laterBounces.enabled = c.options;

@@ -74,6 +74,23 @@ TEST(GatherGrid, WithoutRaysTheMiddleHasAllTurns) {
     GatherGridHistory history;
     for (uint32_t frame = 0; frame < 2 * framesToRest(s); ++frame)
         EXPECT_EQ(chooseGatherGrid(1, false, s, history).place, glm::uvec2(1));
+    const GatherGrid first = chooseGatherGrid(1, true, s, history);
+    EXPECT_TRUE(first.begins) << "once rays can be cast they have all their frames";
+    EXPECT_EQ(first.turn, 0u);
+}
+
+TEST(GatherGrid, TheFirstTurnLastsUntilAllLightRests) {
+    BounceLightSettings s = shortTurns(2);
+    GatherGridHistory history;
+    EXPECT_EQ(chooseGatherGrid(1, true, s, history).frames, 8u);
+    s.valClustering.settleFrames = 20;
+    EXPECT_EQ(chooseGatherGrid(1, true, s, history).frames, 20u);
+    s.laterBounces = {.enabled = true, .settleFrames = 30};
+    s.sky.settleFrames = 10;
+    EXPECT_EQ(chooseGatherGrid(1, true, s, history).frames, 20u) << "of rays";
+    for (int frame = 1; frame <= 40; ++frame)
+        EXPECT_EQ(chooseGatherGrid(1, true, s, history).turn, 0u);
+    EXPECT_EQ(chooseGatherGrid(1, true, s, history).turn, 1u);
 }
 
 }  // namespace

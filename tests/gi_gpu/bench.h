@@ -47,6 +47,8 @@ struct Bench {
                 if (output) output(scope, declared);
             });
     }
+    // Frames after which nothing runs any more: the first one finds nothing asked for yet.
+    int restFrames() const { return int(framesToRest(settings.bounce)) + 2; }
     template <class T>
     std::vector<T> read(BufferHandle buffer) {
         const gpu::Buffer& source = renderer.graph().physical(buffer);

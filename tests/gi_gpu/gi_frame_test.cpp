@@ -705,7 +705,7 @@ TEST(Frame, SameFramesGiveTheSameBits) {
 TEST(Frame, NothingMovesNothingRuns) {
     Bench b(*scenegen::buildScene("hall", 0));
     b.settings.bounce.valClustering.settleFrames = 4;
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < b.restFrames(); ++i)
         b.frame();
     const auto before = readImage(b.renderer, b.last.outputs.display).pixels;
     for (int i = 0; i < 3; ++i) {
@@ -785,7 +785,7 @@ std::unique_ptr<Bench> restingHall() {
     for (RenderInstance& instance : b->scene.instances)
         instance.movable = false;
     b->scene.instances.back().movable = true;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < b->restFrames(); ++i) {
         b->frame();
         b->scene.allInstancesChanged = false;
     }
@@ -815,7 +815,7 @@ TEST(Frame, AThingOutOfSightLeavesViewAndRsmsAlone) {
         light.innerConeAngle = 0.3f;
     }
     ++b->scene.lightsVersion;
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < b->restFrames(); ++i)
         b->frame();
     ASSERT_EQ(techniquesRun(*b), Ran{});
     moveLast(*b, {0, 0.05f, 0});

@@ -1,6 +1,8 @@
 // Materials that change after they were loaded: what follows is what a renderer that loaded them so shows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/core/image_difference.h"
 #include "engine/renderer/renderer.h"
 #include "engine/scene/asset_edits.h"
@@ -45,6 +47,28 @@ TEST(MaterialEdits, AreSeenAsIfTheyHadBeenLoaded) {
     render::Renderer fresh(test::device());
     fresh.load(asset.geometry);
     EXPECT_LT(rmse(seen(fresh, scene), edited), 0.02);
+}
+
+bool mirrors(render::Renderer& renderer) {
+    const auto report = renderer.graph().report();
+    return std::ranges::any_of(report,
+                               [](const PassReport& p) { return p.name.ends_with("reflections.march"); });
+}
+
+TEST(MaterialEdits, WhatIsPolishedReflects) {
+    SceneAsset asset = *scenegen::buildScene("cornell", 0);
+    RenderScene scene = staticScene(asset);
+    setCamera(scene, cameraOf(asset, 0), kSize);
+    render::Renderer renderer(test::device());
+    renderer.load(asset.geometry);
+    seen(renderer, scene);
+    EXPECT_FALSE(mirrors(renderer));
+    asset.geometry.materials[0].metallic = 1;
+    asset.geometry.materials[0].roughness = 0.05f;
+    ++asset.geometry.version;
+    renderer.loadMaterials(asset.geometry);
+    seen(renderer, scene);
+    EXPECT_TRUE(mirrors(renderer));
 }
 
 }  // namespace

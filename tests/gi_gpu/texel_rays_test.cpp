@@ -129,6 +129,43 @@ TEST(TexelRays, PixelsLeftOutGetLightOfTheirOwn) {
     EXPECT_EQ(all.outcome("upsampling.place"), PassOutcome::kDropped);
 }
 
+// Light that nobody asked for is not made; once somebody does, no pixel lacks it.
+TEST(TexelRays, LightAskedForAtRestIsWhole) {
+    Bench late(*scenegen::buildScene("ledges", 0), {96, 54}), early(late.asset, {96, 54});
+    RenderSettings settings = withRays(true);
+    settings.bounce.texelRays.settleFrames = 8;
+    settings.bounce.valClustering.settleFrames = 6;
+    const uint32_t rest = framesToRest(settings.bounce) + 8;
+    const auto layer = [&](Bench& b, Layer of, uint32_t frames) {
+        return renderLayer(b.renderer, b.scene, b.size, settings, of, frames);
+    };
+    const Image truth = layer(early, Layer::kBounce1, 2 * rest);
+    layer(late, Layer::kDirect, rest);
+    const auto atOnce = compareImages(truth, layer(late, Layer::kBounce1, 1));
+    const auto atRest = compareImages(truth, layer(late, Layer::kBounce1, rest));
+    ASSERT_TRUE(atOnce && atRest);
+    std::printf("asked for late: relative RMSE %.4f at once, %.4f at rest\n", atOnce->relativeRmse,
+                atRest->relativeRmse);
+    EXPECT_LT(atOnce->relativeRmse, 0.4);  // where three of four pixels were black: more than 0.8
+    EXPECT_LT(atRest->relativeRmse, 0.3);  // few rays, other clusters
+}
+
+// A sky alone: the first bounce has no lights, later ones do.
+TEST(TexelRays, LaterBouncesAloneComeToRest) {
+    Bench b(*scenegen::buildScene("cornell", 0), {64, 48});
+    b.settings = withRays(true);
+    b.settings.bounce.texelRays.settleFrames = 2;
+    b.settings.bounce.valClustering.settleFrames = 2;
+    b.settings.bounce.sky.settleFrames = 2;
+    b.settings.bounce.laterBounces = {.enabled = true, .settleFrames = 2};
+    b.scene.lights.clear();
+    b.scene.sky = std::make_shared<const Sky>(constantSky(glm::vec3(1)));
+    for (uint32_t i = 0; i < framesToRest(b.settings.bounce) + 8; ++i)
+        b.frame();
+    EXPECT_EQ(b.passesRun(), 0);
+    EXPECT_GT(meanOf(readImage(b.renderer, b.last.bounce.irradiance.image)), 0);
+}
+
 // Sills light the wall above them: the lights' shape is wrong there, rays find it.
 TEST(TexelRays, FindTheShapeOfNearLights) {
     Bench with(*scenegen::buildScene("ledges", 0), {96, 54}), without(with.asset, {96, 54});

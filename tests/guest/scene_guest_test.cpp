@@ -195,7 +195,7 @@ Compared compare(const RenderScene& scene, glm::uvec2 size) {
     render::RenderSettings settings;
     settings.bounce.laterBounces.enabled = true;
     const auto layer = [&](render::Layer of, uint32_t frames) {
-        return render::renderLayer(renderer, scene, size, settings, of, frames);
+        return render::renderLayer(renderer, scene, size, render::settingsOf(of, settings), of, frames);
     };
     const Image expected = layer(render::Layer::kIndirect, kFrames);
     const HostCamera camera(scene.camera, scene.originWorld, layer(render::Layer::kDepth, 1),

@@ -25,8 +25,9 @@ struct Rendered {
 };
 
 Rendered renderSettled(render::Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
-                       const render::RenderSettings& settings) {
+                       const render::RenderSettings& whole) {
     Rendered last;
+    const render::RenderSettings settings = render::settingsOf(render::Layer::kBounce1, whole);
     const uint32_t rays = render::castsTexelRays(settings) ? gi::framesToRest(settings.bounce) : 0;
     for (uint32_t i = 0; i < kFrames + rays; ++i)
         renderer.render(

@@ -53,9 +53,15 @@ json nodeOf(const RenderLight& l, glm::dvec3 origin, size_t index) {
     return node;
 }
 
+void removeExtension(json& object, const char* extension) {
+    if (!object.contains("extensions")) return;
+    object["extensions"].erase(extension);
+    if (object["extensions"].empty()) object.erase("extensions");
+}
+
 void removeLights(json& document) {
     for (json& node : document["nodes"])
-        if (node.contains("extensions")) node["extensions"].erase(kPunctual);
+        removeExtension(node, kPunctual);
 }
 
 void addCamera(json& document, const CameraPose& pose) {
@@ -76,6 +82,26 @@ void noteUsed(json& document, const char* extension) {
     json& used = document["extensionsUsed"];
     if (used.is_null()) used = json::array();
     if (std::ranges::find(used, json(extension)) == used.end()) used.push_back(extension);
+}
+
+bool hasExtension(const json& object, const char* extension) {
+    return object.contains("extensions") && object["extensions"].contains(extension);
+}
+
+void removeName(json& document, const char* list, const char* name) {
+    if (!document.contains(list)) return;
+    json& names = document[list];
+    const auto found = std::ranges::find(names, json(name));
+    if (found != names.end()) names.erase(found);
+    if (names.empty()) document.erase(list);
+}
+
+// Where no material has it any more.
+void noteUnlitUnused(json& document) {
+    for (const json& material : document["materials"])
+        if (hasExtension(material, kUnlit)) return;
+    removeName(document, "extensionsUsed", kUnlit);
+    removeName(document, "extensionsRequired", kUnlit);
 }
 
 void addLights(json& document, const SceneEdits& edits) {
@@ -105,8 +131,8 @@ void moveNodes(json& document, const SceneEdits& edits) {
 
 // What shone as it is whatever the light now shines by its emission.
 void makeLit(json& material) {
-    if (!material.contains("extensions") || !material["extensions"].contains(kUnlit)) return;
-    material["extensions"].erase(kUnlit);
+    if (!hasExtension(material, kUnlit)) return;
+    removeExtension(material, kUnlit);
     json& pbr = material["pbrMetallicRoughness"];
     if (pbr.contains("baseColorTexture")) material["emissiveTexture"] = pbr["baseColorTexture"];
 }
@@ -119,7 +145,7 @@ void setLook(json& material, const MaterialLook& look) {
     pbr["roughnessFactor"] = look.roughness;
     const float strength = std::max({look.emissive.x, look.emissive.y, look.emissive.z, 1.0f});
     material["emissiveFactor"] = listOf(look.emissive / strength);
-    if (material.contains("extensions")) material["extensions"].erase(kStrength);
+    removeExtension(material, kStrength);
     if (strength > 1) material["extensions"][kStrength] = {{"emissiveStrength", strength}};
 }
 
@@ -142,6 +168,7 @@ void setLooks(json& document, const SceneEdits& edits) {
         setLook(materials.at(look.material), look);
         if (look.emissive.x > 1 || look.emissive.y > 1 || look.emissive.z > 1) noteUsed(document, kStrength);
     }
+    noteUnlitUnused(document);
 }
 
 // New nodes are roots of the scene that is shown.

@@ -13,11 +13,20 @@ struct Ray {
     glm::vec3 from, along;
 };
 
-// Whether the box is met nearer than `nearest`, and where.
+// Whether the box is met nearer than `nearest`, and where. A ray along two of its planes is between them all
+// the way, or nowhere.
 std::optional<float> meetsBox(const Bounds& box, const Ray& ray, float nearest) {
-    const glm::vec3 a = (box.min - ray.from) / ray.along, b = (box.max - ray.from) / ray.along;
-    const glm::vec3 in = glm::min(a, b), out = glm::max(a, b);
-    const float begin = std::max({in.x, in.y, in.z, 0.0f}), end = std::min({out.x, out.y, out.z, nearest});
+    float begin = 0, end = nearest;
+    for (int c = 0; c < 3; ++c) {
+        const float low = box.min[c] - ray.from[c], high = box.max[c] - ray.from[c];
+        if (ray.along[c] == 0) {
+            if (low > 0 || high < 0) return std::nullopt;
+            continue;
+        }
+        const float a = low / ray.along[c], b = high / ray.along[c];
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+    }
     return begin <= end ? std::optional(begin) : std::nullopt;
 }
 

@@ -9,7 +9,7 @@
 namespace ag::viewer {
 namespace {
 
-constexpr float kReach = 12;  // pixels, from which the mouse takes the handle
+constexpr float kReach = 12;  // pixels at scale 1, from which the mouse takes the handle
 constexpr ImU32 kBox = IM_COL32(255, 190, 60, 160), kFill = IM_COL32(255, 190, 60, 255);
 
 glm::vec2 mousePlace() {
@@ -69,7 +69,7 @@ void dragThing(Selection& selection, Viewing& v, const EditedScene& edited, cons
     const Bounds box = selection.thing ? edited.boundsOf(*selection.thing) : Bounds{};
     const glm::dvec3 middle = middleOf(box, v.scene.originWorld);
     const auto at = box.empty() ? std::nullopt : projected(screen, middle);
-    if (clicked && at && glm::distance(*at, mousePlace()) < kReach)
+    if (clicked && at && glm::distance(*at, mousePlace()) < kReach * uiScale())
         selection.held = true;
     else if (clicked)
         return select(selection, v, edited, screen);

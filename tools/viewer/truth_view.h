@@ -28,6 +28,8 @@ class TruthView {
                     const render::CompositeSettings& composite, const BesideSettings& settings);
     // Once that frame was submitted.
     void compare(render::Renderer& renderer);
+    // The renderer made another frame since: there is none to compare.
+    void forgetFrame() { radiance_ = {}; }
 
     const TruthPicture* picture() const { return picture_.get(); }
     const std::string& numbers() const { return numbers_; }

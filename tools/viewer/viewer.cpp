@@ -220,10 +220,15 @@ class ViewerRun {
              .signal = image->rendered});
         swapchain_.present(*image);
         edited_.rendered();
-        if (capture_.recording()) capture_.note(subject(gi, size));
         if (fresh) truth_.compare(renderer_);
         if (panel_.beside == Beside::kTruth) panel_.besideNumbers = truth_.numbers();
+        if (capture_.recording() && capture_.note(subject(gi, size))) forgetImages();
         return true;
+    }
+    // The renderer made another frame since, so there is nothing to read of this one.
+    void forgetImages() {
+        shown_ = {};
+        truth_.forgetFrame();
     }
     capture::Subject subject(const render::RenderSettings& gi, glm::uvec2 size) const {
         return {.scene = viewing_.scene,

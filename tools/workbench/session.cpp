@@ -134,7 +134,10 @@ Result<Session> loadSession(const std::string& path) {
     const json file = json::parse(*text, nullptr, false);
     if (!file.is_object() || !file.contains("scene")) return Error{path + ": it is no session of the viewer"};
     try {
-        return sessionOf(file);
+        Session session = sessionOf(file);
+        const Status edits = checkEdits(session.scene.edits);
+        if (!edits) return Error{path + ": " + edits.error().message};
+        return session;
     } catch (const json::exception&) {
         return Error{path + ": one of its values is of the wrong type or makes no sense"};
     }

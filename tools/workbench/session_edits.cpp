@@ -1,7 +1,12 @@
 #include "tools/workbench/session_edits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "tools/workbench/scene_options.h"
 
@@ -30,15 +35,24 @@ float shareIn(const json& value) {
     return float(numberIn(value, 0, 1));
 }
 
+// Of a node or a material. Whether the scene has it is seen when the edits are applied.
+uint32_t indexIn(const json& value) {
+    if (!value.is_number_integer()) throw json::other_error::create(501, "no whole number", &value);
+    const int64_t index = value.get<int64_t>();
+    const bool inRange = index >= 0 && index <= std::numeric_limits<uint32_t>::max();
+    if (!inRange) throw json::other_error::create(501, "out of range", &value);
+    return uint32_t(index);
+}
+
 NodeMove moveIn(const json& file) {
-    NodeMove move{.node = file.at("node").get<uint32_t>()};
+    NodeMove move{.node = indexIn(file.at("node"))};
     for (int c = 0; c < 3; ++c)
         move.offset[c] = numberIn(file.at("offset").at(size_t(c)), -kMostNumber, kMostNumber);
     return move;
 }
 
 MaterialLook lookIn(const json& file) {
-    MaterialLook look{.material = file.at("material").get<uint32_t>(),
+    MaterialLook look{.material = indexIn(file.at("material")),
                       .metallic = shareIn(file.at("metallic")),
                       .roughness = shareIn(file.at("roughness"))};
     for (int c = 0; c < 4; ++c)
@@ -46,6 +60,17 @@ MaterialLook lookIn(const json& file) {
     for (int c = 0; c < 3; ++c)
         look.emissive[c] = float(numberIn(file.at("emissive").at(size_t(c)), 0, kMostNumber));
     return look;
+}
+
+// The index that two of them have, if any do.
+template <class Edit>
+std::optional<uint32_t> repeated(const std::vector<Edit>& edits, uint32_t Edit::*index) {
+    std::vector<uint32_t> all;
+    for (const Edit& edit : edits)
+        all.push_back(edit.*index);
+    std::ranges::sort(all);
+    const auto twice = std::ranges::adjacent_find(all);
+    return twice == all.end() ? std::nullopt : std::optional(*twice);
 }
 
 }  // namespace
@@ -64,6 +89,14 @@ AssetEdits readEdits(const json& session) {
     for (const json& look : session.value("materials", json::array()))
         edits.looks.push_back(lookIn(look));
     return edits;
+}
+
+Status checkEdits(const AssetEdits& edits) {
+    if (const auto node = repeated(edits.moves, &NodeMove::node))
+        return Error{fmt::format("it moves node {} twice", *node)};
+    if (const auto material = repeated(edits.looks, &MaterialLook::material))
+        return Error{fmt::format("it changes material {} twice", *material)};
+    return Ok{};
 }
 
 }  // namespace ag::workbench

@@ -9,7 +9,9 @@ namespace ag::workbench {
 
 // "moves" and "materials", where there are any.
 void writeEdits(const AssetEdits& edits, nlohmann::json& session);
-// Throws where a value is of another type.
+// Throws where a value is of another type or no number of a node or material.
 AssetEdits readEdits(const nlohmann::json& session);
+// Fails where a node is moved or a material changed twice.
+Status checkEdits(const AssetEdits& edits);
 
 }  // namespace ag::workbench
