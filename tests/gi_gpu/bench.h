@@ -47,8 +47,9 @@ struct Bench {
                 if (output) output(scope, declared);
             });
     }
-    // Frames after which nothing runs any more: the first one finds nothing asked for yet.
-    int restFrames() const { return int(framesToRest(settings.bounce)) + 2; }
+    // Frames after which nothing runs any more: in the first ones nothing was asked for yet, and trees of
+    // what moves are not placed.
+    int restFrames() const { return int(framesToRest(settings.bounce)) + 4; }
     template <class T>
     std::vector<T> read(BufferHandle buffer) {
         const gpu::Buffer& source = renderer.graph().physical(buffer);
