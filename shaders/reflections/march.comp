@@ -4,6 +4,7 @@
 // What narrow lobes reflect of what is on screen: rays drawn by the lobe (Heitz 2018) walk over the picture until they pass
 // behind a surface, which is met if it faces them and they are not far behind it (after McGuire and Mara 2014, with
 // planes of the G-buffer's normals where they have a thickness in depth).
+#include "common/listed_pixel.glsl"
 #include "common/brdf.h"
 #include "common/sampling.h"
 #include "common/texels.glsl"
@@ -63,8 +64,7 @@ Sent sendRay(Lobe c, ivec2 pixel, vec2 xi, float start) {
 
 void main() {
     if (gl_GlobalInvocationID.x >= listed.count) return;
-    uint packed = listed.pixels[gl_GlobalInvocationID.x];
-    ivec2 pixel = ivec2(packed & 0xffffu, packed >> 16);
+    ivec2 pixel = listedPixel(listed.pixels[gl_GlobalInvocationID.x]);
     Lobe lobe = lobeAt(pixel);
     vec2 shift = noiseAt(pixel);
     Sent sum = Sent(vec3(0.0), 0.0, 0.0);

@@ -3,6 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 // Pixels that are like none of the four cells about them: of those farther away what is most alike. Where nothing is,
 // the pixel is listed to be gathered by itself.
+#include "common/listed_pixel.glsl"
 #include "upsampling/cell_light.glsl"
 #define PIXEL_LIST_BINDING 10
 #include "common/pixel_list.glsl"
@@ -17,8 +18,7 @@ const float kAlone = 0.1;           // likeness of the most alike
 
 void main() {
     if (gl_GlobalInvocationID.x >= lacking.count) return;
-    uint packed = lacking.pixels[gl_GlobalInvocationID.x];
-    ivec2 pixel = ivec2(packed & 0xffffu, packed >> 16);
+    ivec2 pixel = listedPixel(lacking.pixels[gl_GlobalInvocationID.x]);
     Surface s = surfaceAt(pixel);
     vec2 at = cellsAt(pixel);
     ivec2 nearest = ivec2(floor(at + 0.5));

@@ -6,6 +6,7 @@
 layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 5) const uint kList = 0;
 layout(constant_id = 8) const uint kSpacing = 1;  // pixels from a cell to the next
+#include "common/listed_pixel.glsl"
 #include "common/texels.glsl"
 #include "val_shading/gather_inputs.glsl"
 #include "val_shading/glossy_pixel.glsl"
@@ -21,8 +22,7 @@ uint tileOf(ivec2 pixel) {
 
 void main() {
     if (gl_GlobalInvocationID.x >= alone.count) return;
-    uint packed = alone.pixels[gl_GlobalInvocationID.x];
-    ivec2 pixel = ivec2(packed & 0xffffu, packed >> 16);
+    ivec2 pixel = listedPixel(alone.pixels[gl_GlobalInvocationID.x]);
     GlossyPixel g = glossyPixelAt(pixel);
     uint tile = tileOf(pixel), start = listStart(tile, kList, push.p.valCount), count = counts.items[tile][kList];
     for (uint i = 0; i < count; ++i) addGloss(loadLight(fetchTexel(lists, int(start + i)).x), g);

@@ -112,40 +112,47 @@ run "the glTF is what was seen" 0 compare options.exr edited.exr --max-rel-rmse 
 run "a capture of the session" 0 capture --session saved.json --size 64x36 --frames 2 --warm-up 1 -o seen
 grep -q "composite.exposure=1" seen/report.html || fail "the capture does not use the session's settings"
 
+saved_number() {  # saves the session as FILE; what EXPRESSION of it, `d`, is
+  rm -f "$1"
+  xdotool key F5
+  for _ in $(seq 150); do
+    [[ -s $1 ]] && break
+    sleep 0.2
+  done
+  python3 -c "import json; d = json.load(open('$1')); print($2)"
+}
+drag() {  # by 4 x PIXELS along x, undone, done again; READ says where it is: dragged, undone, again
+  sleep 0.5
+  xdotool mousedown 1
+  sleep 0.5
+  for _ in 1 2 3 4; do
+    xdotool mousemove_relative -- "$1" 0
+    sleep 0.2
+  done
+  xdotool mouseup 1
+  sleep 0.5
+  dragged=$("$2")
+  xdotool key ctrl+z
+  sleep 0.5
+  undone=$("$2")
+  xdotool key ctrl+y
+  sleep 0.5
+  again=$("$2")
+}
+
 # A lamp is dragged by its handle, which is undone and done again.
 "$bin/afterglow" view cornell --size 640x360 --no-scene-lights --view 0,1,3.4,0,1,0,45 --point 1.5,1,0,3 --session drag.json \
   --preset afterglow --validate >"$work/log" 2>&1 &
 viewer=$!
 await_window || fail "no window to drag in"
 sleep 3
-lamp_at() {  # saves the session; the lamp's x
-  rm -f drag.json
-  xdotool key F5
-  for _ in $(seq 150); do
-    [[ -s drag.json ]] && break
-    sleep 0.2
-  done
-  python3 -c 'import json; d = json.load(open("drag.json")); print(d["lights"][0]["position"][0] if "lights" in d else d["points"][0].split(",")[0])'
+lamp_at() {  # its x
+  saved_number drag.json 'd["lights"][0]["position"][0] if "lights" in d else d["points"][0].split(",")[0]'
 }
 pixel=512  # 1.5 m to the right at 3.4 m: 320 + 1.5 * 180 / (3.4 * tan 22.5)
 xdotool mousemove --window "$window" $pixel 180
 lamp_at >/dev/null  # by now frames are shown
-sleep 0.5
-xdotool mousedown 1
-sleep 0.5
-for _ in 1 2 3 4; do
-  xdotool mousemove_relative -- -10 0
-  sleep 0.2
-done
-xdotool mouseup 1
-sleep 0.5
-dragged=$(lamp_at)
-xdotool key ctrl+z
-sleep 0.5
-undone=$(lamp_at)
-xdotool key ctrl+y
-sleep 0.5
-again=$(lamp_at)
+drag -10 lamp_at
 xdotool key Escape
 wait "$viewer" || fail "the viewer ended with $?"
 awk "BEGIN {exit !(($dragged - 1.187) ^ 2 < 0.0004 && ($undone - 1.5) ^ 2 < 1e-8 && $again == $dragged)}" ||
@@ -176,35 +183,14 @@ PYTHON
 viewer=$!
 await_window || fail "no window to move a thing in"
 sleep 3
-moved_by() {  # saves the session; how far the thing was moved along x
-  rm -f thing.json
-  xdotool key F5
-  for _ in $(seq 150); do
-    [[ -s thing.json ]] && break
-    sleep 0.2
-  done
-  python3 -c 'import json; d = json.load(open("thing.json")); print(sum(m["offset"][0] for m in d.get("moves", [])))'
+moved_by() {  # how far along x
+  saved_number thing.json 'sum(m["offset"][0] for m in d.get("moves", []))'
 }
 xdotool mousemove --window "$window" 320 180
 [[ $(moved_by) == 0 ]] || fail "the thing does not stand still"  # by now frames are shown
 sleep 0.5
 xdotool click 1
-sleep 0.7
-xdotool mousedown 1
-sleep 0.5
-for _ in 1 2 3 4; do
-  xdotool mousemove_relative -- 10 0
-  sleep 0.2
-done
-xdotool mouseup 1
-sleep 0.5
-dragged=$(moved_by)
-xdotool key ctrl+z
-sleep 0.5
-undone=$(moved_by)
-xdotool key ctrl+y
-sleep 0.5
-again=$(moved_by)
+drag 10 moved_by
 xdotool key F6
 sleep 1
 xdotool key Escape

@@ -163,6 +163,22 @@ TEST(EditedScene, AThingTakesWhatIsBelowItAlong) {
     EXPECT_EQ(scene.lights[0].position, lamp);
 }
 
+TEST(EditedScene, LampsInARowMoveOnceEach) {
+    SceneAsset asset = smallAsset();
+    const auto lamp = std::ranges::find_if(asset.nodes, [](const SceneNode& n) { return n.light >= 0; });
+    ASSERT_NE(lamp, asset.nodes.end());
+    SceneNode next = *lamp;
+    next.local.translation += glm::vec3(1, 0, 0);
+    asset.nodes.push_back(next);
+    RenderScene scene = staticScene(asset);
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EditedScene edited(asset, scene, {});
+    const glm::vec3 first = scene.lights[0].position, second = scene.lights[1].position;
+    edited.follow({.moves = {{1, second - first}}});  // the first comes to stand where the second stood
+    EXPECT_EQ(scene.lights[0].position, second);
+    EXPECT_EQ(scene.lights[1].position, second + (second - first));
+}
+
 TEST(EditedScene, IsWhatALoadedAssetWithTheEditsIs) {
     SceneAsset asset = smallAsset(), again = smallAsset();
     RenderScene scene = staticScene(asset);

@@ -77,17 +77,18 @@ void EditedScene::moveRows(const NodeMove& by) {
 // Those that stand where the thing's nodes have lights.
 bool EditedScene::moveLights(const NodeMove& by) {
     const std::vector<WorldPlacement> places = placeNodes(asset_);
-    bool moved = false;
+    std::vector<bool> moved(scene_.lights.size());  // a lamp may come to stand where the next one stood
     for (size_t n = by.node; n < asset_.nodes.size(); ++n) {
         if (asset_.nodes[n].light < 0 || !isBelow(int32_t(n), by.node)) continue;
         const glm::vec3 at(places[n].translation - scene_.originWorld);
-        for (RenderLight& light : scene_.lights) {
-            if (light.kind == LightKind::kDirectional || light.position != at) continue;
+        for (size_t l = 0; l < scene_.lights.size(); ++l) {
+            RenderLight& light = scene_.lights[l];
+            if (moved[l] || light.kind == LightKind::kDirectional || light.position != at) continue;
             light.position = glm::vec3(places[n].translation + by.offset - scene_.originWorld);
-            moved = true;
+            moved[l] = true;
         }
     }
-    return moved;
+    return std::ranges::count(moved, true) > 0;
 }
 
 bool EditedScene::move(const NodeMove& by) {
