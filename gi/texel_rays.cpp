@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
@@ -203,7 +204,8 @@ Carried addCarried(const ValTiles& t, const Irradiance& areaLights) {
             t.scope.image("texel_rays.irradiance", t.scope.info(areaLights.image))};
 }
 
-Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& seen, uint32_t step) {
+Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& seen, float dimming,
+                 uint32_t step) {
     const Carried c = addCarried(t, areaLights);
     t.scope.compute("texel_rays.carry", "texel_rays/carry.comp")
         .sample("normalMap", t.gbuffer.normal)
@@ -215,7 +217,8 @@ Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& se
         .write("irradiance", c.irradiance)
         .write("correction", c.correction.current)
         .write("surface", seen.surface.current)
-        .push(io::CarryPush{t.gbuffer.view.near, seen.known && c.correction.valid && seen.surface.valid})
+        .push(io::CarryPush{t.gbuffer.view.near, seen.known && c.correction.valid && seen.surface.valid,
+                            dimming})
         .step(step)
         .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
     return {c.irradiance, areaLights.toward};
@@ -264,6 +267,23 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
     return {c.irradiance, areaLights.toward};
 }
 
+// What surfaces keep can be no brighter, over what it was, than the light that dimmed least.
+float dimmingOf(const RsmSet& rsm, TexelRaysHistory& history) {
+    const std::span ids(history.lightIds.data(), history.lightCount);
+    float most = rsm.firstEmissive == ~0u ? 0 : 1;
+    std::array<float, io::kMaxBounceLights> strengths{};
+    for (uint32_t i = 0; i < rsm.lightRsmCount; ++i) {
+        strengths[i] = io::luminance(rsm.mapInfo[i].intensity);
+        const size_t before = size_t(std::ranges::find(ids, rsm.lightIds[i]) - ids.begin());
+        const bool known = before < ids.size() && history.lightStrengths[before] > 0;
+        most = std::max(most, known ? strengths[i] / history.lightStrengths[before] : 1);
+    }
+    history.lightCount = rsm.lightRsmCount;
+    std::copy_n(rsm.lightIds.begin(), rsm.lightRsmCount, history.lightIds.begin());
+    history.lightStrengths = strengths;
+    return std::min(most, 1.0f);
+}
+
 }  // namespace
 
 bool castsTexelRays(const TexelRaysSettings& s, const Occluders& occluders) {
@@ -278,7 +298,8 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     stands = combineHash(stands, in.turn);
     const uint32_t step = history.settling.advance(stands, in.frames);
     const Seen seen = addSeen(t, in.versions.origin, history);
-    if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, step);
+    const float dimming = dimmingOf(in.rsm, history);
+    if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, dimming, step);
     // Counted from the last change on, so that a still picture does not depend on what was before.
     const uint32_t ray = std::min(history.settling.sinceChange, in.frames) + in.turn * kMostRaysOfTurn;
     const Choice choice = addChoice(t, ray);

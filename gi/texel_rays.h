@@ -5,6 +5,8 @@
 // rays are cast: surfaces keep what was found on them.
 #pragma once
 
+#include <array>
+
 #include "engine/core/setting_fields.h"
 #include "gi/rsm.h"
 #include "gi/settling.h"
@@ -46,6 +48,10 @@ struct TexelRaysHistory {
     Settling settling;
     RenderCamera camera;
     uint64_t originVersion = 0;
+    // Of the lights of the frame before: identities, and the luminance of what each sent.
+    uint32_t lightCount = 0;
+    std::array<uint64_t, io::kMaxBounceLights> lightIds{};
+    std::array<float, io::kMaxBounceLights> lightStrengths{};
 };
 
 // What the rays go to, and what they meet on the way.

@@ -20,15 +20,6 @@ bool misses(const SyncState& s, const Access& access) {
     return s.writeStages != 0 && !seen;
 }
 
-// Of memory that the other queue changed: what uses it has waited for a semaphore, at all stages. The
-// accesses are named although the semaphore covers them, because validation does not follow timelines.
-SyncState stateForOther(VkImageLayout layout) {
-    return {.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-            .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
-            .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-            .layout = layout};
-}
-
 // What the access waits for; none: it may begin at once.
 std::optional<BarrierRecord> barrierBefore(const Resource& r, const SyncState& s, const Access& access,
                                            bool discard) {

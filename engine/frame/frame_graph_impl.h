@@ -25,6 +25,15 @@ struct SyncState {
     VkAccessFlags2 visibleAccess = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
+// Of memory that the other queue changed: what uses it has waited for a semaphore, at all stages. A change of
+// layout must name a stage of that wait to come after it. The accesses are named although the semaphore
+// covers them, because validation does not follow timelines.
+inline SyncState stateForOther(VkImageLayout layout) {
+    return {.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,
+            .readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            .layout = layout};
+}
 // Of memory that others used before: all of their work, and no contents.
 inline constexpr SyncState kTakenOver{.writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                       .writeAccess = VK_ACCESS_2_MEMORY_WRITE_BIT,

@@ -86,15 +86,16 @@ void FrameGraph::Impl::takeOwner(const Resource& r, Memory& memory, const Access
     memory.owner = to;
     const SyncState before = memory.sync[size_t(from)];
     if (discard || before.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
-        memory.sync[size_t(to)].layout = VK_IMAGE_LAYOUT_UNDEFINED;
+        memory.sync[size_t(to)] = stateForOther(VK_IMAGE_LAYOUT_UNDEFINED);
         return;
     }
     const int32_t released = batches.waited[size_t(to)];
     AG_CHECK_MSG(released >= 0, std::string(r.name) + " has no batch to be released in");
     batches.ownerChanges.push_back({r.name, released, batches.open[size_t(to)]});
     // All that came before is over once the semaphore is.
-    memory.sync.fill(
-        {.visibleStages = access.stages, .visibleAccess = access.reads, .layout = access.layout});
+    memory.sync[size_t(from)] = stateForOther(access.layout);
+    memory.sync[size_t(to)] = {
+        .visibleStages = access.stages, .visibleAccess = access.reads, .layout = access.layout};
     if (!context) return;
     const gpu::Image& image = *imageIn(memory);
     const uint32_t families[] = {context->queueFamily(), *context->asyncFamily()};
@@ -138,6 +139,7 @@ VkCommandBuffer FrameGraph::Impl::joinQueues() {
             const VkImageLayout layout = half.sync[size_t(Queue::kAsync)].layout;
             takeOwner({.name = slot.name, .isImage = true}, half,
                       {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT, 0, layout}, false);
+            half.sync[size_t(Queue::kMain)].readStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         }
     if (commands) flushBarriers(commands);
     return commands;

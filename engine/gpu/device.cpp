@@ -18,24 +18,42 @@ namespace {
 
 std::atomic<int> gValidationMessages{0};  // of the process: messages also arrive while a device is destroyed
 
+// Older layers take no notice of timeline semaphores, by which our queues wait for each other
+// (Vulkan-ValidationLayers, issue 7600): what they say of the work of two queues is not so. From 1.4 on they
+// do.
+constexpr uint32_t kFollowsTimelines = VK_MAKE_API_VERSION(0, 1, 4, 0);
+uint32_t gLayerVersion = kFollowsTimelines;
+
+bool isOfTwoQueues(const VkDebugUtilsMessengerCallbackDataEXT& data) {
+    const std::string_view message = data.pMessage;
+    const size_t prior = message.rfind("queue: VkQueue 0x");
+    if (message.find("SYNC-HAZARD") == message.npos || prior == message.npos || data.objectCount == 0 ||
+        data.pObjects[0].objectType != VK_OBJECT_TYPE_QUEUE)
+        return false;
+    return fmt::format("{:x}", data.pObjects[0].objectHandle) !=
+           message.substr(prior + 17, message.find_first_not_of("0123456789abcdef", prior + 17) - prior - 17);
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                          VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
-    if (severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT) {
+    if (severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT &&
+        (gLayerVersion >= kFollowsTimelines || !isOfTwoQueues(*data))) {
         ++gValidationMessages;
         spdlog::error("validation: {}", data->pMessage);
     }
     return VK_FALSE;
 }
 
-bool hasLayer(const Functions& vk, const char* name) {
+// Of the Vulkan it was written for; 0: there is no such layer.
+uint32_t versionOfLayer(const Functions& vk, const char* name) {
     uint32_t count = 0;
     vk.EnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> layers(count);
     vk.EnumerateInstanceLayerProperties(&count, layers.data());
     for (const VkLayerProperties& layer : layers)
-        if (std::strcmp(layer.layerName, name) == 0) return true;
-    return false;
+        if (std::strcmp(layer.layerName, name) == 0) return layer.specVersion;
+    return 0;
 }
 
 bool hasInstanceExtension(const Functions& vk, const char* name) {
@@ -104,7 +122,8 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
     if (!loader) return Error{"no Vulkan loader found (Debian package libvulkan1)"};
     loadGlobalFunctions(vk, loader);
     static constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-    if (options.validation && !hasLayer(vk, kLayer))
+    if (options.validation) gLayerVersion = versionOfLayer(vk, kLayer);
+    if (options.validation && gLayerVersion == 0)
         return Error{
             "validation was asked for, but its layer is missing (Debian package vulkan-validationlayers)"};
     std::vector<const char*> extensions;

@@ -44,6 +44,7 @@ struct DeviceOptions {
     std::vector<std::string> without;
     // Instead of subgroups workgroups of so many lanes that share memory, 4 to 64; 0: as the device can.
     uint32_t sharedLanes = 0;
+    bool gpuKernels = false;  // the shape that kernels have on a GPU, on CPU devices too
     AsyncQueue asyncQueue = AsyncQueue::kOn;
     FaultPlan fault;  // for tests
 };

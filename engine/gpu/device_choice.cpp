@@ -137,6 +137,7 @@ Result<DeviceChoice> chooseDevice(const Functions& vk, VkInstance instance, VkSu
     for (VkPhysicalDevice physical : devices) {
         DeviceChoice choice{.physical = physical, .info = describeDevice(vk, physical, less->limits)};
         leaveOut(less->features, choice.info);
+        if (options.gpuKernels) choice.info.isCpu = false;
         if (options.sharedLanes) choice.info.lanes = {.count = options.sharedLanes, .shared = true};
         const auto family = findQueueFamily(vk, physical, surface);
         if (!family) choice.info.missing.push_back("a queue for graphics, compute and presenting");

@@ -199,8 +199,8 @@ void checkConstants(const PipelineRequest& request, std::initializer_list<const 
 
 // The request's constants and the device's own, as far as a shader declares them.
 struct Specialization {
-    std::array<VkSpecializationMapEntry, kMaxSpecConstants + 4> entries{};
-    std::array<uint32_t, kMaxSpecConstants + 4> values{};
+    std::array<VkSpecializationMapEntry, kMaxSpecConstants + 5> entries{};
+    std::array<uint32_t, kMaxSpecConstants + 5> values{};
     VkSpecializationInfo info{};
 
     Specialization(const PipelineRequest& request, const ShaderModule& module, const DeviceInfo& device) {
@@ -214,6 +214,7 @@ struct Specialization {
             if (declared.id == kSpecLaneParallel) add(declared.id, device.isCpu);
             if (declared.id == kSpecLanes) add(declared.id, device.lanes.count);
             if (declared.id == kSpecSharedLanes) add(declared.id, device.lanes.shared);
+            if (declared.id == kSpecOrderedSubgroups) add(declared.id, device.isCpu);
             if (const SpecConstant* given = find(request, declared)) add(declared.id, given->value);
         }
         info = {count, entries.data(), count * 4, values.data()};

@@ -59,6 +59,7 @@ constexpr uint32_t kSpecLaneParallel = 101;  // bool: load one light a lane and 
 // Of workgroups whose lanes exchange values (shaders/common/lanes.glsl):
 constexpr uint32_t kSpecLanes = 102;        // uint: invocations
 constexpr uint32_t kSpecSharedLanes = 103;  // bool: they do so through shared memory, not as one subgroup
+constexpr uint32_t kSpecOrderedSubgroups = 104;  // bool: subgroups sum in the order of their lanes
 
 enum class CullMode : uint32_t { kNone, kBack };
 enum class BlendMode : uint32_t { kNone, kAlpha };

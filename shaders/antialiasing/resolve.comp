@@ -52,6 +52,9 @@ Neighbours gather(vec2 place, vec2 scale, ivec2 size) {
     return n;
 }
 
+// Pixels: what is nearer to one's centre is there, or divisions that are a bit off would move the picture on in every frame.
+const float kRounding = 1.0 / 512.0;
+
 // Where what is seen in the pixel was seen in the frame before, in pixels of the output; far off: nowhere.
 vec2 placeBefore(ivec2 pixel, ivec2 front, vec2 size) {
     ReprojectionCameras c = cameras.c;
@@ -60,7 +63,8 @@ vec2 placeBefore(ivec2 pixel, ivec2 front, vec2 size) {
     vec3 motion = kMotion ? texelFetch(motionMap, front, 0).xyz : vec3(0.0);
     vec4 place = reversed > 0.0 ? vec4(c.now.eye + toward * (push.near / reversed) + motion, 1.0) : vec4(toward, 0.0);
     vec4 clip = c.previousClipFromWorld * place;
-    return clip.w > 0.0 ? (clip.xy / clip.w * 0.5 + 0.5) * size - 0.5 : vec2(-1e4);
+    vec2 at = clip.w > 0.0 ? (clip.xy / clip.w * 0.5 + 0.5) * size - 0.5 : vec2(-1e4), middle = floor(at + 0.5);
+    return mix(at, middle, lessThan(abs(at - middle), vec2(kRounding)));
 }
 
 // Catmull-Rom through linear taps; those of the corners count for less than a hundredth and are left out.

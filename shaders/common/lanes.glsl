@@ -13,6 +13,7 @@
 const uint kMostLanes = 64;
 layout(constant_id = 102) const uint kLanes = 8;  // 4 to kMostLanes
 layout(constant_id = 103) const bool kSharedLanes = false;
+layout(constant_id = 104) const bool kOrderedSubgroups = true;  // subgroupAdd sums in the order of the lanes (CPU devices)
 layout(local_size_x_id = 102) in;
 
 shared uvec4 laneValues[kMostLanes];
@@ -47,6 +48,23 @@ void shareLane(uvec4 value) {
 #define AG_LANE_FOLD(Name, Native, T, Pack, Unpack, Op) AG_LANE_REDUCE(Name, Native, kLanes, T, Pack, Unpack, Op)
 #define AG_LANE_SCAN(Name, Native, T, Pack, Unpack, Op) AG_LANE_REDUCE(Name, Native, laneIndex() + 1, T, Pack, Unpack, Op)
 
+// Sums of floats depend on their order.
+#define AG_ORDERED_SUM(Name, Native, Count, T)                                     \
+    T Name(T value) {                                                              \
+        if (kOrderedSubgroups) return Native(value);                               \
+        T all = subgroupShuffle(value, 0);                                         \
+        for (uint i = 1; i < kLanes; ++i) {                                        \
+            T other = subgroupShuffle(value, i);                                   \
+            if (i < (Count)) all += other;                                         \
+        }                                                                          \
+        return all;                                                                \
+    }
+AG_ORDERED_SUM(orderedAdd, subgroupAdd, kLanes, float)
+AG_ORDERED_SUM(orderedAdd, subgroupAdd, kLanes, vec2)
+AG_ORDERED_SUM(orderedAdd, subgroupAdd, kLanes, vec3)
+AG_ORDERED_SUM(orderedAdd, subgroupAdd, kLanes, vec4)
+AG_ORDERED_SUM(orderedInclusiveAdd, subgroupInclusiveAdd, laneIndex() + 1, float)
+
 #define AG_LANE_SHUFFLE(T, Pack, Unpack)                                          \
     T laneShuffle(T value, uint lane) {                                           \
         if (!kSharedLanes) return subgroupShuffle(value, lane);                   \
@@ -69,10 +87,10 @@ bool unpackBool(uvec4 v) { return v.x != 0; }
 #define AG_PLUS(a, b) (a + b)
 #define AG_OR(a, b) (a | b)
 
-AG_LANE_FOLD(laneAdd, subgroupAdd, float, packFloat, unpackFloat, AG_PLUS)
-AG_LANE_FOLD(laneAdd, subgroupAdd, vec2, packVec2, unpackVec2, AG_PLUS)
-AG_LANE_FOLD(laneAdd, subgroupAdd, vec3, packVec3, unpackVec3, AG_PLUS)
-AG_LANE_FOLD(laneAdd, subgroupAdd, vec4, packVec4, unpackVec4, AG_PLUS)
+AG_LANE_FOLD(laneAdd, orderedAdd, float, packFloat, unpackFloat, AG_PLUS)
+AG_LANE_FOLD(laneAdd, orderedAdd, vec2, packVec2, unpackVec2, AG_PLUS)
+AG_LANE_FOLD(laneAdd, orderedAdd, vec3, packVec3, unpackVec3, AG_PLUS)
+AG_LANE_FOLD(laneAdd, orderedAdd, vec4, packVec4, unpackVec4, AG_PLUS)
 AG_LANE_FOLD(laneMin, subgroupMin, float, packFloat, unpackFloat, min)
 AG_LANE_FOLD(laneMin, subgroupMin, vec3, packVec3, unpackVec3, min)
 AG_LANE_FOLD(laneMin, subgroupMin, uint, packUint, unpackUint, min)
@@ -80,7 +98,7 @@ AG_LANE_FOLD(laneMax, subgroupMax, float, packFloat, unpackFloat, max)
 AG_LANE_FOLD(laneMax, subgroupMax, vec3, packVec3, unpackVec3, max)
 AG_LANE_FOLD(laneMax, subgroupMax, uint, packUint, unpackUint, max)
 AG_LANE_FOLD(laneOr, subgroupOr, uint, packUint, unpackUint, AG_OR)
-AG_LANE_SCAN(laneInclusiveAdd, subgroupInclusiveAdd, float, packFloat, unpackFloat, AG_PLUS)
+AG_LANE_SCAN(laneInclusiveAdd, orderedInclusiveAdd, float, packFloat, unpackFloat, AG_PLUS)
 AG_LANE_SCAN(laneInclusiveMax, subgroupInclusiveMax, uint, packUint, unpackUint, max)
 AG_LANE_SHUFFLE(bool, packBool, unpackBool)
 AG_LANE_SHUFFLE(uint, packUint, unpackUint)

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-// The area lights' sum, corrected by what rays had found on the same surfaces while nothing changed.
+// The area lights' sum, corrected by what rays had found on the same surfaces while nothing changed. Where area lights send
+// nothing, only what all lights have dimmed by tells that it no longer holds.
 #include "common/pixel_rays.h"
 #include "texel_rays/carried.glsl"
 #include "texel_rays/texel_rays_io.h"
@@ -31,6 +32,7 @@ void main() {
         Before b = seenBefore(size, normal, place, depth);
         [[unroll]] for (int i = 0; i < 4; ++i) c += b.weights[i] * texelFetch(previousCorrection, b.taps[i], 0);
     }
+    c *= push.p.dimming;
     c.rgb *= stillTrue(luminance(lights.rgb), c.a);
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c.rgb, vec3(0.0), vec3(kMostHalf)), lights.a));

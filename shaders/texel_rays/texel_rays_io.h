@@ -40,8 +40,9 @@ struct RayAccumulatePush {
 };
 
 struct CarryPush {
-    float near;  // m
-    uint valid;  // 0: there is no frame before
+    float near;     // m
+    uint valid;     // 0: there is no frame before
+    float dimming;  // at most 1: of the light that dimmed least since the frame before
 };
 
 struct CorrectPush {

@@ -33,6 +33,10 @@ struct ValShapeVectors {
 
 const uint kValShapeVec4s = 7;
 
+// Rays from a cluster's texels, the nearest and the extremes, to two places.
+const uint kSightTexels = 9;
+const uint kSightOfMiddle = 0, kSightOfPlace = 1, kSightPlaces = 2;
+
 struct ValFitPush {
     uint clusterCount;
     uint valCount;  // with padding

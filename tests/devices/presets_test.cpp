@@ -26,7 +26,8 @@ constexpr uint32_t kFrames = 3;
 // rasteriser (a hundred pixels of the corridor's are all that differs by more than 0.2 %).
 constexpr double kEdges = 0.02;
 constexpr double kLeastSpread = 0.02;  // where little is clustered: what a few random samples differ by
-constexpr double kMeanSpread = 0.03;  // of so few clusters and points: 0.009 over seeds, 0.026 in one of five
+constexpr double kLeastMeanSpread =
+    0.03;  // of so few clusters and points: 0.009 over seeds, 0.026 in one of five
 
 // All passes of the preset, with less of each: a device without a cache of shaders has a minute.
 struct Lights {
@@ -108,11 +109,13 @@ void drawAll() {
         for (const std::string& preset : presets()) {
             const Image image = stage.draw(scene, settingsOf(preset));
             ASSERT_TRUE(saveImage(image, pictureOf(scene, preset)));
-            double spread = kLeastSpread;
-            for (const Lights& other : kOthers)
-                spread = std::max(spread,
-                                  differ(image, stage.draw(scene, settingsOf(preset, other))).relativeRmse);
-            spreads << scene << ' ' << preset << ' ' << spread << '\n';
+            double spread = kLeastSpread, meanSpread = kLeastMeanSpread;
+            for (const Lights& other : kOthers) {
+                const Difference d = differ(image, stage.draw(scene, settingsOf(preset, other)));
+                spread = std::max(spread, d.relativeRmse);
+                meanSpread = std::max(meanSpread, std::abs(d.meanRatio - 1));
+            }
+            spreads << scene << ' ' << preset << ' ' << spread << ' ' << meanSpread << '\n';
         }
     ASSERT_TRUE(spreads.good());
 }
@@ -122,16 +125,16 @@ void compareAll() {
     ASSERT_TRUE(spreads.good()) << "devices.default has not run";
     Stage stage;
     std::string scene, preset;
-    double spread = 0;
+    double spread = 0, meanSpread = 0;
     size_t compared = 0;
-    for (; spreads >> scene >> preset >> spread; ++compared) {
+    for (; spreads >> scene >> preset >> spread >> meanSpread; ++compared) {
         const auto truth = loadImage(pictureOf(scene, preset));
         ASSERT_TRUE(truth) << truth.error().message;
         const Difference d = differ(*truth, stage.draw(scene, settingsOf(preset)));
-        std::printf("%-9s %-18s mean %.4f, relative RMSE %.4f, of other lights %.4f\n", scene.c_str(),
-                    preset.c_str(), d.meanRatio, d.relativeRmse, spread);
+        std::printf("%-9s %-18s mean %.4f, relative RMSE %.4f, of other lights %.4f, %.4f\n", scene.c_str(),
+                    preset.c_str(), d.meanRatio, d.relativeRmse, meanSpread, spread);
         EXPECT_LE(d.relativeRmse, spread) << scene << ' ' << preset;
-        EXPECT_NEAR(d.meanRatio, 1, kMeanSpread) << scene << ' ' << preset;
+        EXPECT_NEAR(d.meanRatio, 1, meanSpread) << scene << ' ' << preset;
     }
     EXPECT_EQ(compared, std::size(kScenes) * presets().size());
 }

@@ -135,6 +135,17 @@ void checkOwners(const Split& s, const std::vector<TestPass>& passes, std::set<u
         }
 }
 
+// A change of layout that names no stage may come before the semaphore that its queue waits for.
+void checkLayouts(const Split& s, const std::set<uint32_t>& used) {
+    for (const PassRecord& record : s.records)
+        for (const BarrierRecord& barrier : record.barriers) {
+            const uint32_t r = uint32_t(std::ranges::find(kResources, barrier.resource) - kResources.begin());
+            if (barrier.oldLayout != barrier.newLayout && used.contains(r)) {
+                ASSERT_NE(barrier.srcStages, 0u) << record.name << " " << barrier.resource;
+            }
+        }
+}
+
 TEST(Queues, WhatConflictsIsOrderedAndImagesHaveOneOwner) {
     std::mt19937 random(11);
     size_t changes = 0, batches = 0;
@@ -158,6 +169,7 @@ TEST(Queues, WhatConflictsIsOrderedAndImagesHaveOneOwner) {
                 }
             }
             checkOrder(s, passes);
+            checkLayouts(s, used);
             checkOwners(s, passes, used);
             changes += s.changes.size();
             batches += s.batches.size();

@@ -7,8 +7,9 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-std::unique_ptr<gpu::Device> deviceOf(uint32_t sharedLanes) {
-    auto device = gpu::Device::create({.validation = true, .sharedLanes = sharedLanes});
+std::unique_ptr<gpu::Device> deviceOf(uint32_t sharedLanes, bool gpuKernels = false) {
+    auto device =
+        gpu::Device::create({.validation = true, .sharedLanes = sharedLanes, .gpuKernels = gpuKernels});
     EXPECT_TRUE(device) << device.error().message;
     return std::move(*device);
 }
@@ -56,6 +57,15 @@ TEST(Lanes, SharedMemoryGivesTheBitsOfSubgroups) {
         EXPECT_TRUE(sameLists(native, other)) << preset;
         EXPECT_EQ(native.picture.pixels, other.picture.pixels) << preset;
     }
+}
+
+// What runs on a GPU runs nowhere else: loops over lights with uniform addresses, sums by shuffles.
+TEST(Lanes, KernelsForGpusGiveTheSamePicture) {
+    const auto likeGpu = deviceOf(0, true);
+    const Outcome expected = renderOn(test::device(), "afterglow-bounces"),
+                  o = renderOn(*likeGpu, "afterglow-bounces");
+    EXPECT_TRUE(sameLists(expected, o));
+    EXPECT_LT(compareImages(expected.picture, o.picture)->relativeRmse, 0.001);
 }
 
 TEST(Lanes, GroupsOfAllSizesGiveTheSameListsAndPicture) {

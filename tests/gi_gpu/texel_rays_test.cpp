@@ -69,22 +69,27 @@ TEST(TexelRays, WhatWasFoundIsCarriedAlong) {
     const double leaking = meanOf(bounce1After(without, 64));
     ASSERT_GT(leaking, 2 * found);
 
-    const auto walk = [&](int frames) {
+    const auto walk = [](Bench& of, int frames) {
         for (int i = 0; i < frames; ++i) {
-            shiftCamera(b.scene, {0.002f, 0, 0});
-            b.frame();
+            shiftCamera(of.scene, {0.002f, 0, 0});
+            of.frame();
         }
-        return meanOf(readImage(b.renderer, b.last.bounce.bounce1.image));
+        return meanOf(readImage(of.renderer, of.last.bounce.bounce1.image));
     };
-    const double carried = walk(8);
+    const double carried = walk(b, 8);
     EXPECT_EQ(b.outcome("texel_rays.cast"), PassOutcome::kDropped);
     std::printf("over what rays found: carried %.3f, without %.3f\n", carried / found, leaking / found);
     EXPECT_LT(carried, found + 0.3 * (leaking - found));
 
-    for (RenderLight& light : b.scene.lights)
-        light.intensity *= 0.01f;
-    ++b.scene.lightsVersion;
-    EXPECT_LT(walk(2), 0.05 * found) << "what is left of lights that are nearly out";
+    walk(without, 8);
+    for (Bench* of : {&b, &without}) {
+        for (RenderLight& light : of->scene.lights)
+            light.intensity *= 0.01f;
+        ++of->scene.lightsVersion;
+    }
+    const double left = walk(b, 2), alone = walk(without, 2);
+    std::printf("of lights that are nearly out: %.4f, without %.4f\n", left / found, alone / found);
+    EXPECT_LT(left, alone + 0.05 * found);
 }
 
 TEST(TexelRays, AStillFrameComesToRestAndSkippingChangesNoBit) {
@@ -183,7 +188,7 @@ TEST(TexelRays, FindTheShapeOfNearLights) {
     ASSERT_TRUE(found && lights);
     std::printf("ledges: relative RMSE %.3f with rays, %.3f without\n", found->relativeRmse,
                 lights->relativeRmse);
-    EXPECT_LT(found->relativeRmse, 0.7 * lights->relativeRmse);
+    EXPECT_LT(found->relativeRmse, 0.75 * lights->relativeRmse);
 }
 
 }  // namespace
