@@ -35,6 +35,7 @@ double settledMean(uint32_t albedo, bool feedback) {
     const auto b = laterBench("furnace", albedo);
     b->settings.bounce.laterBounces.feedback = feedback;
     b->settings.bounce.ismAtlas.enabled = false;  // everything sees everything
+    b->settings.bounce.texelRays.enabled = false;
     const int frames = feedback ? 70 : 36;        // its clusters come to rest after 32
     for (int i = 0; i < frames; ++i)
         b->frame();
@@ -88,9 +89,10 @@ TEST(LaterBounces, MetalPassesLightOn) {
         m.metallic = 1, m.roughness = 0.4f;
     const glm::vec3 base(asset.geometry.materials[0].baseColor);
     for (const bool whole : {true, false}) {
-        Bench b(asset, {96, 54});
+        Bench b(asset, {64, 36});
         b.settings.bounce.laterBounces.enabled = true;
         b.settings.bounce.ismAtlas.enabled = false;
+        b.settings.bounce.texelRays.enabled = false;
         b.settings.bounce.valShading.glossy = whole;
         for (int i = 0; i < 70; ++i)
             b.frame();

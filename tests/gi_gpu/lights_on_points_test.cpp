@@ -14,6 +14,7 @@ struct Bounced : Bench {
     explicit Bounced(bool map) : Bench(*scenegen::buildScene("cornell", 0), kSize) {
         settings.bounce.laterBounces.enabled = true;
         settings.bounce.valClustering.count = 256;
+        settings.bounce.texelRays.enabled = false;
         for (RenderLight& light : scene.lights)
             light.bounces = map;
         output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.irradiance.image); };

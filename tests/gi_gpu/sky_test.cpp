@@ -145,10 +145,10 @@ TEST(SkyLight, OpensAndCloses) {
 
 TEST(SkyLight, AStillFrameComesToRestAndSkippingChangesNoBit) {
     RenderSettings settings;
-    settings.bounce.sky.settleFrames = 12;
-    settings.bounce.laterBounces = {.enabled = true, .settleFrames = 12};
-    settings.bounce.valClustering.settleFrames = 12;
-    expectRestAndNoBitSkipped(*scenegen::buildScene("courtyard", 0), {64, 36}, settings, 60);
+    settings.bounce.sky.settleFrames = 6;
+    settings.bounce.laterBounces = {.enabled = true, .settleFrames = 6};
+    settings.bounce.valClustering.settleFrames = 6;
+    expectRestAndNoBitSkipped(*scenegen::buildScene("courtyard", 0), {64, 36}, settings, 40);
 }
 
 TEST(SkyLight, ASceneWithoutItDeclaresNothingOfIt) {
