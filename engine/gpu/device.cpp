@@ -114,6 +114,7 @@ struct Device::Impl {
     Status createDevice(const DeviceOptions& options);
     void createPipelineCache();
     void savePipelineCache() const;
+    uint64_t ranOnce = 0;
     VkCommandBuffer recordOnce(const std::function<void(VkCommandBuffer)>& record);
 };
 
@@ -353,11 +354,16 @@ VkCommandBuffer Device::Impl::recordOnce(const std::function<void(VkCommandBuffe
 }
 
 void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
+    ++impl_->ranOnce;
     const VkCommandBuffer commands = impl_->recordOnce(record);
     submit(commands);
     // Not the timeline: synchronization validation follows the queue's own wait only.
     AG_VK(impl_->vk.QueueWaitIdle(impl_->queues[0]));
     impl_->vk.FreeCommandBuffers(impl_->device, impl_->oncePool, 1, &commands);
+}
+
+uint64_t Device::transfersWaitedFor() const {
+    return impl_->ranOnce;
 }
 
 double Device::timeOnCpu(const std::function<void(VkCommandBuffer)>& record) {

@@ -90,6 +90,7 @@ class Device {
 
     // Records with `record`, submits and waits: for loading and tests.
     void runOnce(const std::function<void(VkCommandBuffer)>& record);
+    uint64_t transfersWaitedFor() const;  // calls of runOnce() so far
     // The same; the process CPU time that took, ms, driver threads included: the true cost on a CPU device.
     double timeOnCpu(const std::function<void(VkCommandBuffer)>& record);
 

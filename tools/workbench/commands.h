@@ -16,6 +16,7 @@ void addCompareCommand(CLI::App& program, int& exitCode);
 void addBenchCommand(CLI::App& program, int& exitCode);
 void addEcsBenchCommand(CLI::App& program, int& exitCode);
 void addSkippingCommand(CLI::App& program, int& exitCode);
+void addDriveCommand(CLI::App& program, int& exitCode);
 void addSweepCommand(CLI::App& program, int& exitCode);
 void addStressCommand(CLI::App& program, int& exitCode);
 

@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
     addCaptureCommand(program, exitCode);
     addEcsBenchCommand(program, exitCode);
     addSkippingCommand(program, exitCode);
+    addDriveCommand(program, exitCode);
     addSweepCommand(program, exitCode);
     addStressCommand(program, exitCode);
     addCompletionCommand(program);
