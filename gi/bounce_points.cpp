@@ -10,6 +10,19 @@ uint32_t sharpBitsOf(const io::SurfaceSample& s) {
     return std::bit_cast<uint32_t>(s.curvatureLocal);  // in its place: see SkinnedSample
 }
 
+bool isThere(const io::SurfaceSample& s) {
+    return s.instance != io::kNoInstance;
+}
+
+// Of [begin, end) the one nearest to the middle that is there; the middle if none is.
+size_t nearestThere(std::span<const io::SurfaceSample> samples, size_t middle, size_t begin, size_t end) {
+    for (size_t off = 0; off < end - begin; ++off) {
+        if (middle + off < end && isThere(samples[middle + off])) return middle + off;
+        if (middle >= begin + off && isThere(samples[middle - off])) return middle - off;
+    }
+    return middle;
+}
+
 }  // namespace
 
 std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance> instances,
@@ -18,10 +31,15 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
     std::vector<io::BouncePoint> points;
     const double share = double(samples.samples.size()) / count;
     for (uint32_t i = 0; i < count; ++i) {
-        const size_t at = size_t((i + 0.5) * share);
+        const size_t begin = size_t(i * share), end = size_t((i + 1) * share);
         double area = 0;
-        for (size_t k = size_t(i * share), end = size_t((i + 1) * share); k < end; ++k)
-            area += double(samples.pointAreas[samples.samples[k].instance]);
+        for (size_t k = begin; k < end; ++k)
+            if (isThere(samples.samples[k])) area += double(samples.pointAreas[samples.samples[k].instance]);
+        const size_t at = nearestThere(samples.samples, size_t((i + 0.5) * share), begin, end);
+        if (!isThere(samples.samples[at])) {
+            points.push_back({.area = 0});
+            continue;
+        }
         const io::SurfaceSample& s = samples.samples[at];
         const bool deformed = bool(instances[s.instance].deformed);
         const bool cutOut =

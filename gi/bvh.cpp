@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+
+#include "gi/morton.h"
 
 namespace ag::gi {
 namespace {
@@ -114,13 +117,81 @@ class Builder {
     Bvh& bvh_;
 };
 
-}  // namespace
+struct CurvePlace {
+    uint32_t code, item;
+};
 
-Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems) {
-    Bvh bvh;
+// Leaves of one item, halves where the curve's codes first differ.
+class CurveBuilder {
+  public:
+    CurveBuilder(std::span<const Bounds> items, std::span<const CurvePlace> places, Bvh& bvh)
+        : items_(items), places_(places), bvh_(bvh) {}
+
+    Bounds build(uint32_t first, uint32_t count) {
+        const auto node = uint32_t(bvh_.nodes.size());
+        bvh_.nodes.emplace_back();
+        Bounds bounds;
+        if (count == 1) {
+            bounds = items_[places_[first].item];
+            bvh_.nodes[node].first = first;
+            bvh_.nodes[node].count = 1;
+        } else {
+            const uint32_t left = divide(first, count);
+            bounds = build(first, left);
+            bounds.add(build(first + left, count - left));
+        }
+        bvh_.nodes[node].bounds = bounds;
+        bvh_.nodes[node].next = uint32_t(bvh_.nodes.size());
+        return bounds;
+    }
+
+  private:
+    uint32_t divide(uint32_t first, uint32_t count) const {
+        const uint32_t differs = places_[first].code ^ places_[first + count - 1].code;
+        if (differs == 0) return count / 2;
+        const uint32_t bit = std::bit_floor(differs);
+        const auto range = places_.subspan(first, count);
+        const auto right =
+            std::ranges::partition_point(range, [&](const CurvePlace& p) { return !(p.code & bit); });
+        return uint32_t(right - range.begin());
+    }
+
+    std::span<const Bounds> items_;
+    std::span<const CurvePlace> places_;
+    Bvh& bvh_;
+};
+
+// Those that are neither empty nor beyond all numbers.
+std::vector<uint32_t> soundOnes(std::span<const Bounds> items) {
+    std::vector<uint32_t> sound;
     for (uint32_t i = 0; i < items.size(); ++i)
         if (!items[i].empty() && std::isfinite(glm::dot(items[i].min, items[i].min) + halfArea(items[i])))
-            bvh.order.push_back(i);
+            sound.push_back(i);
+    return sound;
+}
+
+}  // namespace
+
+Bvh buildBvhAlongCurve(std::span<const Bounds> items) {
+    Bvh bvh{.order = soundOnes(items)};
+    if (bvh.order.empty()) return bvh;
+    Bounds all;
+    for (const uint32_t i : bvh.order)
+        all.add(items[i]);
+    std::vector<CurvePlace> places;
+    places.reserve(bvh.order.size());
+    for (const uint32_t i : bvh.order)
+        places.push_back({mortonCode(0.5f * (items[i].min + items[i].max), all), i});
+    std::ranges::sort(places, {}, [](const CurvePlace& p) { return uint64_t(p.code) << 32 | p.item; });
+    bvh.nodes.reserve(2 * places.size());
+    CurveBuilder(items, places, bvh).build(0, uint32_t(places.size()));
+    for (size_t i = 0; i < places.size(); ++i)
+        bvh.order[i] = places[i].item;
+    return bvh;
+}
+
+Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems) {
+    Bvh bvh{.order = soundOnes(items)};
     if (bvh.order.empty()) return bvh;
     bvh.nodes.reserve(2 * bvh.order.size());
     Builder(items, leafItems, bvh).build(0, uint32_t(bvh.order.size()));

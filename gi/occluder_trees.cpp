@@ -11,6 +11,7 @@ namespace ag::gi {
 namespace {
 
 constexpr uint32_t kLeafTriangles = 4;
+constexpr size_t kMostSorted = 512;  // movers whose tree is worth building well in every frame
 
 struct Triangle {
     std::array<glm::vec3, 3> corners;
@@ -147,13 +148,13 @@ OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of) {
     trees.ofMesh.resize(scene.meshes.size());
     std::vector<Triangle> triangles;
     for (const SampledInstance& instance : scene.instances)
-        if (!instance.movable)
+        if (instance.isPresent && !instance.movable)
             appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions,
                             instance.worldFromLocal, triangles);
     trees.everythingStatic = append(trees, triangles);
     if (of == TreesOf::kStatic) return trees;
     for (const SampledInstance& instance : scene.instances) {
-        if (!instance.movable || !trees.ofMesh[instance.mesh].empty()) continue;
+        if (!instance.isPresent || !instance.movable || !trees.ofMesh[instance.mesh].empty()) continue;
         triangles.clear();
         appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions, glm::mat4x3(1),
                         triangles);
@@ -169,7 +170,7 @@ MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance
     std::vector<const SampledInstance*> movers;
     std::vector<Bounds> boxes;
     for (const SampledInstance& instance : instances) {
-        if (!instance.movable || trees.ofMesh[instance.mesh].empty()) continue;
+        if (!instance.isPresent || !instance.movable || trees.ofMesh[instance.mesh].empty()) continue;
         const Bounds box = transformed(instance.worldFromLocal, trees.ofMesh[instance.mesh].bounds);
         if (!std::isfinite(glm::length(box.max - box.min)) ||
             std::abs(glm::determinant(glm::mat3(instance.worldFromLocal))) < 1e-30f)
@@ -177,7 +178,7 @@ MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance
         movers.push_back(&instance);
         boxes.push_back(box);
     }
-    const Bvh bvh = buildBvh(boxes, 1);
+    const Bvh bvh = boxes.size() > kMostSorted ? buildBvhAlongCurve(boxes) : buildBvh(boxes, 1);
     if (bvh.nodes.empty()) return result;
     const TreeRange range{0, uint32_t(bvh.nodes.size()), bvh.nodes[0].bounds};
     const Grid grid(range.bounds);

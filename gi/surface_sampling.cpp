@@ -11,6 +11,7 @@
 
 #include "common/sampling.h"
 #include "engine/core/hash.h"
+#include "gi/morton.h"
 
 namespace ag::gi {
 namespace {
@@ -97,27 +98,14 @@ struct CurveTriangle {
 constexpr uint32_t kLeastPoints =
     24;  // of an instance: small things would else be a disk larger than they are
 
-// Every third bit of 30 from ten.
-uint32_t spreadThird(uint32_t x) {
-    x = (x | x << 16) & 0x030000ffu;
-    x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
-}
-
-uint32_t mortonCode(glm::vec3 p, const Bounds& bounds) {
-    const glm::vec3 size = glm::max(bounds.max - bounds.min, glm::vec3(1e-6f));
-    const glm::uvec3 cell(glm::clamp((p - bounds.min) / size, 0.0f, 1.0f) * 1023.0f);
-    return spreadThird(cell.x) | spreadThird(cell.y) << 1 | spreadThird(cell.z) << 2;
-}
-
 // All that block light, movable or not, neighbours in space near each other.
 std::vector<CurveTriangle> curveOf(const SampledScene& scene, bool movable) {
     std::vector<CurveTriangle> curve;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const SampledInstance& instance = scene.instances[i];
+        if (!instance.isPresent || instance.movable != movable) continue;
         const SampledMesh& mesh = scene.meshes[instance.mesh];
-        if (!mesh.blocksLight || instance.movable != movable) continue;
+        if (!mesh.blocksLight) continue;
         const Strided<glm::vec3>& vertices = instance.deformed ? instance.deformed : mesh.positions;
         for (uint32_t t = 0; t < triangleCount(mesh); ++t) {
             const auto w = worldCorners(instance, cornersAmong(vertices, mesh, t));

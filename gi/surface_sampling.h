@@ -24,6 +24,7 @@ struct SampledInstance {
     glm::mat4x3 worldFromLocal{1};
     uint32_t mesh = 0;
     bool movable = false;
+    bool isPresent = true;  // else it has no surface
     // Of an instance that is bent by joints: its vertices as they are now, and where its mesh's index 0 lies
     // among the device's deformed ones.
     Strided<glm::vec3> deformed;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
+#include <functional>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -64,89 +65,116 @@ void ViewDraws::add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, 
     rows.push_back(row);
 }
 
-void DrawLists::rebuildBuckets(const RenderScene& scene) {
-    const GeometryArrays& geometry = *scene.geometry;
-    const size_t count = scene.instances.size();
+void DrawLists::startAnew(uint64_t geometryVersion) {
+    geometryVersion_ = geometryVersion;
     buckets_.clear();
-    instanceBucket_.resize(count);
-    instancePrimitive_.resize(count);
-    instanceSkinnedMesh_.resize(count);
-    instanceMovable_.resize(count);
-    for (size_t i = 0; i < count; ++i) {
-        const RenderInstance& instance = scene.instances[i];
-        instancePrimitive_[i] = instance.primitive;
-        instanceSkinnedMesh_[i] = instance.skinnedMesh;
-        instanceMovable_[i] = instance.movable;
-        const Material& material = geometry.materials[geometry.primitives[instance.primitive].material];
-        const DrawBucket bucket = bucketOf(material, instance);
-        const auto found = std::find(buckets_.begin(), buckets_.end(), bucket);
-        instanceBucket_[i] = uint32_t(found - buckets_.begin());
-        if (found == buckets_.end()) buckets_.push_back(bucket);
-    }
-    rankInstances(scene);
-    bounds_.resize(count);
-    transformHash_.resize(count);
+    kinds_.clear();
+    rankOf_.clear();
+    order_.clear();
+    firstBlended_ = 0;
     views_.clear();
     commandPool_.clear();
     rowPool_.clear();
     ++generation_;
 }
 
-void DrawLists::rankInstances(const RenderScene& scene) {
-    const uint32_t count = uint32_t(scene.instances.size());
-    order_.resize(count);
-    std::iota(order_.begin(), order_.end(), 0u);
-    const auto key = [&](uint32_t i) {
-        const uint32_t bucket = instanceBucket_[i];
-        return std::tuple(buckets_[bucket].blended, bucket, instanceMovable_[i], instancePrimitive_[i], i);
-    };
-    std::ranges::sort(order_, {}, key);
-    rankOf_.resize(count);
-    for (uint32_t rank = 0; rank < count; ++rank)
-        rankOf_[order_[rank]] = rank;
-    const auto blended = [&](uint32_t bucket) { return buckets_[bucket].blended; };
-    firstBlended_ = count - uint32_t(std::ranges::count_if(instanceBucket_, blended));
+uint32_t DrawLists::bucketIndex(const DrawBucket& bucket) {
+    const auto found = std::find(buckets_.begin(), buckets_.end(), bucket);
+    const auto index = uint32_t(found - buckets_.begin());
+    if (found != buckets_.end()) return index;
+    buckets_.push_back(bucket);
+    for (View& view : views_)
+        view.draws.buckets.resize(buckets_.size());
+    return index;
 }
 
-// False if an instance was turned over or changed its layer: its rank is another one now.
-bool DrawLists::refreshBounds(const RenderScene& scene, bool all) {
-    bool inPlace = true;
-    changed_.assign((scene.instances.size() + 63) / 64, 0);
-    const auto refresh = [&](uint32_t begin, uint32_t end) {
-        for (uint32_t i = begin; i < end; ++i) {
+DrawLists::Kind DrawLists::kindOf(const RenderScene& scene, const RenderInstance& instance) {
+    if (!instance.isPresent()) return {};
+    const GeometryArrays& g = *scene.geometry;
+    const Material& material = g.materials[g.primitives[instance.primitive].material];
+    return {bucketIndex(bucketOf(material, instance)), instance.primitive, instance.skinnedMesh,
+            instance.movable};
+}
+
+// The others keep their order. `rows`, ascending: those of another kind than they were, or that came or went.
+void DrawLists::rankAnew(std::span<const uint32_t> rows) {
+    const auto key = [&](uint32_t i) {
+        const Kind& k = kinds_[i];
+        return std::tuple(buckets_[k.bucket].blended, k.bucket, k.movable, k.primitive, i);
+    };
+    std::vector<uint32_t> arrived;
+    std::vector<bool> leaves(kinds_.size(), false);
+    for (const uint32_t row : rows) {
+        leaves[row] = true;
+        if (kinds_[row].bucket != kNoBucket) arrived.push_back(row);
+    }
+    std::ranges::sort(arrived, {}, key);
+    std::swap(order_, orderBefore_);
+    std::vector<uint32_t> order = orderBefore_;
+    std::erase_if(order, [&](uint32_t i) { return leaves[i]; });
+    order_.clear();
+    std::ranges::merge(order, arrived, std::back_inserter(order_), {}, key, key);
+    const auto blended = [&](uint32_t i) { return buckets_[kinds_[i].bucket].blended; };
+    firstBlended_ = uint32_t(std::ranges::partition_point(order_, std::not_fn(blended)) - order_.begin());
+    moveToRanks(orderBefore_);
+}
+
+// What is kept by rank, from the ranks it had in `before` to those it has now.
+void DrawLists::moveToRanks(const std::vector<uint32_t>& before) {
+    InstanceBounds bounds;
+    bounds.resize(order_.size());
+    std::vector<uint64_t> hashes(order_.size(), 0);
+    for (uint32_t rank = 0; rank < order_.size(); ++rank) {
+        const uint32_t old = rankOf_[order_[rank]];
+        if (old >= before.size() || before[old] != order_[rank]) continue;
+        bounds.copy(rank, bounds_, old);
+        hashes[rank] = transformHash_[old];
+    }
+    for (uint32_t rank = 0; rank < order_.size(); ++rank)
+        rankOf_[order_[rank]] = rank;
+    std::swap(bounds_, bounds);
+    std::swap(transformHash_, hashes);
+    changed_.assign((order_.size() + 63) / 64, ~uint64_t(0));
+}
+
+void DrawLists::refreshBounds(const RenderScene& scene, std::span<const RenderScene::Range> rows) {
+    for (const RenderScene::Range& range : rows)
+        for (uint32_t i = range.begin; i < range.end; ++i) {
             const RenderInstance& instance = scene.instances[i];
+            if (!instance.isPresent()) continue;
             const uint32_t rank = rankOf_[i];
             bounds_.set(rank, instance, boundsLocal(scene, instance));
             transformHash_[rank] = shapeHash(scene, instance);
             changed_[rank / 64] |= uint64_t(1) << (rank % 64);
-            inPlace &= bool(instanceMovable_[i]) == instance.movable;
-            inPlace &= buckets_[instanceBucket_[i]].mirrored == isMirrored(instance);
         }
-    };
-    if (all || scene.allInstancesChanged)
-        refresh(0, uint32_t(scene.instances.size()));
-    else
-        for (const RenderScene::Range& range : scene.changedInstances)
-            refresh(range.begin, range.end);
     bounds_.fold(changed_, *jobs_);
-    return inPlace;
 }
 
 void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
     jobs_ = &jobs;
-    bool regroup =
-        geometryVersion_ != scene.geometry->version || instanceBucket_.size() != scene.instances.size();
-    if (instancesVersion_ != scene.instancesVersion && !regroup)
-        for (size_t i = 0; i < scene.instances.size() && !regroup; ++i)
-            regroup = instancePrimitive_[i] != scene.instances[i].primitive ||
-                      instanceSkinnedMesh_[i] != scene.instances[i].skinnedMesh;
-    if (regroup) rebuildBuckets(scene);
-    const bool all = regroup || scene.instancesVersion != instancesVersion_ + 1;
-    if ((regroup || instancesVersion_ != scene.instancesVersion) && !refreshBounds(scene, all)) {
-        rebuildBuckets(scene);
-        refreshBounds(scene, true);
+    if (geometryVersion_ != scene.geometry->version || kinds_.size() > scene.instances.size()) {
+        startAnew(scene.geometry->version);
+        instancesVersion_ = 0;
     }
-    geometryVersion_ = scene.geometry->version;
+    if (instancesVersion_ == scene.instancesVersion) return;
+    const bool all =
+        scene.allInstancesChanged || scene.instancesVersion != instancesVersion_ + 1 || kinds_.empty();
+    const RenderScene::Range every{0, uint32_t(scene.instances.size())};
+    const std::span<const RenderScene::Range> rows =
+        all ? std::span(&every, 1) : std::span(scene.changedInstances);
+    kinds_.resize(scene.instances.size());
+    rankOf_.resize(scene.instances.size(), ~0u);
+    std::vector<uint32_t> others;
+    for (const RenderScene::Range& range : rows)
+        for (uint32_t i = range.begin; i < range.end; ++i) {
+            const Kind kind = kindOf(scene, scene.instances[i]);
+            if (kind == kinds_[i]) continue;
+            kinds_[i] = kind;
+            others.push_back(i);
+        }
+    changed_.assign((order_.size() + 63) / 64, 0);
+    if (!others.empty()) rankAnew(others);
+    refreshBounds(scene, rows);
     instancesVersion_ = scene.instancesVersion;
 }
 
@@ -156,7 +184,7 @@ void DrawLists::ensureView(uint32_t slot) {
 }
 
 void DrawLists::cullAll(const RenderScene& scene, std::span<const ViewRequest> views) {
-    if (views.size() * instanceBucket_.size() < kWorthJobs) return;  // cull() does it
+    if (views.size() * order_.size() < kWorthJobs) return;  // cull() does it
     for (const ViewRequest& view : views)
         ensureView(view.slot);
     jobs_->parallelFor(uint32_t(views.size()), 1, [&](uint32_t begin, uint32_t end) {
@@ -203,7 +231,7 @@ void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks r
     ViewDraws& draws = view.draws;
     draws.commands.clear();
     draws.rows.clear();
-    std::ranges::fill(draws.buckets, BucketRange{});
+    draws.buckets.assign(buckets_.size(), {});
     draws.staticVersion = draws.movableVersion = combineHash(geometryVersion_, generation_);
     for (uint32_t word = ranks.begin / 64; word < seenBy.inSight.size(); ++word)
         for (uint64_t bits = seenBy.inSight[word]; bits; bits &= bits - 1) {
@@ -211,11 +239,11 @@ void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks r
             if (rank >= ranks.end) return;
             if (rank < ranks.begin || beyondFar(bounds_.of(rank), seenBy.clipFromWorld)) continue;
             const uint32_t i = order_[rank];
-            const Primitive& p = scene.geometry->primitives[instancePrimitive_[i]];
+            const Kind& kind = kinds_[i];
+            const Primitive& p = scene.geometry->primitives[kind.primitive];
             const int32_t firstVertex = firstVertexOf(scene, scene.instances[i]);
-            draws.add(instanceBucket_[i], {p.indexCount, 1, p.firstIndex, firstVertex, 0}, i,
-                      instanceMovable_[i]);
-            uint64_t& version = instanceMovable_[i] ? draws.movableVersion : draws.staticVersion;
+            draws.add(kind.bucket, {p.indexCount, 1, p.firstIndex, firstVertex, 0}, i, kind.movable);
+            uint64_t& version = kind.movable ? draws.movableVersion : draws.staticVersion;
             version = combineHash(combineHash(version, i), transformHash_[rank]);
         }
 }

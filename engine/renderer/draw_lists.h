@@ -104,9 +104,20 @@ class DrawLists {
         bool dirty = true;
         std::vector<uint64_t> inSight;  // a bit a rank
     };
-    void rebuildBuckets(const RenderScene& scene);
-    void rankInstances(const RenderScene& scene);
-    bool refreshBounds(const RenderScene& scene, bool all);
+    // What an instance's place among the ranks follows from.
+    struct Kind {
+        uint32_t bucket = kNoBucket;  // none: nothing stands in the row
+        uint32_t primitive = 0, skinnedMesh = 0;
+        bool movable = false;
+        bool operator==(const Kind&) const = default;
+    };
+    static constexpr uint32_t kNoBucket = ~0u;
+    void startAnew(uint64_t geometryVersion);
+    uint32_t bucketIndex(const DrawBucket& bucket);
+    Kind kindOf(const RenderScene& scene, const RenderInstance& instance);
+    void rankAnew(std::span<const uint32_t> rows);
+    void moveToRanks(const std::vector<uint32_t>& order);
+    void refreshBounds(const RenderScene& scene, std::span<const RenderScene::Range> rows);
     void ensureView(uint32_t slot);
     void cullView(const RenderScene& scene, const ViewRequest& request);
     struct Ranks {
@@ -118,14 +129,12 @@ class DrawLists {
     void place(View& view);
 
     std::vector<DrawBucket> buckets_;
-    // By instance.
-    std::vector<uint32_t> instanceBucket_;
-    std::vector<uint32_t> instancePrimitive_, instanceSkinnedMesh_;
-    std::vector<uint8_t> instanceMovable_;
-    std::vector<uint32_t> rankOf_;
-    // By rank: instances in the order of buckets, layers and primitives. Blended ones come last.
-    std::vector<uint32_t> order_;
-    uint32_t firstBlended_ = 0;  // rank
+    std::vector<Kind> kinds_;       // by instance
+    std::vector<uint32_t> rankOf_;  // likewise
+    // By rank: instances that there are, in the order of buckets, layers and primitives. Blended ones come
+    // last.
+    std::vector<uint32_t> order_, orderBefore_;  // the latter: scratch
+    uint32_t firstBlended_ = 0;                  // rank
     InstanceBounds bounds_;
     std::vector<uint64_t> changed_;  // a bit a rank whose bounds were set anew
     std::vector<uint64_t> transformHash_;
@@ -134,7 +143,7 @@ class DrawLists {
     JobRunner* jobs_ = nullptr;
     uint64_t geometryVersion_ = 0;
     uint64_t instancesVersion_ = 0;
-    uint64_t generation_ = 0;  // counts bucket rebuilds
+    uint64_t generation_ = 0;  // counts scenes
 };
 
 }  // namespace ag::render

@@ -26,6 +26,7 @@ gi::MovedThing ballRound(uint32_t row, const Bounds& b) {
 
 void listMoved(const SceneView& scene, std::vector<gi::MovedThing>& moved) {
     moved.clear();
+    if (scene.replaced) return;
     uint32_t count = 0;
     for (const RenderScene::Range& range : scene.moved)
         count += range.end - range.begin;
@@ -38,20 +39,14 @@ void listMoved(const SceneView& scene, std::vector<gi::MovedThing>& moved) {
 }  // namespace
 
 gi::Occluders occludersOf(const SceneView& scene) {
-    return {.instances = scene.instances,
-            .samples = scene.surfaceSamples,
-            .pointAreas = scene.pointAreas,
-            .sampleCount = scene.surfaceSampleCount,
-            .staticSampleCount = scene.staticSampleCount,
-            .bouncePoints = scene.bouncePoints,
-            .bouncePointCount = scene.bouncePointCount,
-            .emissivePointCount = scene.emissivePointCount,
-            .emissiveFlux = scene.emissiveFlux,
-            .deformedPositions = scene.skin.deformedPositions,
-            .deformedAttributes = scene.skin.deformedAttributes,
-            .trees = scene.trees,
-            .staticVersion = scene.staticVersion,
-            .extent = scene.extent};
+    gi::Occluders o = scene.points;
+    o.instances = scene.instances;
+    o.deformedPositions = scene.skin.deformedPositions;
+    o.deformedAttributes = scene.skin.deformedAttributes;
+    o.trees = scene.trees;
+    o.staticVersion = scene.staticVersion;
+    o.extent = scene.extent;
+    return o;
 }
 
 namespace {

@@ -7,8 +7,7 @@ namespace ag::render {
 
 void RangePool::fit(Range& range, uint32_t count) {
     if (count <= range.capacity && (range.capacity <= 1u << kLeastLog || count > range.capacity / 4)) return;
-    if (range.capacity > 0) free_[uint32_t(std::countr_zero(range.capacity))].push_back(range.first);
-    range = {};
+    release(range);
     if (count == 0) return;
     const uint32_t log = std::max(kLeastLog, uint32_t(std::bit_width(count - 1)));
     range.capacity = 1u << log;
@@ -20,6 +19,11 @@ void RangePool::fit(Range& range, uint32_t count) {
         range.first = given.back();
         given.pop_back();
     }
+}
+
+void RangePool::release(Range& range) {
+    if (range.capacity > 0) free_[uint32_t(std::countr_zero(range.capacity))].push_back(range.first);
+    range = {};
 }
 
 }  // namespace ag::render

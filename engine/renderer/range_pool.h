@@ -16,6 +16,7 @@ class RangePool {
     };
     // Room for `count` elements: the same range as long as it holds them and at least a quarter is used.
     void fit(Range& range, uint32_t count);
+    void release(Range& range);              // now, however small it is
     uint32_t size() const { return size_; }  // of the array
     void clear() { *this = {}; }
 

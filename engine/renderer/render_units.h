@@ -13,7 +13,8 @@ using gi::RenderUnits;
 RenderUnits chooseUnits(const RenderScene& scene, float emission, RenderUnits before);
 
 // `scene` in those units. Exact but for numbers that leave the range of floats. `generation` counts the
-// changes of units: versions of different ones differ.
+// changes of units: versions of different ones differ. Where `out` is the scene of the frame before,
+// only what changed is written.
 void inUnits(const RenderScene& scene, RenderUnits units, uint64_t generation, RenderScene& out);
 
 }  // namespace ag::render

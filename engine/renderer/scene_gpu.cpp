@@ -6,18 +6,14 @@
 #include "engine/core/hash.h"
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/light_clusters.h"
-#include "engine/renderer/scene_surfaces.h"
 #include "gi/surfaces.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
 
 namespace ag::render {
 namespace {
 
-constexpr uint32_t kSurfaceSamples = 1u << 17;  // over the whole scene
-constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounces on
-constexpr uint32_t kEmissivePoints = 1u << 12;  // on emissive surfaces
-
 io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& geometry) {
+    if (!instance.isPresent()) return {.ids = {0, 0, kNoSkinnedMesh, 0}};
     const glm::mat3x4 rows = glm::transpose(instance.worldFromLocal);
     return {.worldFromLocal0 = rows[0],
             .worldFromLocal1 = rows[1],
@@ -26,15 +22,19 @@ io::Instance instanceRow(const RenderInstance& instance, const GeometryArrays& g
                     instance.skinnedMesh, 0}};
 }
 
-// Which instances there are, wherever they stand.
-uint64_t instanceSet(const RenderScene& scene) {
-    uint64_t hash = scene.geometry->version;
-    for (const RenderInstance& instance : scene.instances)
-        hash =
-            combineHash(combineHash(hash, instance.primitive * 2 + instance.movable), instance.skinnedMesh);
-    for (const RenderSkinnedMesh& skinnedMesh : scene.skinnedMeshes)
-        hash = combineHash(combineHash(hash, skinnedMesh.firstDeformed), skinnedMesh.firstVertex);
-    return hash;
+// Of the rows that changed those whose thing was there before: in `scratch`.
+std::span<const RenderScene::Range> stillThere(const RenderScene& scene,
+                                               std::vector<RenderScene::Range>& scratch) {
+    scratch.clear();
+    auto replaced = scene.replacedInstances.begin();
+    for (RenderScene::Range range : scene.changedInstances) {
+        for (; replaced != scene.replacedInstances.end() && replaced->begin < range.end; ++replaced) {
+            if (range.begin < replaced->begin) scratch.push_back({range.begin, replaced->begin});
+            range.begin = replaced->end;
+        }
+        if (range.begin < range.end) scratch.push_back(range);
+    }
+    return scratch;
 }
 
 enum class Transfer { kBefore, kBetweenCopies, kAfter };
@@ -53,7 +53,8 @@ void transferBarrier(const gpu::Functions& vk, VkCommandBuffer commands, Transfe
 
 }  // namespace
 
-SceneGpu::SceneGpu(gpu::Device& device) : device_(device), skin_(device), trees_(device), sky_(device) {}
+SceneGpu::SceneGpu(gpu::Device& device)
+    : device_(device), skin_(device), trees_(device), points_(device), sky_(device) {}
 SceneGpu::~SceneGpu() {
     device_.waitIdle();
 }
@@ -66,6 +67,7 @@ void SceneGpu::load(const GeometryArrays& geometry) {
         gpu::loadBuffer(device_, {.name = "scene.attributes", .vertexOrIndex = true}, geometry.attributes);
     indices_ = gpu::loadBuffer(device_, {.name = "scene.indices", .vertexOrIndex = true}, geometry.indices);
     skin_.load(geometry);
+    points_.load(geometry);
     ++loads_;
     noteTextures(geometry);
     loadTextures(geometry);
@@ -108,43 +110,12 @@ void SceneGpu::reserveDraws(const RenderScene& scene) {
     if (commands_.get() != commandsBefore || drawnRows_.get() != rowsBefore) draws_.markAllDirty();
 }
 
-// Points stay on their instances while these move; they are chosen anew when instances come or go.
-void SceneGpu::sampleSurfacesAnew(const RenderScene& scene, bool wholeMaterials) {
-    if (wholeMaterials != sampledWhole_ && hasGlossy_) sampledVersion_ = sampledSet_ = 0;
-    sampledWhole_ = wholeMaterials;
-    const bool mayDiffer = scene.allInstancesChanged || sampledVersion_ == 0;
-    if (sampledVersion_ == scene.instancesVersion || !mayDiffer) return;
-    sampledVersion_ = scene.instancesVersion;
-    const uint64_t set = instanceSet(scene);
-    if (set == sampledSet_) return;
-    sampledSet_ = set;
-    const gi::SurfaceSamples chosen = sampleSurfaces(scene, kSurfaceSamples);
-    sampleCount_ = uint32_t(chosen.samples.size());
-    staticSampleCount_ = chosen.staticCount;
-    for (auto* old : {&samples_, &pointAreas_, &bouncePoints_})
-        gpu::retire(device_, std::move(*old));
-    bouncePointCount_ = emissivePointCount_ = 0;
-    emissiveFlux_ = 0;
-    if (sampleCount_ == 0) return;
-    samples_ = gpu::loadBuffer(device_, {.name = "scene.surface_samples", .texelFormat = gpu::kVec4Texels},
-                               chosen.samples);
-    pointAreas_ = gpu::loadBuffer(device_, {.name = "scene.point_areas", .texelFormat = VK_FORMAT_R32_SFLOAT},
-                                  chosen.pointAreas);
-    auto points = chooseBouncePoints(scene, chosen, kBouncePoints, wholeMaterials);
-    bouncePointCount_ = uint32_t(points.size());
-    const auto shining = chooseEmissivePoints(scene, kEmissivePoints, lightUnit_);
-    emissivePointCount_ = uint32_t(shining.size());
-    emissiveFlux_ = gi::emittedFlux(shining);
-    points.insert(points.end(), shining.begin(), shining.end());
-    bouncePoints_ = gpu::loadBuffer(device_, {.name = "scene.bounce_points"}, points);
-}
-
 void SceneGpu::noteMovements(const RenderScene& scene) {
     if (notedVersion_ == scene.instancesVersion) return;
     bool moved = scene.allInstancesChanged || notedVersion_ + 1 != scene.instancesVersion;
     for (const RenderScene::Range& range : scene.changedInstances)
         for (uint32_t i = range.begin; i < range.end && !moved; ++i)
-            moved = !scene.instances[i].movable;
+            moved = scene.instances[i].isPresent() && !scene.instances[i].movable;
     if (moved) ++staticVersion_;
     notedVersion_ = scene.instancesVersion;
 }
@@ -167,7 +138,7 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
     AG_CHECK_MSG(positions_ && scene.geometry->version == geometryVersion_,
                  "load() the scene's geometry first");
     reserveBuffers(scene);
-    sampleSurfacesAnew(scene, wholeMaterials);
+    points_.update(scene, wholeMaterials, lightUnit_);
     noteMovements(scene);
     SceneView view{.scene = &scene,
                    .draws = &draws_,
@@ -188,7 +159,11 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
     view.previousInstances = scope.importBuffer("scene.previous_instances", *previousInstances_, 1);
     const bool follows = !scene.allInstancesChanged && instancesVersion_ != 0 &&
                          instancesVersion_ + 1 == scene.instancesVersion;
-    if (follows) view.moved = scene.changedInstances;
+    if (follows && scene.replacedInstances.empty())
+        view.moved = scene.changedInstances;
+    else if (follows)
+        view.moved = stillThere(scene, moved_);
+    view.replaced = !follows || !scene.replacedInstances.empty();
     view.commands = scope.importBuffer("scene.commands", *commands_, 1);
     view.drawnRows = scope.importBuffer("scene.drawn_rows", *drawnRows_, 1);
     view.materials = scope.importBuffer("scene.materials", *materials_, materialsVersion_);
@@ -200,18 +175,9 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
         view.srgbTextures[c] = scope.importImage(kSrgbNames[c], *srgb_[c], geometryVersion_);
         view.linearTextures[c] = scope.importImage(kLinearNames[c], *linear_[c], geometryVersion_);
     }
-    if (sampleCount_ > 0) {
-        view.pointAreas = scope.importBuffer("scene.point_areas", *pointAreas_, sampledSet_);
-        view.surfaceSamples = scope.importBuffer("scene.surface_samples", *samples_, sampledSet_);
-        view.surfaceSampleCount = sampleCount_;
-        view.bouncePoints = scope.importBuffer("scene.bounce_points", *bouncePoints_,
-                                               combineHash(sampledSet_, uint64_t(sampledWhole_)));
-        view.bouncePointCount = bouncePointCount_;
-        view.emissivePointCount = emissivePointCount_;
-        view.emissiveFlux = emissiveFlux_;
-        view.staticSampleCount = staticSampleCount_;
-        view.staticVersion = combineHash(combineHash(sampledSet_, staticVersion_), scene.originVersion);
-    }
+    points_.import(scope, view.points);
+    view.staticVersion =
+        combineHash(combineHash(points_.staticVersion(), staticVersion_), scene.originVersion);
     if (traced)
         view.trees =
             trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion), *traced);
@@ -300,6 +266,7 @@ void SceneGpu::upload(VkCommandBuffer commands, FrameGraph& graph, const SceneVi
     };
     if (view.skin) skin_.upload(scene, send);
     if (view.trees) trees_.upload(send);
+    points_.upload(send);
     reserveDraws(scene);
     graph.rebind(view.commands, *commands_);
     graph.rebind(view.drawnRows, *drawnRows_);
@@ -311,10 +278,9 @@ void SceneGpu::upload(VkCommandBuffer commands, FrameGraph& graph, const SceneVi
 uint64_t SceneGpu::deviceBytes() const {
     uint64_t bytes = 0;
     for (const auto* buffer : {positions_.get(), attributes_.get(), indices_.get(), materials_.get(),
-                               instances_.get(), previousInstances_.get(), commands_.get(), drawnRows_.get(),
-                               samples_.get(), pointAreas_.get(), bouncePoints_.get()})
+                               instances_.get(), previousInstances_.get(), commands_.get(), drawnRows_.get()})
         if (buffer) bytes += buffer->sizeBytes();
-    return bytes + skin_.deviceBytes() + trees_.deviceBytes() + sky_.deviceBytes();
+    return bytes + skin_.deviceBytes() + points_.deviceBytes() + trees_.deviceBytes() + sky_.deviceBytes();
 }
 
 }  // namespace ag::render

@@ -15,6 +15,7 @@
 #include "engine/renderer/draw_lists.h"
 #include "engine/renderer/pixel_grid.h"
 #include "engine/renderer/render_units.h"
+#include "engine/renderer/scene_points.h"
 #include "engine/renderer/scene_trees.h"
 #include "engine/renderer/skinning.h"
 #include "engine/renderer/sky_gpu.h"
@@ -44,7 +45,8 @@ struct SceneView {
     BufferHandle instances;          // io::Instance rows; versions are the draws' (see DrawLists)
     BufferHandle previousInstances;  // the rows of `moved` as they were in the frame before
     std::span<const RenderScene::Range>
-        moved;  // rows that stood elsewhere then; others are new or did not move
+        moved;              // rows that stood elsewhere then; others are new or did not move
+    bool replaced = false;  // something came or went, too, or nobody knows what did
     BufferHandle materials;
     BufferHandle camera;     // io::CameraConstants
     BufferHandle commands;   // indirect draws of all views
@@ -59,13 +61,7 @@ struct SceneView {
     float leastRoughness = 1;     // of those that are not
     bool wholeMaterials = false;  // what light goes on from reflects it with its specular lobe, too
     bool hasNormalMaps = false;
-    BufferHandle surfaceSamples;  // io::SurfaceSample; also a texel buffer of vec4
-    BufferHandle pointAreas;      // m² that a sample of each instance stands for: a texel buffer of float
-    uint32_t surfaceSampleCount = 0;  // 0: no surface
-    uint32_t staticSampleCount = 0;   // the first ones are on what is static
-    BufferHandle bouncePoints;        // see gi::Occluders
-    uint32_t bouncePointCount = 0, emissivePointCount = 0;
-    float emissiveFlux = 0;
+    gi::Occluders points;        // of these what points there are
     uint64_t staticVersion = 0;  // changes when an instance that is not movable may have moved
     gi::TracedOccluders trees;   // where asked for
     gi::SkyOnDevice sky;         // none: black
@@ -120,7 +116,6 @@ class SceneGpu {
     void uploadDraws(VkCommandBuffer commands, const ViewDraws& draws, uint32_t frameSlot);
     void reserveBuffers(const RenderScene& scene);
     void reserveDraws(const RenderScene& scene);
-    void sampleSurfacesAnew(const RenderScene& scene, bool wholeMaterials);
     void noteMovements(const RenderScene& scene);
     std::unique_ptr<gpu::Buffer> grown(std::unique_ptr<gpu::Buffer> old, const char* name, uint64_t bytes,
                                        VkFormat texel, bool indirect);
@@ -129,6 +124,7 @@ class SceneGpu {
     DrawLists draws_;
     SkinGpu skin_;
     SceneTrees trees_;
+    ScenePoints points_;
     SkyGpu sky_;
     uint64_t geometryVersion_ = 0, loads_ = 0;
     float strongestEmission_ = 0;
@@ -137,19 +133,14 @@ class SceneGpu {
     float leastRoughness_ = 1;
     // Of a linear layer that is some material's roughness.
     std::array<std::vector<std::optional<uint8_t>>, kTextureClassCount> leastGreen_;
-    bool sampledWhole_ = false;
     std::unique_ptr<gpu::Buffer> positions_, attributes_, indices_, materials_, instances_,
         previousInstances_, commands_, drawnRows_;
     std::array<std::unique_ptr<gpu::Image>, 4> srgb_, linear_;
-    std::unique_ptr<gpu::Buffer> samples_, pointAreas_, bouncePoints_;
-    uint32_t bouncePointCount_ = 0, emissivePointCount_ = 0;
-    float emissiveFlux_ = 0, lightUnit_ = 1;
-    uint32_t sampleCount_ = 0;
-    uint32_t staticSampleCount_ = 0;
+    float lightUnit_ = 1;
     uint64_t staticVersion_ = 0, notedVersion_ = 0;           // notedVersion_: of the instances it is about
-    uint64_t sampledVersion_ = 0, sampledSet_ = 0;            // of the instances the samples are on
     std::vector<io::Instance> rows_;                          // scratch for the conversion
     std::vector<VkDrawIndexedIndirectCommand> viewCommands_;  // scratch
+    std::vector<RenderScene::Range> moved_;                   // scratch: of SceneView
     uint64_t instancesVersion_ = 0;                           // last uploaded
     std::array<Staging, kFramesInFlight> staging_;
     uint64_t uploadedBytes_ = 0;

@@ -63,14 +63,15 @@ std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, Vk
 // Points on surfaces keep their albedo and emission, so they are chosen anew; trees when all is at rest.
 void SceneGpu::changeMaterials(const GeometryArrays& geometry, RenderUnits units) {
     loadMaterials(geometry, units);
-    sampledVersion_ = 0;
+    points_.forget();
     geometryVersion_ = geometry.version;
 }
 
 void SceneGpu::useUnits(const GeometryArrays& geometry, RenderUnits units) {
     loadMaterials(geometry, units);
     lightUnit_ = units.light;
-    instancesVersion_ = sampledVersion_ = sampledSet_ = notedVersion_ = 0;
+    instancesVersion_ = notedVersion_ = 0;
+    points_.forget();
     trees_.forget();
 }
 

@@ -4,6 +4,7 @@
 #include <glm/gtc/color_space.hpp>
 
 #include "common/brdf.h"
+#include "engine/renderer/mesh_points.h"
 #include "engine/scene/deform.h"
 #include "engine/scene/static_scene.h"
 
@@ -105,7 +106,8 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
     for (const RenderInstance& instance : scene.instances) {
         instances.push_back({.worldFromLocal = instance.worldFromLocal,
                              .mesh = instance.primitive,
-                             .movable = instance.movable || instance.skinnedMesh != kNoSkinnedMesh});
+                             .movable = instance.movable || instance.skinnedMesh != kNoSkinnedMesh,
+                             .isPresent = instance.isPresent()});
         if (instance.skinnedMesh == kNoSkinnedMesh || deformed.positions.empty()) continue;
         instances.back().deformed =
             gi::Strided<glm::vec3>::of(verticesOf(scene, deformed, instance).positions);
@@ -142,6 +144,32 @@ std::vector<gi::SampledMesh> emissiveMeshesOf(const GeometryArrays& g) {
 
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count) {
     return withSampledScene(scene, [&](const gi::SampledScene& s) { return gi::sampleSurfaces(s, count); });
+}
+
+std::vector<MeshPoints> sampleMeshes(const GeometryArrays& g) {
+    std::vector<MeshPoints> result;
+    const std::vector<gi::SampledMesh> meshes = meshesOf(g);
+    const auto each = uint32_t(kAllMeshPoints / std::max<size_t>(meshes.size(), 1));
+    const auto cutOut = [&](uint32_t mesh, glm::vec2 uv) {
+        return isCutOut(g, g.materials[g.primitives[mesh].material], uv);
+    };
+    for (uint32_t i = 0; i < meshes.size(); ++i) {
+        const gi::SampledInstance alone{.mesh = i};
+        gi::SurfaceSamples chosen =
+            gi::sampleSurfaces({meshes, std::span(&alone, 1), g.primitives[i].boundsLocal, cutOut},
+                               std::clamp(each, kLeastMeshPoints, kMostMeshPoints));
+        MeshPoints points;
+        if (!chosen.samples.empty()) points.area = chosen.pointAreas[0] * float(chosen.samples.size());
+        points.samples = std::move(chosen.samples);
+        points.uvs = std::move(chosen.uvs);
+        points.tints = std::move(chosen.tints);
+        result.push_back(std::move(points));
+    }
+    return result;
+}
+
+glm::vec3 albedoOf(const RenderScene& scene, uint32_t instance, glm::vec2 uv, bool whole) {
+    return albedoAbout(*scene.geometry, materialOf(scene, instance), uv, whole);
 }
 
 gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of) {

@@ -9,6 +9,7 @@ namespace ag::render {
 
 // See gi/surface_sampling.h, gi/bounce_points.h. Alpha-blended surfaces have no points.
 gi::SurfaceSamples sampleSurfaces(const RenderScene& scene, uint32_t count);
+glm::vec3 albedoOf(const RenderScene& scene, uint32_t instance, glm::vec2 uv, bool whole);
 // `whole`: they reflect what specular lobes do, too.
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
                                                 uint32_t count, bool whole);

@@ -18,11 +18,21 @@ uint64_t builtFrom(const RenderScene& scene, gi::TreesOf of, std::vector<bool>& 
     uint64_t hash = combineHash(scene.geometry->version, uint64_t(of));
     moving.assign(scene.geometry->primitives.size(), false);
     for (const RenderInstance& instance : scene.instances)
-        if (instance.movable || instance.skinnedMesh != kNoSkinnedMesh)
+        if (!instance.isPresent())
+            continue;
+        else if (instance.movable || instance.skinnedMesh != kNoSkinnedMesh)
             moving[instance.primitive] = true;
         else
             hash = combineHash(combineHash(hash, instance.primitive), hashValue(instance.worldFromLocal));
     return of == gi::TreesOf::kStatic ? hash : combineHash(hash, std::hash<std::vector<bool>>{}(moving));
+}
+
+// Whether something moves whose mesh has no tree yet.
+bool movesAnew(const RenderScene& scene, const std::vector<bool>& moving) {
+    if (scene.replacedInstances.empty()) return false;
+    return std::ranges::any_of(scene.instances, [&](const RenderInstance& instance) {
+        return instance.isPresent() && instance.movable && !moving[instance.primitive];
+    });
 }
 
 template <class T>
@@ -62,7 +72,8 @@ void SceneTrees::place(const RenderScene& scene) {
 bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of) {
     if (of_ != of) forget();  // built at once
     of_ = of;
-    if (staticVersion_ != staticVersion) from_ = builtFrom(scene, of, movingPrimitives_);
+    if (staticVersion_ != staticVersion || (of == gi::TreesOf::kAll && movesAnew(scene, movingPrimitives_)))
+        from_ = builtFrom(scene, of, movingPrimitives_);
     staticVersion_ = staticVersion;
     const gi::TreeUpkeep::Task task = upkeep_.next(from_);
     if (task == gi::TreeUpkeep::Task::kBuild) {

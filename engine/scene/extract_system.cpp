@@ -26,40 +26,84 @@ bool followCamera(RenderScene& scene, ExtractState& state, const glm::dvec3& cam
     return moved;
 }
 
-// Numbers the rows anew; true if every entity kept its own.
-bool numberRows(InstanceView& instances, ExtractState& state) {
-    std::swap(state.rows, state.before);
+// A bit more for rows that came to be since.
+void mark(std::vector<uint64_t>& words, uint32_t row) {
+    if (words.size() <= row / 64) words.resize(row / 64 + 1);
+    words[row / 64] |= uint64_t(1) << (row % 64);
+}
+
+void giveBack(InstanceRows::Place& place, ExtractState& state, RenderScene& scene) {
     InstanceRows& rows = state.rows;
-    for (std::vector<uint32_t>& chunks : rows.firstEntity)
-        chunks.clear();
-    rows.entities.clear();
-    rows.firstRow.assign(1, 0);
-    instances.chunks(
-        [&](const RowRun& run, std::span<const WorldTransform>, std::span<const MeshInstance> meshes) {
-            const uint32_t archetype = run.chunk->archetype->index;
-            if (rows.firstEntity.size() <= archetype) rows.firstEntity.resize(archetype + 1);
-            rows.firstEntity[archetype].push_back(uint32_t(rows.entities.size()));
-            rows.entities.insert(rows.entities.end(), run.entities.begin(), run.entities.end());
-            for (const MeshInstance& mesh : meshes)
-                rows.firstRow.push_back(rows.firstRow.back() + mesh.primitiveCount);
-        });
-    return rows.entities == state.before.entities && rows.firstRow == state.before.firstRow;
+    if (rows.free.size() <= place.count) rows.free.resize(place.count + 1);
+    if (place.count > 0) rows.free[place.count].push_back(place.first);
+    for (uint32_t row = place.first; row < place.first + place.count; ++row) {
+        scene.instances[row] = {.primitive = kNoPrimitive};
+        state.bounds.clear(row);
+        mark(state.changed, row);
+        mark(state.replaced, row);
+    }
+    place = {};
+}
+
+void takeRows(Entity entity, uint32_t count, ExtractState& state, RenderScene& scene) {
+    InstanceRows& rows = state.rows;
+    InstanceRows::Place& place = rows.ofEntity[entity.index];
+    place = {entity.generation, rows.end, count, rows.look};
+    if (count < rows.free.size() && !rows.free[count].empty()) {
+        place.first = rows.free[count].back();
+        rows.free[count].pop_back();
+    } else {
+        rows.end += count;
+        scene.instances.resize(rows.end, {.primitive = kNoPrimitive});
+        state.bounds.resize(rows.end);
+    }
+    for (uint32_t row = place.first; row < place.first + count; ++row) {
+        mark(state.changed, row);
+        mark(state.replaced, row);
+    }
+}
+
+// Takes rows back from entities that left or have another number of primitives, and gives rows to those that
+// came.
+void keepRows(InstanceView& instances, ExtractState& state, RenderScene& scene) {
+    InstanceRows& rows = state.rows;
+    ++rows.look;
+    state.arrived.clear();
+    std::vector<uint32_t> counts;
+    instances.each([&](Entity entity, const WorldTransform&, const MeshInstance& mesh) {
+        if (rows.ofEntity.size() <= entity.index) rows.ofEntity.resize(entity.index + 1);
+        InstanceRows::Place& place = rows.ofEntity[entity.index];
+        if (place.count == mesh.primitiveCount && place.generation == entity.generation) {
+            place.look = rows.look;
+        } else {
+            state.arrived.push_back(entity);
+            counts.push_back(mesh.primitiveCount);
+        }
+    });
+    const auto left = [&](Entity entity) {
+        InstanceRows::Place& place = rows.ofEntity[entity.index];
+        if (place.look == rows.look) return false;
+        giveBack(place, state, scene);
+        return true;
+    };
+    std::erase_if(rows.entities, left);
+    for (size_t i = 0; i < counts.size(); ++i)
+        takeRows(state.arrived[i], counts[i], state, scene);
+    rows.entities.insert(rows.entities.end(), state.arrived.begin(), state.arrived.end());
 }
 
 // Writes the rows of a run of entities that differ from what they were, and marks them.
 void writeRows(const RowRun& run, std::span<const WorldTransform> worlds,
                std::span<const MeshInstance> meshes, bool all, ExtractState& state, RenderScene& scene) {
-    const uint32_t first =
-        state.rows.firstEntity[run.chunk->archetype->index][run.chunk->ordinal] + run.first;
     uint64_t bits = 0;
     uint32_t word = 0;
-    const auto flush = [&] {  // other threads mark rows in the first and the last word, too
+    const auto flush = [&] {  // other threads mark rows in the same words, too
         if (bits) std::atomic_ref(state.changed[word]).fetch_or(bits, std::memory_order_relaxed);
         bits = 0;
     };
     for (size_t i = 0; i < worlds.size(); ++i) {
         const glm::mat4x3 matrix = relativeTo(scene.originWorld, worlds[i]);
-        uint32_t row = state.rows.firstRow[first + i];
+        uint32_t row = state.rows.of(run.entities[i]).first;
         for (uint32_t p = 0; p < meshes[i].primitiveCount; ++p, ++row) {
             RenderInstance& instance = scene.instances[row];
             const uint32_t primitive = meshes[i].firstPrimitive + p;
@@ -81,20 +125,17 @@ void writeRows(const RowRun& run, std::span<const WorldTransform> worlds,
 void placeSkinnedMeshes(SkinnedRows& skinnedMeshes, bool all, ExtractState& state, RenderScene& scene) {
     if (skinnedMeshes.count() != state.skinnedMeshes.size()) return;  // nobody poses them
     uint32_t skinnedMesh = 0;
-    skinnedMeshes.chunks([&](const RowRun& run, std::span<const SkinnedMesh>,
-                             std::span<const AnimationPlayer>, std::span<const MeshInstance> meshes) {
-        const uint32_t first =
-            state.rows.firstEntity[run.chunk->archetype->index][run.chunk->ordinal] + run.first;
-        for (size_t i = 0; i < meshes.size(); ++i, ++skinnedMesh)
-            for (uint32_t row = state.rows.firstRow[first + i]; row < state.rows.firstRow[first + i + 1];
-                 ++row) {
-                RenderInstance& instance = scene.instances[row];
-                instance.skinnedMesh = skinnedMesh;
-                const uint64_t bit = uint64_t(1) << (row % 64);
-                if (!all && !state.poseChanged[skinnedMesh] && !(state.changed[row / 64] & bit)) continue;
-                state.bounds.set(row, instance, scene.skinnedMeshes[skinnedMesh].boundsLocal);
-                state.changed[row / 64] |= bit;
-            }
+    skinnedMeshes.each([&](Entity entity, const SkinnedMesh&, const AnimationPlayer&, const MeshInstance&) {
+        const InstanceRows::Place& place = state.rows.of(entity);
+        for (uint32_t row = place.first; row < place.first + place.count; ++row) {
+            RenderInstance& instance = scene.instances[row];
+            instance.skinnedMesh = skinnedMesh;
+            const uint64_t bit = uint64_t(1) << (row % 64);
+            if (!all && !state.poseChanged[skinnedMesh] && !(state.changed[row / 64] & bit)) continue;
+            state.bounds.set(row, instance, scene.skinnedMeshes[skinnedMesh].boundsLocal);
+            state.changed[row / 64] |= bit;
+        }
+        ++skinnedMesh;
     });
 }
 
@@ -113,30 +154,28 @@ void toRanges(std::span<const uint64_t> words, std::vector<RenderScene::Range>& 
         }
 }
 
-// Rows in storage order. If the entities are the ones of before, only rows that differ are written; and if
-// none came, went or got another mesh, only those that moved are looked at.
-void extractInstances(InstanceView& instances, MovedInstances& moved, SkinnedRows& skinnedMeshes,
-                      bool renumber, bool replaced, ExtractState& state, RenderScene& scene,
-                      JobRunner& runner) {
-    const bool same = (!renumber || numberRows(instances, state)) && !replaced;
-    const uint32_t count = state.rows.firstRow.empty() ? 0 : state.rows.firstRow.back();
-    if (!same) {
-        scene.instances.resize(count);
-        state.bounds.resize(count);
-    }
-    state.changed.assign((count + 63) / 64, 0);
+// Only rows that differ are written; if none came, went or got another mesh, only those that moved are looked
+// at.
+void extractInstances(InstanceView& instances, MovedInstances& moved, SkinnedRows& skinnedMeshes, bool others,
+                      bool all, ExtractState& state, RenderScene& scene, JobRunner& runner) {
+    const size_t words = (state.rows.end + 63) / 64;
+    state.changed.assign(words, 0);
+    state.replaced.assign(words, 0);
+    if (others) keepRows(instances, state, scene);
+    state.changed.resize((state.rows.end + 63) / 64);
     const auto write = [&](const RowRun& run, std::span<const WorldTransform> worlds,
                            std::span<const MeshInstance> meshes) {
-        writeRows(run, worlds, meshes, !same, state, scene);
+        writeRows(run, worlds, meshes, all, state, scene);
     };
-    if (renumber || replaced)
+    if (others || all)
         instances.parallelChunks(runner, write);
     else
         moved.parallelChunks(runner, write);
-    if (!state.skinnedMeshes.empty()) placeSkinnedMeshes(skinnedMeshes, !same, state, scene);
-    scene.allInstancesChanged = !same;
-    if (same) toRanges(state.changed, scene.changedInstances);
-    if (same && scene.changedInstances.empty()) return;
+    if (!state.skinnedMeshes.empty()) placeSkinnedMeshes(skinnedMeshes, all, state, scene);
+    scene.allInstancesChanged = all;
+    toRanges(state.replaced, scene.replacedInstances);
+    if (!all) toRanges(state.changed, scene.changedInstances);
+    if (!all && scene.changedInstances.empty()) return;
     ++scene.instancesVersion;
     scene.bounds = state.bounds.fold(state.changed, runner);
 }
@@ -184,11 +223,12 @@ void extractScene(InstanceView instances, MovedInstances moved, ChangedMeshes me
                   Lookup<const Name> names, Res<const ActiveCamera> camera, Res<ExtractState> state,
                   Res<RenderScene> scene, JobRunner& runner) {
     scene->changedInstances.clear();
+    scene->replacedInstances.clear();
     scene->allInstancesChanged = false;
-    const bool others = std::exchange(state->skinnedMeshesReplaced, false),
-               replaced = followCamera(*scene, *state, camera->pose.position) || others;
-    const bool renumber = !meshes.empty() || instances.count() != state->rows.entities.size();
-    extractInstances(instances, moved, skinnedMeshes, renumber, replaced, *state, *scene, runner);
+    const bool skinned = std::exchange(state->skinnedMeshesReplaced, false),
+               all = followCamera(*scene, *state, camera->pose.position) || skinned;
+    const bool others = skinned || !meshes.empty() || instances.count() != state->rows.entities.size();
+    extractInstances(instances, moved, skinnedMeshes, others, all, *state, *scene, runner);
     extractLights(lights, bounces, names, *state, *scene);
     setCamera(*scene, camera->pose, camera->size);
 }

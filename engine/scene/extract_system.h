@@ -16,11 +16,19 @@ struct ActiveCamera {  // resource: what the player looks through
     glm::uvec2 size{640, 360};  // pixels
 };
 
-// Which instance rows belong to which entity: entities in storage order, each with its primitives in a row.
+// Which instance rows belong to which entity: its primitives in a row, the same ones as long as it lives.
 struct InstanceRows {
-    std::vector<std::vector<uint32_t>> firstEntity;  // of each chunk, by archetype and chunk
-    std::vector<Entity> entities;
-    std::vector<uint32_t> firstRow;  // of each entity, and the end of the last
+    struct Place {
+        uint32_t generation = ~0u, first = 0, count = 0;
+        uint32_t look = 0;  // when it was seen last
+    };
+    std::vector<Place> ofEntity;              // by Entity::index
+    std::vector<Entity> entities;             // that have rows
+    std::vector<std::vector<uint32_t>> free;  // first rows of those who left, by their count
+    uint32_t end = 0;                         // of all rows
+    uint32_t look = 0;
+
+    const Place& of(Entity entity) const { return ofEntity[entity.index]; }
 };
 
 struct PosedSkinnedMesh {  // as it was posed last
@@ -32,8 +40,9 @@ struct PosedSkinnedMesh {  // as it was posed last
 };
 
 struct ExtractState {  // resource: what was seen at the last look
-    InstanceRows rows, before;
-    std::vector<uint64_t> changed;  // a bit an instance row
+    InstanceRows rows;
+    std::vector<Entity> arrived;              // scratch: without rows yet
+    std::vector<uint64_t> changed, replaced;  // a bit an instance row
     InstanceBounds bounds;
     bool placed = false;                  // the origin was chosen
     std::unordered_set<uint64_t> warned;  // bits of lights that something is wrong with

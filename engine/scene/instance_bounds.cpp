@@ -7,6 +7,7 @@ namespace ag {
 namespace {
 
 using Planes = std::array<glm::vec4, 5>;
+constexpr float kNoBox = -1e30f;  // half a side of an empty box
 constexpr uint32_t kBlock = InstanceBounds::kBlock;
 constexpr uint32_t kWordsPerBlock = kBlock / 64;
 constexpr uint32_t kBlocksPerPiece = 16;
@@ -52,10 +53,24 @@ void InstanceBounds::resize(size_t rows) {
     rows_ = rows;
     const size_t blocks = (rows + kBlock - 1) / kBlock;
     for (int k = 0; k < 3; ++k) {
-        center_[size_t(k)].resize(blocks * kBlock);
-        half_[size_t(k)].resize(blocks * kBlock);
+        center_[size_t(k)].resize(blocks * kBlock, 0);
+        half_[size_t(k)].resize(blocks * kBlock, kNoBox);
     }
-    blocks_.assign(blocks, {});
+    blocks_.resize(blocks);
+}
+
+void InstanceBounds::clear(uint32_t row) {
+    for (int k = 0; k < 3; ++k) {
+        center_[size_t(k)][row] = 0;
+        half_[size_t(k)][row] = kNoBox;
+    }
+}
+
+void InstanceBounds::copy(uint32_t row, const InstanceBounds& from, uint32_t fromRow) {
+    for (size_t k = 0; k < 3; ++k) {
+        center_[k][row] = from.center_[k][fromRow];
+        half_[k][row] = from.half_[k][fromRow];
+    }
 }
 
 Bounds InstanceBounds::of(uint32_t row) const {
@@ -96,7 +111,7 @@ void InstanceBounds::cull(const Planes& planes, std::vector<uint64_t>& visibleRo
             if (side == Side::kCut)
                 leastDistance(center, half, count, planes, least);
             else
-                std::fill_n(least, count, 1.0f);
+                std::copy_n(half[0], count, least);  // all but empty ones
             for (uint32_t i = 0; i < count; ++i)
                 visibleRows[(begin + i) / 64] |= uint64_t(least[i] >= 0) << (i % 64);
         }

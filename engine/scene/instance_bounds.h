@@ -20,10 +20,12 @@ class InstanceBounds {
   public:
     static constexpr uint32_t kBlock = 256;  // rows
 
-    void resize(size_t rows);
+    void resize(size_t rows);  // those it has stay; new ones are empty until they are set
+    void clear(uint32_t row);  // to an empty box, which is never in sight
     size_t size() const { return rows_; }
     // Rows of different blocks, or different rows of one, may be set from several threads.
     void set(uint32_t row, const RenderInstance& instance, const Bounds& local);
+    void copy(uint32_t row, const InstanceBounds& from, uint32_t fromRow);
     Bounds of(uint32_t row) const;
     // Folds the blocks any of whose rows the words say changed; returns the bounds of all.
     Bounds fold(std::span<const uint64_t> changedRows, JobRunner& runner);

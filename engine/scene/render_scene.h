@@ -93,14 +93,17 @@ struct GeometryArrays {  // fixed once loaded
 };
 
 constexpr uint32_t kNoSkinnedMesh = ~0u;
+constexpr uint32_t kNoPrimitive = ~0u;
 
 // One drawn primitive. The row's index is its slot on the GPU.
 struct RenderInstance {
     glm::mat4x3 worldFromLocal{1};  // relative to the origin
-    uint32_t primitive = 0;
-    bool movable = false;  // others may move too, but then what was made of static things is lost
+    uint32_t primitive = 0;         // kNoPrimitive: nothing stands in this row now
+    bool movable = false;           // others may move too, but then what was made of static things is lost
     uint32_t skinnedMesh =
         kNoSkinnedMesh;  // of RenderScene::skinnedMeshes: its vertices are that one's own; then movable
+
+    bool isPresent() const { return primitive != kNoPrimitive; }
 };
 
 // Each skinned mesh's vertices begin at a multiple of this, so that a group of the device has those of one
@@ -159,6 +162,8 @@ struct RenderScene {
         uint32_t begin = 0, end = 0;
     };
     std::vector<Range> changedInstances;  // those of a skinned mesh also when its joints moved
+    // Among those: rows where something came or went. What stays keeps its row.
+    std::vector<Range> replacedInstances;
     bool allInstancesChanged = true;
 };
 

@@ -248,7 +248,7 @@ void shiftCamera(RenderScene& scene, glm::vec3 step) {
 bool hasEmissive(const RenderScene& scene) {
     const GeometryArrays& g = *scene.geometry;
     return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const RenderInstance& i) {
-        return g.materials[g.primitives[i.primitive].material].emissive != glm::vec3(0);
+        return i.isPresent() && g.materials[g.primitives[i.primitive].material].emissive != glm::vec3(0);
     });
 }
 

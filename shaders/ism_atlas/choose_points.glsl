@@ -20,7 +20,7 @@ float weightOf(IsmLight light, uint segment) {
     vec2 radiusAndArea = unpackHalf2x16(floatBitsToUint(ball.w));
     float radius = radiusAndArea.x, area = radiusAndArea.y;
     vec3 d = ball.xyz - light.place;
-    bool asked = segment < push.p.endSegment && light.lit && (!kByDistance || dot(d, light.normal) > -radius);
+    bool asked = segment < push.p.endSegment && light.lit && area > 0.0 && (!kByDistance || dot(d, light.normal) > -radius);
     return asked ? kByDistance ? area / max(dot(d, d), radius * radius) : area : 0.0;
 }
 

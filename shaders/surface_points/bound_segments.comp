@@ -11,32 +11,31 @@ layout(push_constant, scalar) uniform Push { PointPush p; } push;
 layout(set = 0, binding = 0) VEC4_TEXELS(points);
 layout(set = 0, binding = 1, scalar) writeonly buffer Segments { SurfaceSegment items[]; } segments;
 
-vec3 placeOf(uint segment, uint i) {
-    return fetchTexel(points, int(min(segment * kSegmentPoints + i, push.p.pointCount - 1)) * 4).xyz;
-}
+vec4 placeOf(uint point) { return fetchTexel(points, int(min(point, push.p.pointCount - 1)) * 4); }
 
-// The last segment may have fewer points.
-float areaOf(uint segment, uint i) {
-    uint point = segment * kSegmentPoints + i;
+// The last segment may have fewer points, and where an instance left there are none: 0.
+float radiusOf(uint point) {
     float radius = fetchTexel(points, int(min(point, push.p.pointCount - 1)) * 4 + 1).w;
-    return point < push.p.pointCount ? kPi * radius * radius : 0.0;
+    return point < push.p.pointCount ? radius : 0.0;
 }
 
 void main() {
-    uint segment = push.p.firstGroup * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
-    if (segment * kSegmentPoints >= push.p.pointCount) return;
+    uint segment = push.p.firstGroup * gl_WorkGroupSize.x + gl_GlobalInvocationID.x, first = segment * kSegmentPoints;
+    if (first >= push.p.pointCount) return;
     vec3 least = vec3(3.0e38), most = vec3(-3.0e38);
-    for (uint i = 0; i < kSegmentPoints; ++i) {
-        vec3 p = placeOf(segment, i);
-        least = min(least, p);
-        most = max(most, p);
+    float area = 0.0;
+    for (uint i = first; i < first + kSegmentPoints; ++i) {
+        vec3 p = placeOf(i).xyz;
+        float radius = radiusOf(i);
+        least = radius > 0.0 ? min(least, p) : least;
+        most = radius > 0.0 ? max(most, p) : most;
+        area += kPi * radius * radius;
     }
-    vec3 centre = 0.5 * (least + most);
-    float radius2 = 0.0, area = 0.0;
-    for (uint i = 0; i < kSegmentPoints; ++i) {
-        vec3 d = placeOf(segment, i) - centre;
-        radius2 = max(radius2, dot(d, d));
-        area += areaOf(segment, i);
+    vec3 centre = area > 0.0 ? 0.5 * (least + most) : vec3(0.0);
+    float radius2 = 0.0;
+    for (uint i = first; i < first + kSegmentPoints; ++i) {
+        vec3 d = placeOf(i).xyz - centre;
+        radius2 = max(radius2, radiusOf(i) > 0.0 ? dot(d, d) : 0.0);
     }
     segments.items[segment] = SurfaceSegment(centre, packHalf2x16(vec2(sqrt(radius2), area)));
 }

@@ -33,6 +33,11 @@ void main() {
     uint i = push.p.firstGroup * gl_WorkGroupSize.x + gl_GlobalInvocationID.x;
     if (i >= push.p.pointCount) return;
     SurfaceSample s = fetchSample(int(i));
+    if (s.instance == kNoInstance) {
+        SurfaceEdge cutOut = SurfaceEdge(vec3(0.0), -1.0);
+        points.items[i] = SurfacePoint(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), 0.0, SurfaceEdge[2](cutOut, cutOut));
+        return;
+    }
     InstanceTransform t = fetchInstance(int(s.instance));
 #ifdef AG_SKINNED
     if (t.skinnedMesh != kNoSkinnedMesh)

@@ -13,9 +13,11 @@ struct SurfaceEdge {  // where a flat piece of surface ends, seen from a point o
     float distance;   // m; negative: the surface is cut out at the point, it stands for nothing
 };
 
+const uint kNoInstance = ~0u;
+
 struct SurfaceSample {  // 4 vec4: where on which instance, moving with it
     vec3 positionLocal;
-    uint instance;
+    uint instance;         // kNoInstance: there is no point here now
     vec3 normalLocal;      // unit, of the triangle
     float curvatureLocal;  // 1/m: how fast the smooth normal turns along the triangle
     SurfaceEdge edgesLocal[2];
@@ -34,7 +36,7 @@ struct SurfacePoint {  // 4 vec4
     vec3 position;     // m
     float curvature;   // 1/m
     vec3 normal;       // unit
-    float radius;      // m, of a disk as large as what it stands for
+    float radius;      // m, of a disk as large as what it stands for; 0: there is no point
     SurfaceEdge edges[2];
 };
 

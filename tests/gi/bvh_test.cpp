@@ -56,6 +56,20 @@ TEST(Bvh, FindsWhatLookingAtAllFinds) {
         EXPECT_EQ(found(bvh, items, in), foundWithout(items, in));
 }
 
+TEST(Bvh, AlongACurveFindsTheSame) {
+    std::vector<Bounds> items = randomBoxes(1000, 1);
+    items[7] = {};
+    for (size_t i = 20; i < 40; ++i)
+        items[i] = items[19];  // no code tells them apart
+    const Bvh bvh = buildBvhAlongCurve(items);
+    EXPECT_EQ(bvh.order.size(), items.size() - 1);
+    EXPECT_EQ(bvh.nodes.size(), 2 * bvh.order.size() - 1);
+    EXPECT_EQ(bvh.nodes[0].next, bvh.nodes.size());
+    for (const Bounds& in : randomBoxes(200, 2))
+        EXPECT_EQ(found(bvh, items, in), foundWithout(items, in));
+    EXPECT_TRUE(buildBvhAlongCurve({}).nodes.empty());
+}
+
 TEST(Bvh, TakesItemsInOnePlaceAndNone) {
     EXPECT_TRUE(buildBvh({}, 4).nodes.empty());
     std::vector<Bounds> items(100);

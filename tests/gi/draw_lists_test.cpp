@@ -143,6 +143,53 @@ TEST(DrawLists, WhatIsTurnedOverIsDrawnFromABucketOfItsOwn) {
     }
 }
 
+// Lists kept while things come, go and become others are those made anew; who does not see it keeps its
+// version.
+TEST(DrawLists, WhatComesAndGoesLeavesTheRestInPlace) {
+    Lists l("crowd", 2000);
+    RenderScene& scene = l.scene;
+    const glm::mat4 aside = cubeFaceView({1, 2, 0}, 2, 15).clipFromWorld;  // looks up
+    std::mt19937 random(5);
+    l.seenByCamera();
+    const uint64_t asideBefore = l.lists.cull(scene, 1, aside).version;
+    scene.allInstancesChanged = false;
+    for (int turn = 0; turn < 12; ++turn) {
+        std::vector<uint32_t> rows;
+        for (int i = 0; i < 40; ++i) {
+            const uint32_t row = random() % uint32_t(scene.instances.size()), other = random() % 40;
+            if (scene.instances[row].skinnedMesh != kNoSkinnedMesh) continue;
+            RenderInstance& instance = scene.instances[row];
+            if (instance.isPresent())
+                instance = {.primitive = kNoPrimitive};
+            else
+                instance = {
+                    .primitive = scene.instances[other].isPresent() ? scene.instances[other].primitive : 0,
+                    .movable = bool(random() % 2)};
+            rows.push_back(row);
+        }
+        std::ranges::sort(rows);
+        scene.changedInstances.clear();
+        for (const uint32_t row : rows)
+            if (scene.changedInstances.empty() || scene.changedInstances.back().begin != row)
+                scene.changedInstances.push_back({row, row + 1});
+        ++scene.instancesVersion;
+        const ViewDraws& kept = l.seenByCamera();
+        DrawLists anew;
+        anew.beginFrame(scene, l.one);
+        const ViewDraws& made = anew.cull(scene, 0, scene.camera.clipFromWorld);
+        std::vector<uint32_t> a = kept.rows, b = made.rows;
+        std::ranges::sort(a), std::ranges::sort(b);
+        EXPECT_EQ(a, b);
+        for (size_t bucket = 0; bucket < kept.buckets.size(); ++bucket) {
+            const auto same = std::ranges::find(anew.buckets(), l.lists.buckets()[bucket]);
+            if (same == anew.buckets().end()) continue;
+            EXPECT_EQ(rowsOf(kept, kept.buckets[bucket]),
+                      rowsOf(made, made.buckets[size_t(same - anew.buckets().begin())]));
+        }
+        EXPECT_EQ(l.lists.cull(scene, 1, aside).version, asideBefore);
+    }
+}
+
 // Every instance is drawn once, of its own primitive, what is static first; instances of a primitive are one
 // draw.
 TEST(DrawLists, InstancesOfAPrimitiveAreOneDraw) {

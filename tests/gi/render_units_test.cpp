@@ -53,5 +53,33 @@ TEST(RenderUnits, ConversionIsExactAndLeavesTheImageWhereItIs) {
     EXPECT_NEAR(back.y / back.w, q.y, 1e-6f);
 }
 
+// Row by row as from the beginning: what changed, came and went.
+TEST(RenderUnits, ConversionOfWhatChangedIsThatOfAll) {
+    RenderScene scene = sceneOf(3000, 5), out;
+    scene.instances.resize(50);
+    const RenderUnits units{1024, 32};
+    inUnits(scene, units, 1, out);
+    scene.allInstancesChanged = false;
+    for (uint32_t turn = 0; turn < 6; ++turn) {
+        const uint32_t row = 7 * turn;
+        scene.instances[row].worldFromLocal[3] = glm::vec3(float(turn), 2, 3);
+        scene.instances[row].primitive = turn % 2 ? kNoPrimitive : 3;
+        if (turn == 4) scene.instances.emplace_back();
+        scene.changedInstances = {{row, row + 1}};
+        if (turn == 4) scene.changedInstances.push_back({50, 51});
+        scene.instancesVersion += turn == 5 ? 2 : 1;  // a frame that nobody saw
+        if (turn == 5) scene.instances[1].worldFromLocal[3].x = 9;
+        RenderScene anew;
+        inUnits(scene, units, 1, out);
+        inUnits(scene, units, 1, anew);
+        ASSERT_EQ(out.instances.size(), anew.instances.size());
+        for (size_t i = 0; i < out.instances.size(); ++i) {
+            EXPECT_EQ(out.instances[i].worldFromLocal, anew.instances[i].worldFromLocal) << i;
+            EXPECT_EQ(out.instances[i].primitive, anew.instances[i].primitive) << i;
+        }
+        EXPECT_EQ(out.instancesVersion, anew.instancesVersion);
+    }
+}
+
 }  // namespace
 }  // namespace ag::gi

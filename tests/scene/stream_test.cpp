@@ -1,6 +1,7 @@
 // What the renderer is told of moving things: rows, changed ranges, bounds, culling; and movers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 
@@ -84,9 +85,9 @@ TEST(Stream, ChangedRangesAreAllThatChanged) {
             s->frame(step);
         }
         const RenderScene& scene = one.scene();
-        if (scene.allInstancesChanged)
-            copy = scene.instances;
-        else
+        if (scene.allInstancesChanged) copy = scene.instances;
+        copy.resize(scene.instances.size(), {.primitive = kNoPrimitive});
+        if (!scene.allInstancesChanged)
             for (const RenderScene::Range& r : scene.changedInstances) {
                 std::copy(scene.instances.begin() + r.begin, scene.instances.begin() + r.end,
                           copy.begin() + r.begin);
@@ -98,7 +99,7 @@ TEST(Stream, ChangedRangesAreAllThatChanged) {
         for (size_t i = 0; i < copy.size(); ++i) {
             ASSERT_TRUE(equal(copy[i], scene.instances[i])) << "row " << i << " of turn " << turn;
             ASSERT_TRUE(equal(four.scene().instances[i], scene.instances[i]));
-            bounds.add(boundsOf(scene, i));
+            if (copy[i].isPresent()) bounds.add(boundsOf(scene, i));
         }
         for (int k = 0; k < 3; ++k) {
             EXPECT_NEAR(scene.bounds.min[k], bounds.min[k], 1e-3f);
@@ -109,6 +110,46 @@ TEST(Stream, ChangedRangesAreAllThatChanged) {
         ASSERT_EQ(four.scene().changedInstances.size(), scene.changedInstances.size());
     }
     EXPECT_GT(ranged, 50000u) << "most frames stream ranges";
+}
+
+// Those who stay keep their rows, those who come take rows of those who left, and only these are told of.
+TEST(Stream, WhatComesAndGoesIsAllThatIsReplaced) {
+    Stage s(600, 1);
+    s.frame(0.1);
+    s.frame(0);
+    const MeshInstance box = [&] {
+        MeshInstance mesh;
+        View<const MeshInstance, const Mover>(s.world, {}).each([&](const MeshInstance& m, const Mover&) {
+            mesh = m;
+        });
+        return mesh;
+    }();
+    std::vector<Entity> guests;
+    const size_t rows = s.scene().instances.size();
+    for (int turn = 0; turn < 20; ++turn) {
+        const std::vector<RenderInstance> before = s.scene().instances;
+        const size_t left = guests.size() / 2;
+        s.world.destroy(std::span(guests).first(left));
+        guests.erase(guests.begin(), guests.begin() + long(left));
+        for (int i = 0; i < 30; ++i)
+            guests.push_back(s.world.create(LocalTransform{.translation = {double(i), 2, double(turn)}},
+                                            WorldTransform{}, box));
+        s.frame(0);
+        const RenderScene& scene = s.scene();
+        EXPECT_FALSE(scene.allInstancesChanged);
+        std::vector<bool> replaced(scene.instances.size(), false);
+        for (const RenderScene::Range& r : scene.replacedInstances)
+            for (uint32_t row = r.begin; row < r.end; ++row)
+                replaced[row] = true;
+        EXPECT_LE(size_t(std::ranges::count(replaced, true)), left + 30);
+        for (size_t row = 0; row < before.size(); ++row)
+            EXPECT_TRUE(replaced[row] || equal(before[row], scene.instances[row])) << row;
+        size_t present = 0;
+        for (const RenderInstance& instance : scene.instances)
+            present += instance.isPresent();
+        EXPECT_EQ(present, rows + guests.size());
+    }
+    EXPECT_LE(s.scene().instances.size(), rows + 95) << "rows of those who left are used again";
 }
 
 TEST(Stream, NothingMovesNothingIsTold) {

@@ -36,10 +36,10 @@ RayScene::RayScene(const RenderScene& scene) : scene_(scene), deformed_(deformSk
         return g.materials[g.primitives[instance.primitive].material].alphaMode == AlphaMode::kBlend;
     };
     for (const RenderInstance& instance : scene.instances)
-        if (!isBlended(instance)) addPart(rtc_, instance);
+        if (instance.isPresent() && !isBlended(instance)) addPart(rtc_, instance);
     opaqueParts_ = uint32_t(parts_.size());
     for (const RenderInstance& instance : scene.instances)
-        if (isBlended(instance)) addPart(blended_, instance);
+        if (instance.isPresent() && isBlended(instance)) addPart(blended_, instance);
     rtcCommitScene(blended_);
     rtcCommitScene(rtc_);
     for (const RenderLight& light : scene.lights)

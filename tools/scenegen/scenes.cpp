@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "common/false_color.h"
 #include "engine/core/near_name.h"
+#include "engine/core/number.h"
 #include "engine/core/safe_file.h"
 #include "engine/scene/gltf_import.h"
 #include "tools/scenegen/builder.h"
@@ -15,6 +17,7 @@
 #include "tools/scenegen/gallery.h"
 #include "tools/scenegen/openings.h"
 #include "tools/scenegen/shining.h"
+#include "tools/scenegen/town.h"
 
 namespace ag::scenegen {
 namespace {
@@ -261,7 +264,7 @@ struct Entry {
 
 // Percent below a hundred, so that light in a closed box comes to an end; things within what an import
 // allows.
-constexpr std::array<Entry, 19> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 20> kScenes = {{{"cornell", cornell},
                                             {"corner", corner},
                                             {"occluder", occluder},
                                             {"corridor", corridor},
@@ -279,7 +282,8 @@ constexpr std::array<Entry, 19> kScenes = {{{"cornell", cornell},
                                             {"neon", neon},
                                             {"courtyard", courtyard},
                                             {"showroom", showroom},
-                                            {"panes", panes}}};
+                                            {"panes", panes},
+                                            {"town", town, 100'000}}};
 constexpr auto kNames = [] {
     std::array<std::string_view, kScenes.size()> names;
     for (size_t i = 0; i < names.size(); ++i)
@@ -305,8 +309,18 @@ Result<SceneAsset> buildScene(std::string_view name, uint32_t param) {
     return found->build(param);
 }
 
+// "town:500" is the scene of that name with that number.
+std::optional<std::pair<std::string, uint32_t>> numberedScene(const std::string& text) {
+    const size_t colon = text.find(':');
+    if (colon == std::string::npos || !isBuiltIn(text.substr(0, colon))) return std::nullopt;
+    const auto number = parseNumber(std::string_view(text).substr(colon + 1), 1, 1e6, true);
+    if (!number) return std::nullopt;
+    return std::pair(text.substr(0, colon), uint32_t(*number));
+}
+
 Result<SceneAsset> resolveScene(const std::string& nameOrPath, uint32_t param) {
     if (isBuiltIn(nameOrPath)) return buildScene(nameOrPath, param);
+    if (const auto numbered = numberedScene(nameOrPath)) return buildScene(numbered->first, numbered->second);
     const bool name = nameOrPath.find_first_of("./") == std::string::npos;
     if (name && !fileExists(nameOrPath))
         return Error{fmt::format("{}: the file does not exist, and {}", nameOrPath,

@@ -68,7 +68,7 @@ std::optional<Picked> pick(const RenderScene& scene, glm::vec3 eye, glm::vec3 di
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const glm::mat4x3& m = scene.instances[i].worldFromLocal;
         const glm::mat3 linear(m);
-        if (glm::determinant(linear) == 0) continue;
+        if (!scene.instances[i].isPresent() || glm::determinant(linear) == 0) continue;
         const glm::mat3 back = glm::inverse(linear);
         const float at =
             meets(scene, scene.instances[i], {back * (eye - m[3]), back * direction}, best.distance);

@@ -179,7 +179,7 @@ std::string shortcomingsOf(const SceneAsset& asset) {
 bool hasMaterial(const RenderScene& scene, bool (*is)(const Material&)) {
     const GeometryArrays& g = *scene.geometry;
     return std::ranges::any_of(scene.instances, [&](const RenderInstance& i) {
-        return is(g.materials[g.primitives[i.primitive].material]);
+        return i.isPresent() && is(g.materials[g.primitives[i.primitive].material]);
     });
 }
 
