@@ -172,9 +172,10 @@ std::vector<uint32_t> soundOnes(std::span<const Bounds> items) {
 
 }  // namespace
 
-Bvh buildBvhAlongCurve(std::span<const Bounds> items) {
-    Bvh bvh{.order = soundOnes(items)};
-    if (bvh.order.empty()) return bvh;
+void buildBvhAlongCurve(std::span<const Bounds> items, Bvh& bvh) {
+    bvh.order = soundOnes(items);
+    bvh.nodes.clear();
+    if (bvh.order.empty()) return;
     Bounds all;
     for (const uint32_t i : bvh.order)
         all.add(items[i]);
@@ -187,7 +188,6 @@ Bvh buildBvhAlongCurve(std::span<const Bounds> items) {
     CurveBuilder(items, places, bvh).build(0, uint32_t(places.size()));
     for (size_t i = 0; i < places.size(); ++i)
         bvh.order[i] = places[i].item;
-    return bvh;
 }
 
 Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems) {

@@ -27,6 +27,6 @@ struct Bvh {
 Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems);
 // With one item a leaf, along a curve through the boxes' middles (Lauterbach et al. 2009): a tenth of the
 // work for a tree that costs rays a little more.
-Bvh buildBvhAlongCurve(std::span<const Bounds> items);
+void buildBvhAlongCurve(std::span<const Bounds> items, Bvh& bvh);  // whose memory is used again
 
 }  // namespace ag::gi

@@ -111,15 +111,14 @@ void appendTriangles(const SampledScene& scene, uint32_t meshIndex, const Stride
 }
 
 glm::mat4x3 inverseOf(const glm::mat4x3& m) {
-    return glm::mat4x3(glm::inverse(glm::mat4(m)));
+    const glm::mat3 back = glm::inverse(glm::mat3(m));
+    return {back[0], back[1], back[2], back * -m[3]};
 }
 
 Bounds transformed(const glm::mat4x3& m, const Bounds& b) {
-    Bounds result;
-    for (int corner = 0; corner < 8; ++corner)
-        result.add(m * glm::vec4(corner & 1 ? b.max.x : b.min.x, corner & 2 ? b.max.y : b.min.y,
-                                 corner & 4 ? b.max.z : b.min.z, 1));
-    return result;
+    const glm::vec3 c = m * glm::vec4(0.5f * (b.min + b.max), 1), h = 0.5f * (b.max - b.min);
+    const glm::vec3 reach = glm::abs(m[0]) * h.x + glm::abs(m[1]) * h.y + glm::abs(m[2]) * h.z;
+    return {c - reach, c + reach};
 }
 
 }  // namespace
@@ -165,10 +164,18 @@ OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of) {
 
 MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> instances) {
     MoverTree result;
-    result.places.resize(io::kBvhFirstMover);
+    placeTrees(trees, instances, result);
+    return result;
+}
+
+void placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> instances, MoverTree& result) {
+    result.nodes.clear();
+    result.places.assign(io::kBvhFirstMover, {});
     result.places[io::kBvhStatic] = placeOf(trees.everythingStatic, glm::mat4x3(1));
     std::vector<const SampledInstance*> movers;
     std::vector<Bounds> boxes;
+    movers.reserve(instances.size());
+    boxes.reserve(instances.size());
     for (const SampledInstance& instance : instances) {
         if (!instance.isPresent || !instance.movable || trees.ofMesh[instance.mesh].empty()) continue;
         const Bounds box = transformed(instance.worldFromLocal, trees.ofMesh[instance.mesh].bounds);
@@ -178,8 +185,12 @@ MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance
         movers.push_back(&instance);
         boxes.push_back(box);
     }
-    const Bvh bvh = boxes.size() > kMostSorted ? buildBvhAlongCurve(boxes) : buildBvh(boxes, 1);
-    if (bvh.nodes.empty()) return result;
+    Bvh& bvh = result.scratch;
+    if (boxes.size() > kMostSorted)
+        buildBvhAlongCurve(boxes, bvh);
+    else
+        bvh = buildBvh(boxes, 1);
+    if (bvh.nodes.empty()) return;
     const TreeRange range{0, uint32_t(bvh.nodes.size()), bvh.nodes[0].bounds};
     const Grid grid(range.bounds);
     for (const BvhNode& node : bvh.nodes)
@@ -189,7 +200,6 @@ MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance
         const SampledInstance& mover = *movers[item];
         result.places.push_back(placeOf(trees.ofMesh[mover.mesh], inverseOf(mover.worldFromLocal)));
     }
-    return result;
 }
 
 void readTrees(PassBuilder& pass, const TracedOccluders& trees) {

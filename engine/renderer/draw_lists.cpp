@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/core/hash.h"
+#include "gi/morton.h"
 
 namespace ag::render {
 namespace {
@@ -37,12 +38,14 @@ uint64_t shapeHash(const RenderScene& scene, const RenderInstance& instance) {
     return combineHash(combineHash(hash, skinnedMesh.poseVersion), skinnedMesh.firstDeformed);
 }
 
-// Of a reversed-depth clip matrix; with an infinite far plane nothing is beyond it.
-bool beyondFar(const Bounds& b, const glm::mat4& m) {
-    const glm::vec4 p(m[0][2], m[1][2], m[2][2], m[3][2]);
-    const glm::vec3 near(p.x > 0 ? b.max.x : b.min.x, p.y > 0 ? b.max.y : b.min.y,
-                         p.z > 0 ? b.max.z : b.min.z);
-    return glm::dot(glm::vec3(p), near) + p.w < 0;
+// Where an instance is on a curve through cells of space: those of a primitive are ranked along it, so that
+// blocks of ranks are small and few of them are in a view. In small scenes all are in one.
+uint32_t cellOf(const RenderScene& scene, const RenderInstance& instance) {
+    constexpr size_t kWorthCells = 4096;  // instances
+    constexpr float kCell = 16;           // m
+    if (scene.instances.size() < kWorthCells) return 0;
+    const glm::vec3 at = glm::clamp(instance.worldFromLocal[3] / kCell, -511.0f, 511.0f) + 512.0f;
+    return gi::mortonCode(at, {glm::vec3(0), glm::vec3(1023)});
 }
 
 }  // namespace
@@ -69,6 +72,7 @@ void DrawLists::startAnew(uint64_t geometryVersion) {
     geometryVersion_ = geometryVersion;
     buckets_.clear();
     kinds_.clear();
+    cells_.clear();
     rankOf_.clear();
     order_.clear();
     firstBlended_ = 0;
@@ -100,7 +104,7 @@ DrawLists::Kind DrawLists::kindOf(const RenderScene& scene, const RenderInstance
 void DrawLists::rankAnew(std::span<const uint32_t> rows) {
     const auto key = [&](uint32_t i) {
         const Kind& k = kinds_[i];
-        return std::tuple(buckets_[k.bucket].blended, k.bucket, k.movable, k.primitive, i);
+        return std::tuple(buckets_[k.bucket].blended, k.bucket, k.movable, k.primitive, cells_[i], i);
     };
     std::vector<uint32_t> arrived;
     std::vector<bool> leaves(kinds_.size(), false);
@@ -163,6 +167,7 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
     const std::span<const RenderScene::Range> rows =
         all ? std::span(&every, 1) : std::span(scene.changedInstances);
     kinds_.resize(scene.instances.size());
+    cells_.resize(scene.instances.size());
     rankOf_.resize(scene.instances.size(), ~0u);
     std::vector<uint32_t> others;
     for (const RenderScene::Range& range : rows)
@@ -170,11 +175,14 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
             const Kind kind = kindOf(scene, scene.instances[i]);
             if (kind == kinds_[i]) continue;
             kinds_[i] = kind;
+            cells_[i] = cellOf(scene, scene.instances[i]);
             others.push_back(i);
         }
     changed_.assign((order_.size() + 63) / 64, 0);
     if (!others.empty()) rankAnew(others);
+    if (!others.empty()) ++ranking_;
     refreshBounds(scene, rows);
+    versionBefore_ = instancesVersion_;
     instancesVersion_ = scene.instancesVersion;
 }
 
@@ -237,7 +245,7 @@ void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks r
         for (uint64_t bits = seenBy.inSight[word]; bits; bits &= bits - 1) {
             const uint32_t rank = word * 64 + uint32_t(std::countr_zero(bits));
             if (rank >= ranks.end) return;
-            if (rank < ranks.begin || beyondFar(bounds_.of(rank), seenBy.clipFromWorld)) continue;
+            if (rank < ranks.begin) continue;
             const uint32_t i = order_[rank];
             const Kind& kind = kinds_[i];
             const Primitive& p = scene.geometry->primitives[kind.primitive];
@@ -252,7 +260,18 @@ void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks r
 void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
     View& view = views_[request.slot];
     if (isCulled(view, request.clipFromWorld)) return;
-    bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
+    const bool knowsTheRest = view.generation == generation_ && view.ranking == ranking_ &&
+                              view.instancesVersion == versionBefore_ &&
+                              view.clipFromWorld == request.clipFromWorld;
+    if (knowsTheRest) {
+        if (!bounds_.cullChanged(viewPlanes(request.clipFromWorld), changed_, view.inSight)) {
+            view.instancesVersion = instancesVersion_;
+            return;
+        }
+    } else {
+        bounds_.cull(viewPlanes(request.clipFromWorld), view.inSight, *jobs_);
+    }
+    view.ranking = ranking_;
     view.clipFromWorld = request.clipFromWorld;
     addInSight(scene, view, {0, firstBlended_}, view);
     noteCulled(view, request.clipFromWorld);

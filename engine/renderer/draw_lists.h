@@ -100,7 +100,7 @@ class DrawLists {
         ViewDraws draws;
         glm::mat4 clipFromWorld{0};
         uint64_t instancesVersion = 0;
-        uint64_t generation = 0;
+        uint64_t generation = 0, ranking = 0;
         bool dirty = true;
         std::vector<uint64_t> inSight;  // a bit a rank
     };
@@ -129,8 +129,9 @@ class DrawLists {
     void place(View& view);
 
     std::vector<DrawBucket> buckets_;
-    std::vector<Kind> kinds_;       // by instance
-    std::vector<uint32_t> rankOf_;  // likewise
+    std::vector<Kind> kinds_;      // by instance
+    std::vector<uint32_t> cells_;  // where it was when it was ranked, see cellOf
+    std::vector<uint32_t> rankOf_;
     // By rank: instances that there are, in the order of buckets, layers and primitives. Blended ones come
     // last.
     std::vector<uint32_t> order_, orderBefore_;  // the latter: scratch
@@ -143,7 +144,9 @@ class DrawLists {
     JobRunner* jobs_ = nullptr;
     uint64_t geometryVersion_ = 0;
     uint64_t instancesVersion_ = 0;
-    uint64_t generation_ = 0;  // counts scenes
+    uint64_t versionBefore_ = 0;  // of the instances, before those that `changed_` tells of
+    uint64_t ranking_ = 0;        // counts changes of ranks
+    uint64_t generation_ = 0;     // counts scenes
 };
 
 }  // namespace ag::render

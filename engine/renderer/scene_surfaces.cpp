@@ -176,8 +176,13 @@ gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of) {
     return withSampledScene(scene, [of](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of); });
 }
 
-gi::MoverTree placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers) {
-    return gi::placeTrees(trees, movers ? instancesOf(scene, {}) : std::vector<gi::SampledInstance>{});
+void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers,
+                gi::MoverTree& result) {
+    std::vector<gi::SampledInstance> instances;
+    for (const RenderInstance& i : scene.instances)
+        if (movers && i.isPresent() && (i.movable || i.skinnedMesh != kNoSkinnedMesh))
+            instances.push_back({.worldFromLocal = i.worldFromLocal, .mesh = i.primitive, .movable = true});
+    gi::placeTrees(trees, instances, result);
 }
 
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,

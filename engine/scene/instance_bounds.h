@@ -12,13 +12,14 @@
 
 namespace ag {
 
-// Left, right, top, bottom, near of a clip matrix with reversed depth; a point p is inside where
-// dot(plane, (p, 1)) >= 0 for all. There is no far plane.
-std::array<glm::vec4, 5> viewPlanes(const glm::mat4& clipFromWorld);
+// Far, near, left, right, bottom, top of a clip matrix with reversed depth; a point p is inside where
+// dot(plane, (p, 1)) >= 0 for all. With an infinite far plane nothing is beyond that.
+using ViewPlanes = std::array<glm::vec4, 6>;
+ViewPlanes viewPlanes(const glm::mat4& clipFromWorld);
 
 class InstanceBounds {
   public:
-    static constexpr uint32_t kBlock = 256;  // rows
+    static constexpr uint32_t kBlock = 64;  // rows, a word of bits
 
     void resize(size_t rows);  // those it has stay; new ones are empty until they are set
     void clear(uint32_t row);  // to an empty box, which is never in sight
@@ -31,10 +32,15 @@ class InstanceBounds {
     Bounds fold(std::span<const uint64_t> changedRows, JobRunner& runner);
     // A bit a row: whether its box reaches into the view. Boxes that only touch count; a box near a corner
     // may count though it is outside.
-    void cull(const std::array<glm::vec4, 5>& planes, std::vector<uint64_t>& visibleRows,
-              JobRunner& runner) const;
+    void cull(const ViewPlanes& planes, std::vector<uint64_t>& visibleRows, JobRunner& runner) const;
+    // The same, where it is known as it was before the rows changed that the words say. False: none of them
+    // is in sight or was.
+    bool cullChanged(const ViewPlanes& planes, std::span<const uint64_t> changedRows,
+                     std::vector<uint64_t>& visibleRows) const;
 
   private:
+    void cullBlock(uint32_t block, const ViewPlanes& planes, uint64_t* visible) const;
+
     size_t rows_ = 0;
     std::array<std::vector<float>, 3> center_,
         half_;  // a column a coordinate: eight boxes are tested at once

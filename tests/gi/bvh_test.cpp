@@ -61,13 +61,15 @@ TEST(Bvh, AlongACurveFindsTheSame) {
     items[7] = {};
     for (size_t i = 20; i < 40; ++i)
         items[i] = items[19];  // no code tells them apart
-    const Bvh bvh = buildBvhAlongCurve(items);
+    Bvh bvh;
+    buildBvhAlongCurve(items, bvh);
     EXPECT_EQ(bvh.order.size(), items.size() - 1);
     EXPECT_EQ(bvh.nodes.size(), 2 * bvh.order.size() - 1);
     EXPECT_EQ(bvh.nodes[0].next, bvh.nodes.size());
     for (const Bounds& in : randomBoxes(200, 2))
         EXPECT_EQ(found(bvh, items, in), foundWithout(items, in));
-    EXPECT_TRUE(buildBvhAlongCurve({}).nodes.empty());
+    buildBvhAlongCurve({}, bvh);
+    EXPECT_TRUE(bvh.nodes.empty());
 }
 
 TEST(Bvh, TakesItemsInOnePlaceAndNone) {

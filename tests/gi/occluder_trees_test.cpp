@@ -85,7 +85,7 @@ float firstOfAll(const RenderScene& scene, const Ray& ray, float reach) {
 // Rays of the scene's size; how many find the same place to within a ten thousandth of it.
 void expectSameHits(const RenderScene& scene) {
     Walked walked{.trees = render::buildTrees(scene)};
-    walked.movers = render::placeTrees(scene, walked.trees, true);
+    render::placeTrees(scene, walked.trees, true, walked.movers);
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> unit;
@@ -125,7 +125,8 @@ TEST(OccluderTrees, NothingIsNoTree) {
     scene.instances.clear();
     const OccluderTrees trees = render::buildTrees(scene);
     EXPECT_TRUE(trees.everythingStatic.empty());
-    const MoverTree movers = render::placeTrees(scene, trees, true);
+    MoverTree movers;
+    render::placeTrees(scene, trees, true, movers);
     ASSERT_EQ(movers.places.size(), io::kBvhFirstMover);
     EXPECT_EQ(movers.places[io::kBvhStatic].endNode, 0u);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "common/sampling.h"
@@ -26,6 +27,13 @@ double msSince(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
+// Of the calling thread.
+double processorMs() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return double(t.tv_sec) * 1e3 + double(t.tv_nsec) * 1e-6;
+}
+
 struct DriveTime {  // resource
     double seconds = 0;
 };
@@ -39,15 +47,6 @@ template <class V>
 V between(const V& a, const V& b, const V& c, const V& d, double t) {
     return 0.5 * (2.0 * b + (c - a) * t + (2.0 * a - 5.0 * b + 4.0 * c - d) * (t * t) +
                   (3.0 * (b - c) + d - a) * (t * t * t));
-}
-
-CameraPose walkBefore(const CameraPose& start, const SceneAsset& asset, double share) {
-    const RenderScene scene = staticScene(asset, start.position);
-    const double length = double(glm::length(scene.bounds.max - scene.bounds.min)) / 20;
-    CameraPose pose = start;
-    pose.position +=
-        glm::dvec3(start.forward) * (0.5 * length * (1 - std::cos(2 * std::numbers::pi * share)));
-    return pose;
 }
 
 // Things that come and go: copies of what moves, near where that does. Each stays one to eight frames, so
@@ -90,7 +89,7 @@ class Drive {
     Drive(gpu::Device& device, const SceneAsset& asset, const render::RenderSettings& settings,
           const DriveOptions& o)
         : device_(device),
-          asset_(asset),
+          path_(asset),
           settings_(settings),
           o_(o),
           jobs_(o.threads),
@@ -98,7 +97,7 @@ class Drive {
         spawnScene(world_, asset);
         world_.setResource<DriveTime>();
         world_.setResource<ExtractState>();
-        world_.setResource<ActiveCamera>(poseOnDrive(asset, 0), o.size);
+        world_.setResource<ActiveCamera>(path_.at(0), o.size);
         RenderScene& scene = world_.setResource<RenderScene>();
         scene.geometry = &asset.geometry;
         scene.sky = asset.sky;
@@ -119,14 +118,14 @@ class Drive {
     void frame(double share, FrameCost& cost, LongFrames& steps) {
         const uint64_t waitsBefore = device_.transfersWaitedFor();
         const auto begin = Clock::now();
+        const double started = processorMs();
         spawner_->step();
         world_.resource<DriveTime>().seconds += o_.secondsPerFrame;
-        world_.resource<ActiveCamera>().pose = poseOnDrive(asset_, o_.standing ? 0 : share);
+        world_.resource<ActiveCamera>().pose = path_.at(o_.standing ? 0 : share);
         before_.run(world_, jobs_);
-        cost.world = msSince(begin);
-        const auto extracting = Clock::now();
+        const double moved = processorMs();
         extract_.run(world_, jobs_);
-        cost.extract = msSince(extracting);
+        const double extracted = processorMs();
         renderer_.render(world_.resource<RenderScene>(), o_.size, settings_, {},
                          [](GraphScope scope, const render::SceneView&, const render::RenderFrame& declared) {
                              scope.output(declared.outputs.display);
@@ -134,9 +133,11 @@ class Drive {
         cost.waits = uint32_t(device_.transfersWaitedFor() - waitsBefore);
         device_.waitFor(device_.submittedValue());
         cost.whole = msSince(begin);
-        const render::FrameMoments& m = renderer_.moments();
-        cost.declare = double(m.declared - m.waited) * 1e-6;
-        cost.record = double(m.recorded - m.declared) * 1e-6;
+        const double done = processorMs();
+        cost.world = moved - started;
+        cost.extract = extracted - moved;
+        cost.render = done - extracted;
+        cost.cpu = done - started;
         cost.uploadedBytes = renderer_.scene().uploadedBytes();
         steps.note(cost);
         steps.note(renderer_.graph());
@@ -147,7 +148,7 @@ class Drive {
 
   private:
     gpu::Device& device_;
-    const SceneAsset& asset_;
+    const DrivePath path_;
     const render::RenderSettings& settings_;
     const DriveOptions& o_;
     World world_;
@@ -159,21 +160,32 @@ class Drive {
 
 }  // namespace
 
-CameraPose poseOnDrive(const SceneAsset& asset, double share) {
-    const size_t stops = asset.cameras.size();
-    if (stops < 2) return walkBefore(cameraOf(asset, 0), asset, share);
-    const double at = (share - std::floor(share)) * double(stops);
-    const auto index = size_t(at) % stops;
-    CameraPose p[4];
-    for (size_t i = 0; i < 4; ++i)
-        p[i] = cameraOf(asset, (index + stops - 1 + i) % stops);
-    const double t = at - std::floor(at);
-    const auto turned = [&](glm::vec3 CameraPose::*way) {
-        return glm::vec3(glm::normalize(between(glm::dvec3(p[0].*way), glm::dvec3(p[1].*way),
-                                                glm::dvec3(p[2].*way), glm::dvec3(p[3].*way), t)));
+DrivePath::DrivePath(const SceneAsset& asset) {
+    for (size_t i = 0; i < std::max<size_t>(asset.cameras.size(), 1); ++i)
+        stops_.push_back(cameraOf(asset, i));
+    if (stops_.size() > 1) return;
+    const RenderScene scene = staticScene(asset, stops_[0].position);
+    length_ = double(glm::length(scene.bounds.max - scene.bounds.min)) / 20;
+}
+
+CameraPose DrivePath::at(double share) const {
+    const size_t stops = stops_.size();
+    CameraPose pose = stops_[0];
+    if (stops == 1) {
+        pose.position +=
+            glm::dvec3(pose.forward) * (0.5 * length_ * (1 - std::cos(2 * std::numbers::pi * share)));
+        return pose;
+    }
+    const double way = (share - std::floor(share)) * double(stops), t = way - std::floor(way);
+    const auto stop = [&](size_t i) -> const CameraPose& {
+        return stops_[(size_t(way) + stops - 1 + i) % stops];
     };
-    CameraPose pose = p[1];
-    pose.position = between(p[0].position, p[1].position, p[2].position, p[3].position, t);
+    const auto turned = [&](glm::vec3 CameraPose::*look) {
+        return glm::vec3(glm::normalize(between(glm::dvec3(stop(0).*look), glm::dvec3(stop(1).*look),
+                                                glm::dvec3(stop(2).*look), glm::dvec3(stop(3).*look), t)));
+    };
+    pose = stop(1);
+    pose.position = between(stop(0).position, stop(1).position, stop(2).position, stop(3).position, t);
     pose.forward = turned(&CameraPose::forward);
     pose.up = turned(&CameraPose::up);
     return pose;

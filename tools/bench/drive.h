@@ -25,10 +25,11 @@ struct DriveOptions {
 
 // What a frame took, ms.
 struct FrameCost {
-    double whole = 0;                // of the wall: from the world's first system to the device's end
-    double world = 0, extract = 0;   // of the wall: systems before extraction; extraction
-    double declare = 0, record = 0;  // of the wall: of the renderer
-    double device = 0;               // sum of the passes
+    double whole = 0;  // of the wall: from the world's first system to the device's end
+    double cpu = 0;    // processor time of the calling thread: all of the host's work with one thread
+    double world = 0, extract = 0;  // of that: systems before extraction; extraction
+    double render = 0;              // of that: what the renderer takes to declare, record and submit
+    double device = 0;              // sum of the passes
     uint64_t uploadedBytes = 0;
     uint32_t waits = 0;  // transfers that were waited for before the frame was submitted
 };
@@ -61,9 +62,16 @@ struct DriveReport {
     Spread of(double FrameCost::*part) const;
 };
 
-// The camera at a share of a closed path through the asset's cameras in turn; with one camera it walks to and
-// fro before it.
-CameraPose poseOnDrive(const SceneAsset& asset, double share);
+// A closed path through the asset's cameras in turn; with one camera it walks to and fro before it.
+class DrivePath {
+  public:
+    explicit DrivePath(const SceneAsset& asset);
+    CameraPose at(double share) const;
+
+  private:
+    std::vector<CameraPose> stops_;
+    double length_ = 0;  // m, of the way before a single camera
+};
 
 // `asset` must outlive the call.
 DriveReport drive(gpu::Device& device, const SceneAsset& asset, const render::RenderSettings& settings,

@@ -11,9 +11,9 @@ namespace ag::bench {
 namespace {
 
 constexpr std::array kParts = {
-    std::pair{"whole", &FrameCost::whole},     std::pair{"world", &FrameCost::world},
-    std::pair{"extract", &FrameCost::extract}, std::pair{"declare", &FrameCost::declare},
-    std::pair{"record", &FrameCost::record},   std::pair{"device", &FrameCost::device}};
+    std::pair{"whole", &FrameCost::whole},   std::pair{"cpu", &FrameCost::cpu},
+    std::pair{"world", &FrameCost::world},   std::pair{"extract", &FrameCost::extract},
+    std::pair{"render", &FrameCost::render}, std::pair{"device", &FrameCost::device}};
 constexpr double kMib = 1 << 20;
 
 uint64_t mostUploaded(const DriveReport& r) {

@@ -34,8 +34,7 @@ Spread DriveReport::of(double FrameCost::*part) const {
 void LongFrames::note(const FrameCost& cost) {
     frames_.push_back({{"CPU: world", {cost.world, ""}},
                        {"CPU: extraction", {cost.extract, ""}},
-                       {"CPU: declaring passes", {cost.declare, ""}},
-                       {"CPU: recording", {cost.record, ""}}});
+                       {"CPU: rendering", {cost.render, ""}}});
 }
 
 void LongFrames::note(const FrameGraph& graph) {
