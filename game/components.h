@@ -32,6 +32,7 @@ enum class FlowerMood : uint32_t {
     kGrowing,
     kBlinded,  // direct light: it closes
     kOpen,     // for good: its room is solved
+    kDazzled,  // a shy one: light of any kind
 };
 
 // m above a flower's foot: just over its closed petals, where light is asked for.
@@ -46,11 +47,18 @@ struct Flower {
     float received = 0;    // W/m² of bounced light
     float match = 0;       // cosine between its colour and the light's
     uint32_t bloomed = 0;  // was fully open, and has not wilted far since
+    float promise = 0;     // how near its light is to opening it, 0 to 1: at 1 it grows
+    uint32_t shy = 0;      // opens in the dark: `amount` is the most it bears
 };
 
 struct Petal {
     Entity flower;
     glm::quat closed{1, 0, 0, 0};
+};
+
+// The glow between its petals: as large as its light is good.
+struct FlowerHeart {
+    Entity flower;
 };
 
 struct Lantern {  // a light or a flame that wakes when its room is solved
@@ -95,6 +103,7 @@ struct Hint {
     glm::dvec3 position{0};
     int32_t room = 0;
     std::string text;
+    bool isRule = false;  // the room's own sentence, shown from the start
 };
 
 struct Progress {
@@ -102,6 +111,8 @@ struct Progress {
     uint32_t roomsSolved = 0, rooms = 0;
     uint32_t flowersOpen = 0, flowers = 0;
     uint32_t won = 0;  // the last room was reached with all flowers open
+    float idle = 0;    // s since a flower opened further or another room was entered
+    float best = 0;    // openness of this room's flowers together, the most it has been
 };
 
 struct GameTime {

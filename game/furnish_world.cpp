@@ -35,7 +35,10 @@ void addMovable(const Furnished& f, const Body& body) {
 }
 
 void addFlower(const Furnished& f) {
-    f.world.add(f.entity, Flower{f.node.extras.wants, f.node.extras.amount, f.node.extras.room});
+    f.world.add(f.entity, Flower{.wants = f.node.extras.wants,
+                                 .amount = f.node.extras.amount,
+                                 .room = f.node.extras.room,
+                                 .shy = f.node.extras.shy});
     f.world.add(f.entity, render::IrradianceProbe{.offset = {0, kFlowerHead, 0}});
     f.world.add(f.entity, render::ProbeLight{});
 }
@@ -43,6 +46,12 @@ void addFlower(const Furnished& f) {
 void addPetal(const Furnished& f, const std::vector<Entity>& entities) {
     if (f.node.parent < 0) return;
     f.world.add(f.entity, Petal{entities[size_t(f.node.parent)], f.node.local.rotation});
+    f.world.write<MeshInstance>(f.entity)->movable = 1;
+}
+
+void addHeart(const Furnished& f, const std::vector<Entity>& entities) {
+    if (f.node.parent < 0) return;
+    f.world.add(f.entity, FlowerHeart{entities[size_t(f.node.parent)]});
     f.world.write<MeshInstance>(f.entity)->movable = 1;
 }
 
@@ -83,6 +92,7 @@ void addTagged(const Furnished& f, const std::vector<Entity>& entities, uint32_t
     if (e.tag == "flame") addLantern(f, flames++);
     if (e.tag == "flower") addFlower(f);
     if (e.tag == "petal") addPetal(f, entities);
+    if (e.tag == "heart") addHeart(f, entities);
     if (e.tag == "panel" || e.tag == "pendulum") addTurning(f);
     if (e.tag == "crate") {
         Body body = bodyOf(f, BodyKind::kDynamic);
@@ -109,7 +119,8 @@ std::vector<Hint> furnishWorld(World& world, const SceneAsset& asset, const std:
         if (e.flickerPeriod > 0 && f.node.light >= 0)
             world.add(f.entity, Flicker{asset.lights[size_t(f.node.light)].intensity, e.flickerDepth,
                                         e.flickerPeriod, e.flickerOff, uint32_t(i)});
-        if (e.tag == "hint") hints.push_back({f.node.local.translation, e.room, e.text});
+        if (e.tag == "hint" || (e.tag == "room" && !e.text.empty()))
+            hints.push_back({f.node.local.translation, e.room, e.text, e.tag == "room"});
         if (!e.tag.empty())
             addTagged(f, entities, lanterns, flames);
         else if (e.collider && f.node.mesh >= 0 && world.has<Mover>(f.entity))

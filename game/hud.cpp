@@ -9,12 +9,12 @@
 #include "engine/renderer/probe_components.h"
 #include "engine/scene/components.h"
 #include "game/systems/carry_crates.h"
+#include "game/systems/walk_player.h"
 
 namespace ag::game {
 namespace {
 
-constexpr double kHintReach = 4.5;  // m
-constexpr float kGrazing = 1;       // W/m², up to which direct light is a beam's soft edge
+constexpr float kGrazing = 1;  // W/m², up to which direct light is a beam's soft edge
 
 struct Hue {
     glm::vec3 color;
@@ -38,15 +38,35 @@ std::string goalText(const Progress& p, const Room* room) {
 
 std::string nearestHint(const std::vector<Hint>& hints, const Player& player, int32_t room) {
     const Hint* best = nullptr;
-    double nearest = kHintReach;
+    double nearest = 1e9;
     for (const Hint& hint : hints) {
         glm::dvec3 d = hint.position - player.position;
         d.y = 0;
-        if (hint.room != room || glm::length(d) >= nearest) continue;
+        if (hint.room != room || hint.isRule || glm::length(d) >= nearest) continue;
         nearest = glm::length(d);
         best = &hint;
     }
     return best ? best->text : "";
+}
+
+// The open flower is done with; of the others the one nearest to the middle of the view is meant.
+void chooseMeant(std::vector<FlowerLine>& flowers, const Player& player) {
+    const glm::dvec3 ahead(viewDirection(player.yaw, player.pitch));
+    FlowerLine* best = nullptr;
+    double nearest = -2;
+    for (FlowerLine& flower : flowers) {
+        const double cosine = glm::dot(glm::normalize(flower.position - player.position), ahead);
+        if (flower.mood == FlowerMood::kOpen || cosine <= nearest) continue;
+        nearest = cosine;
+        best = &flower;
+    }
+    if (best) best->meant = true;
+}
+
+std::string ruleOf(const std::vector<Hint>& rules, int32_t room) {
+    for (const Hint& rule : rules)
+        if (rule.room == room && rule.isRule) return rule.text;
+    return "";
 }
 
 float strongest(glm::vec3 light) {
@@ -79,8 +99,8 @@ const char* shapeName(Shape shape) {
 
 const char* moodText(const FlowerLine& flower) {
     if (flower.mood == FlowerMood::kBlinded && flower.grazed) return "a beam's edge!";
-    static constexpr const char* kTexts[] = {"in the dark", "not its colour", "still too dim",
-                                             "opening",     "direct light!",  "open"};
+    static constexpr const char* kTexts[] = {"in the dark",   "not its colour", "still too dim", "opening",
+                                             "direct light!", "open",           "too bright"};
     return kTexts[size_t(flower.mood)];
 }
 
@@ -102,16 +122,20 @@ HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints) {
                 {.wants = full / top,
                  .received = light.bounced / top,
                  .openness = f.openness,
+                 .promise = f.promise,
                  .mood = f.mood,
                  .closing = f.openness > 0 && f.mood != FlowerMood::kGrowing && f.mood != FlowerMood::kOpen,
                  .grazed = strongest(light.direct) < kGrazing,
+                 .shy = f.shy != 0,
                  .position = at.translation + glm::dvec3(0, 0.8, 0)});
         });
     hud.goal = goalText(progress, here);
+    chooseMeant(hud.flowers, player);
+    if (here && !here->solved) hud.rule = ruleOf(hints, progress.room);
     hud.legend = progress.roomsSolved == 0;
     hud.carrying = bool(player.carried);
     hud.crateInReach = !hud.carrying && crateInReach(world, player);
-    if (showHints && !progress.won && !(here && here->solved))
+    if (showHints && !progress.won && progress.idle >= kHintSeconds && !(here && here->solved))
         hud.hint = nearestHint(hints, player, progress.room);
     return hud;
 }

@@ -14,16 +14,18 @@ namespace ag::game {
 // A flower of the room the player is in.
 struct FlowerLine {
     glm::vec3 wants{1}, received{0};  // of full bars, channel by channel
-    float openness = 0;
+    float openness = 0, promise = 0;
     FlowerMood mood = FlowerMood::kDark;
     bool closing = false;    // light is missing, slowly
     bool grazed = false;     // direct light that hardly shows: the edge of a beam
+    bool shy = false;        // wants darkness
+    bool meant = false;      // the one the player is at: nearest to the middle of the view
     glm::dvec3 position{0};  // m, of its head
 };
 
 struct HudState {
     std::vector<FlowerLine> flowers;
-    std::string goal, hint, notice;
+    std::string goal, rule, hint, notice;  // rule: the room's own sentence
     bool carrying = false, crateInReach = false;
     bool legend = false;  // says how bars are read
 };
@@ -33,9 +35,16 @@ Shape shapeOf(glm::vec3 wants);
 const char* shapeName(Shape shape);
 const char* moodText(const FlowerLine& flower);
 
+constexpr float kHintSeconds = 40;  // without progress, before a hint is shown
+
 HudState readHud(World& world, const std::vector<Hint>& hints, bool showHints);
-// Within an ImGui frame, over a picture of `size` pixels seen through `clipFromWorld` about `origin`.
-void drawHud(const HudState& hud, glm::vec2 size, const glm::mat4& clipFromWorld, glm::dvec3 origin);
+// What the picture below is seen through.
+struct HudView {
+    glm::mat4 clipFromWorld{1};  // relative to the origin
+    glm::dvec3 origin{0};        // m
+};
+// Within an ImGui frame, over a picture of `size` pixels.
+void drawHud(const HudState& hud, glm::vec2 size, const HudView& view);
 
 // A line at the top left, of the program rather than of the game; none if empty.
 void drawMessage(const std::string& text);

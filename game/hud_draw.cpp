@@ -1,9 +1,11 @@
 // The HUD's drawing, apart from what it says.
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "game/hud.h"
 
@@ -82,21 +84,57 @@ void drawBars(ImDrawList& list, ImVec2 at, float height, const FlowerLine& flowe
     }
 }
 
-void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& flowers, bool legend) {
+std::string openText(const FlowerLine& flower) {
+    if (flower.mood == FlowerMood::kOpen || flower.openness <= 0) return "";
+    return fmt::format("{} %{}", int(flower.openness * 100), flower.closing ? ", closing" : "");
+}
+
+// How near its light is to opening it: a bar from gray to the flower's own colour.
+void drawPromise(ImDrawList& list, ImVec2 at, float width, const FlowerLine& flower) {
+    const glm::vec3 gray(0.2f), color = glm::mix(gray, flower.wants, flower.promise);
+    list.AddRectFilled(at, {at.x + width * flower.promise, at.y + 3}, colorOf(color));
+    list.AddRect(at, {at.x + width, at.y + 3}, IM_COL32(240, 236, 225, 90));
+}
+
+// Pixels; nothing for what is behind the eyes.
+std::optional<glm::vec2> onScreen(glm::dvec3 position, glm::vec2 size, const HudView& view) {
+    const glm::vec4 clip = view.clipFromWorld * glm::vec4(glm::vec3(position - view.origin), 1);
+    if (clip.w < 0.3f) return std::nullopt;
+    return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * size;
+}
+
+// A line from its row to the flower, or to the edge of the screen on the side where it is.
+void pointAt(ImDrawList& list, ImVec2 from, glm::vec2 size, const FlowerLine& flower, const HudView& view) {
+    constexpr float kEdge = 14;
+    const glm::vec4 clip = view.clipFromWorld * glm::vec4(glm::vec3(flower.position - view.origin), 1);
+    glm::vec2 at =
+        onScreen(flower.position, size, view).value_or(glm::vec2(clip.x < 0 ? 0 : size.x, size.y / 2));
+    const glm::vec2 inside = glm::clamp(at, glm::vec2(kEdge), size - kEdge);
+    const bool seen = inside == at;
+    list.AddLine(from, {inside.x, inside.y}, IM_COL32(240, 236, 225, 70), 1);
+    if (seen) return;
+    const glm::vec2 way = glm::normalize(inside - size * 0.5f), side(-way.y, way.x);
+    const glm::vec2 tip = inside + way * 8.0f, a = inside + side * 6.0f, b = inside - side * 6.0f;
+    list.AddTriangleFilled({tip.x, tip.y}, {a.x, a.y}, {b.x, b.y}, colorOf(flower.wants));
+}
+
+void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& flowers, bool legend,
+                 const HudView& view) {
     constexpr float kWidth = 178, kHeight = 34;
     float y = 28;
     for (const FlowerLine& flower : flowers) {
         const float x = size.x - kWidth - 6;
         list.AddRectFilled({x, y}, {x + kWidth, y + kHeight + 18}, kShade, 4);
+        if (flower.meant) list.AddRect({x, y}, {x + kWidth, y + kHeight + 18}, kInk, 4);
         const Shape shape = shapeOf(flower.wants);
         drawShape(list, shape, {x + 16, y + 18}, 10, colorOf(flower.wants), flower.openness);
-        drawBars(list, {x + 34, y + 4}, kHeight - 2, flower);
-        char open[24];
-        std::snprintf(open, sizeof open, "%d %% %s", int(flower.openness * 100),
-                      flower.closing ? "closing" : "open");
-        const char* lines[] = {shapeName(shape), moodText(flower), open};
+        if (!flower.shy) drawBars(list, {x + 34, y + 4}, kHeight - 2, flower);
+        drawPromise(list, {x + 6, y + kHeight + 12}, kWidth - 12, flower);
+        const std::string open = openText(flower);
+        const char* lines[] = {flower.shy ? "darkness" : shapeName(shape), moodText(flower), open.c_str()};
         for (int i = 0; i < 3; ++i)
-            list.AddText({x + 78, y + 3 + 15 * float(i)}, kInk, lines[i]);
+            list.AddText({x + 78, y + 1 + 14 * float(i)}, kInk, lines[i]);
+        if (flower.meant) pointAt(list, {x, y + 18}, size, flower, view);
         y += kHeight + 24;
     }
     if (legend && !flowers.empty()) {
@@ -107,26 +145,29 @@ void drawFlowers(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>
 
 // Over each flower's head, where it is before the eyes.
 void drawMarks(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& flowers,
-               const glm::mat4& clipFromWorld, glm::dvec3 origin) {
+               const HudView& view) {
     for (const FlowerLine& flower : flowers) {
-        const glm::vec4 clip = clipFromWorld * glm::vec4(glm::vec3(flower.position - origin), 1);
-        if (clip.w < 0.3f) continue;
-        const glm::vec2 at = (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * size;
+        const glm::vec4 clip = view.clipFromWorld * glm::vec4(glm::vec3(flower.position - view.origin), 1);
+        const auto at = onScreen(flower.position, size, view);
+        if (!at) continue;
         const float r = std::clamp(24 / clip.w, 4.0f, 12.0f);
-        drawShape(list, shapeOf(flower.wants), {at.x, at.y - r}, r, colorOf(flower.wants, 0.9f),
+        drawShape(list, shapeOf(flower.wants), {at->x, at->y - r}, r + 1.5f, kShade, 0);
+        drawShape(list, shapeOf(flower.wants), {at->x, at->y - r}, r, colorOf(flower.wants, 0.9f),
                   flower.openness);
     }
 }
 
 }  // namespace
 
-void drawHud(const HudState& hud, glm::vec2 size, const glm::mat4& clipFromWorld, glm::dvec3 origin) {
+void drawHud(const HudState& hud, glm::vec2 size, const HudView& view) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    drawMarks(list, size, hud.flowers, clipFromWorld, origin);
-    drawFlowers(list, size, hud.flowers, hud.legend);
+    drawMarks(list, size, hud.flowers, view);
+    drawFlowers(list, size, hud.flowers, hud.legend, view);
     drawText(list, {size.x - ImGui::CalcTextSize(hud.goal.c_str()).x - 10, 8}, hud.goal.c_str());
-    list.AddCircleFilled({size.x / 2, size.y / 2}, 2, IM_COL32(255, 255, 255, 110));
-    drawCentered(list, size.y - 26, size.x, hud.hint);
+    // Dark about light: it is seen on bright walls, too.
+    list.AddCircleFilled({size.x / 2, size.y / 2}, 3.5f, IM_COL32(0, 0, 0, 150));
+    list.AddCircleFilled({size.x / 2, size.y / 2}, 2, IM_COL32(255, 255, 255, 220));
+    drawCentered(list, size.y - 26, size.x, hud.hint.empty() ? hud.rule : hud.hint);
     const char* hands = hud.carrying ? "put down" : hud.crateInReach ? "pick up" : nullptr;
     if (hands) drawText(list, {size.x / 2 + 12, size.y / 2 + 8}, hands);
     drawCentered(list, size.y - 6, size.x, hud.notice);

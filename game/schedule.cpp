@@ -25,6 +25,7 @@ Schedule makeTickSchedule() {
     s.add("wakeLanterns", wakeLanterns);
     s.add("lightFlames", lightFlames);
     s.add("openPetals", openPetals);
+    s.add("growHearts", growHearts);
 
     // The world moves
     s.add("flickerLamps", flickerLamps);

@@ -301,7 +301,8 @@ class WindowedRun {
             drawMessage(captured);
             if (!menu_.open)
                 drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
-                        glm::vec2(window_.framebufferSize()), scene.camera.clipFromWorld, scene.originWorld);
+                        glm::vec2(window_.framebufferSize()),
+                        {scene.camera.clipFromWorld, scene.originWorld});
             if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, kGoal, keysLine());
         });
         clickIfAnswered(before, event);

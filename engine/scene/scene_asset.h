@@ -36,6 +36,7 @@ struct NodeExtras {
     int32_t room = -1;   // it belongs to
     glm::vec3 wants{0};  // of a flower: colour of light, the greatest channel 1
     float amount = 0;    // of a flower: W/m²
+    bool shy = false;    // of a flower: the amount is the most it bears
     float mass = 0;      // kg, 0: does not fall
     glm::vec3 pivot{0};  // m, of a hinge, in the node's frame
     glm::vec3 axis{0};   // of a hinge, unit; zero: none

@@ -6,6 +6,7 @@ namespace ag::game {
 namespace {
 
 constexpr float kWakeSeconds = 0.8f, kDoorSeconds = 1.6f, kAsleep = 0.02f;
+constexpr float kLeastProgress = 0.01f;  // of a flower, opened
 
 // s since the room was solved; negative if it is not.
 float sinceSolved(const View<const Room>& rooms, int32_t index) {
@@ -55,6 +56,18 @@ void judgeRooms(View<Room> rooms, View<Flower> flowers, Res<const Player> player
         last = std::max(last, room.index);
         return room.open != before.open || room.flowers != before.flowers || room.since != before.since;
     });
+    // Whatever opened further than ever is progress.
+    now.idle = progress->idle + float(time->step);
+    now.best = now.room == progress->room ? progress->best : 0;
+    float open = 0;
+    flowers.each([&](Flower& flower) {
+        if (flower.room == now.room) open += flower.openness;
+        return false;
+    });
+    if (now.room != progress->room || open > now.best + kLeastProgress) {
+        now.idle = 0;
+        now.best = open;
+    }
     const bool all = now.flowers > 0 && now.roomsSolved == now.rooms;
     now.won = progress->won || (all && now.room == last);
     *progress = now;

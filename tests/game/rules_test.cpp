@@ -24,12 +24,60 @@ render::ProbeLight lightOf(glm::vec3 direct, glm::vec3 bounced) {
 
 TEST(Flowers, KnowTheirLight) {
     const Flower red{.wants = {1, 0.1f, 0.05f}, .amount = 0.1f};
+    const auto moodIn = [](const Flower& flower, const render::ProbeLight& light) {
+        return game::moodIn(flower, light, light.direct.x);
+    };
     EXPECT_EQ(moodIn(red, lightOf({}, {})), FlowerMood::kDark);
     EXPECT_EQ(moodIn(red, lightOf({}, {0.3f, 0.03f, 0.02f})), FlowerMood::kGrowing);
     EXPECT_EQ(moodIn(red, lightOf({}, {0.1f, 0.01f, 0.01f})), FlowerMood::kThirsty);
     EXPECT_EQ(moodIn(red, lightOf({}, {0.3f, 0.3f, 0.25f})), FlowerMood::kWrong) << "white light";
     EXPECT_EQ(moodIn(red, lightOf({}, {0.02f, 0.05f, 0.4f})), FlowerMood::kWrong) << "blue light";
     EXPECT_EQ(moodIn(red, lightOf({0.5f, 0.5f, 0.4f}, {0.3f, 0.03f, 0.02f})), FlowerMood::kBlinded);
+}
+
+// What it shows grows with the light without a jump, and is whole exactly where it opens.
+TEST(Flowers, ShowHowFarTheyAreFromOpening) {
+    const Flower red{.wants = {1, 0.1f, 0.05f}, .amount = 0.1f}, shy{.amount = 0.1f, .shy = 1};
+    float before = 0;
+    for (float e = 0; e < 0.6f; e += 0.002f) {
+        const render::ProbeLight light = lightOf({}, glm::vec3(1, 0.1f, 0.05f) * e);
+        const float promise = promiseIn(red, light, 0);
+        EXPECT_GE(promise, before);
+        EXPECT_LT(promise - before, 0.02f) << "at " << e;
+        EXPECT_EQ(promise == 1, moodIn(red, light, 0) == FlowerMood::kGrowing) << "at " << e;
+        EXPECT_EQ(promiseIn(shy, light, 0) == 1, moodIn(shy, light, 0) == FlowerMood::kGrowing);
+        before = promise;
+    }
+    before = 1;
+    for (float white = 0; white < 1; white += 0.01f) {
+        const render::ProbeLight light = lightOf({}, {1, 0.1f + 0.9f * white, 0.05f + 0.95f * white});
+        const float promise = promiseIn(red, light, 0);
+        EXPECT_LE(promise, before);
+        EXPECT_LT(before - promise, 0.06f) << "at " << white;
+        before = promise;
+    }
+    EXPECT_LT(promiseIn(red, lightOf({}, {1, 0.1f, 0.05f}), 0.2f), 0.6f) << "direct light takes away";
+}
+
+// The lamp's soft edge is not the beam; the beam is, however near another lamp's edge.
+TEST(Flowers, BearTheSoftEdgeOfABeam) {
+    const PunctualLight lamp{.intensity = glm::vec3(80),
+                             .innerConeAngle = glm::radians(5.0f),
+                             .outerConeAngle = glm::radians(25.0f),
+                             .kind = LightKind::kSpot};
+    const LocalTransform at;  // shines along -Z
+    const auto direct = [&](float degrees) {
+        const float cosine = std::cos(glm::radians(degrees)),
+                    t = glm::clamp((cosine - std::cos(lamp.outerConeAngle)) /
+                                       (std::cos(lamp.innerConeAngle) - std::cos(lamp.outerConeAngle)),
+                                   0.0f, 1.0f);
+        const glm::dvec3 point(2 * std::sin(double(glm::radians(degrees))), 0, -2 * double(cosine));
+        return std::max(80 * t * t / 16 - softEdge(lamp, at, point), 0.0f);
+    };
+    EXPECT_EQ(direct(0), 5) << "all of the beam counts";
+    EXPECT_GT(direct(12), 2);
+    for (float degrees = 20; degrees < 30; degrees += 0.25f)
+        EXPECT_LE(direct(degrees), kMostDirect) << degrees;
 }
 
 TEST(Level, IsWhatItsGeneratorMakes) {
@@ -240,7 +288,12 @@ TEST(Hud, ShapesTellTheColoursApart) {
     const HudState hud = readHud(game.world(), game.hints(), true);
     EXPECT_EQ(hud.flowers.size(), 2u);
     EXPECT_NE(hud.goal.find("0 of 2"), std::string::npos);
-    EXPECT_FALSE(hud.hint.empty());
+    EXPECT_TRUE(hud.hint.empty()) << "nobody needs one yet";
+    EXPECT_TRUE(hud.flowers[0].meant != hud.flowers[1].meant) << "one of them is pointed at";
+    for (int i = 0; i < int(kHintSeconds * 60); ++i)
+        game.tick({});
+    EXPECT_FALSE(readHud(game.world(), game.hints(), true).hint.empty());
+    EXPECT_TRUE(readHud(game.world(), game.hints(), false).hint.empty()) << "turned off";
 }
 
 TEST(Hud, TellsWhyAFlowerCloses) {

@@ -72,7 +72,7 @@ TEST_F(Walkthrough, FlowersMeasureWhatThePathTracerMeasures) {
     render::Renderer renderer(test::device());
     renderer.load(stage_->game.level().geometry);
     for (size_t i = 0; i < lit_.size(); ++i) {
-        const gi::ProbeReading measured = measureLight(renderer, lit_[i], {}, 12),
+        const gi::ProbeReading measured = measureLight(renderer, lit_[i], {}, 24),
                                truth = referenceLight(lit_[i], 1);
         const glm::vec3 a = measured.bounced, b = truth.bounced;
         std::printf(

@@ -105,7 +105,8 @@ void foyer(SceneBuilder& b, Furnisher& f) {
     f.crate(nullptr, {-3.0f, 0.91f, -0.75f}, 0.6f, 14);
     lanterns(f, h, 3, 4);
     f.hint(0, {0, 0, -1},
-           "Flowers open in light that has bounced. Shine on the wall behind one, never on the flower.");
+           "Point the lamp at the bare wall beside the flower, so that its round spot does not touch the "
+           "flower.");
     f.hint(0, {3, 0, -6}, "Behind the screen: light the wall, and the wall lights the flower.");
 }
 

@@ -1,6 +1,7 @@
 #include "tools/scenegen/gallery_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@ namespace ag::scenegen {
 namespace {
 
 constexpr float kTau = 6.2831853f;
+constexpr float kHeartRadius = 0.045f;  // m
 
 glm::vec3 turned(glm::vec3 v, float yaw) {
     return glm::angleAxis(yaw, glm::vec3(0, 1, 0)) * v;
@@ -157,6 +159,14 @@ void Furnisher::plinth(glm::vec3 at, float height) {
     b_.node(b_.model("plinth", parts, at)).extras.collider = true;
 }
 
+// Dim beside a lit wall, bright beside a dark one: it lights no probe by itself.
+uint32_t Furnisher::heartOf(const Paint& p) {
+    for (const auto& [name, material] : hearts_)
+        if (name == p.name) return material;
+    hearts_.push_back({p.name, b_.emissive(fmt::format("{} heart", p.name), p.albedo, p.albedo * 0.03f)});
+    return hearts_.back().second;
+}
+
 void Furnisher::flower(int room, const Paint& p, float amount, glm::vec3 at, float yaw) {
     uint32_t petal = ~0u;
     for (const auto& [name, material] : glows_)
@@ -188,6 +198,19 @@ void Furnisher::flower(int room, const Paint& p, float amount, glm::vec3 at, flo
     b_.node(root).extras.wants = wants;
     b_.node(root).extras.amount = amount;
     b_.materialAt(leaf).doubleSided = true;
+    // Between them a glow that is as large as its light is good.
+    MeshParts heart;
+    constexpr int kRings = 6;
+    std::array<glm::vec2, kRings + 1> ball;
+    for (int i = 0; i <= kRings; ++i) {
+        const float angle = (float(i) / kRings - 0.5f) * kTau / 2;
+        ball[size_t(i)] = {kHeartRadius * std::cos(angle), kHeartRadius * std::sin(angle)};
+    }
+    ball.front().x = ball.back().x = 0;
+    addLathe(heart, heartOf(p), ball, 10, glm::vec3(0));
+    const uint32_t core = b_.model("heart", heart, {0, 0.49f, 0});
+    b_.node(core).extras.tag = "heart";
+    b_.attach(core, root);
     MeshParts petalParts;
     addSheet(petalParts, petal, petalPoint, 4, 6);
     uint32_t first = ~0u;

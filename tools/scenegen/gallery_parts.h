@@ -44,8 +44,10 @@ class Furnisher {
     void hint(int room, glm::vec3 at, const char* text);
 
   private:
+    uint32_t heartOf(const Paint& paint);
+
     SceneBuilder& b_;
-    std::vector<std::pair<std::string, uint32_t>> paints_, glows_;
+    std::vector<std::pair<std::string, uint32_t>> paints_, glows_, hearts_;
     uint32_t column_ = ~0u, bench_ = ~0u, lantern_ = ~0u, glow_ = ~0u, pot_ = ~0u, crate_ = ~0u;
     uint32_t lanterns_ = 0, flowers_ = 0;
 };
