@@ -80,7 +80,8 @@ struct Room {
     uint32_t flowers = 0, open = 0;
     uint32_t solved = 0;
     float since = 0;  // s since it was solved
-    uint32_t unused[2] = {0, 0};
+    uint32_t openToSky = 0;
+    uint32_t unused = 0;
 };
 
 struct Crate {
@@ -107,7 +108,7 @@ struct Hint {
 };
 
 struct Progress {
-    int32_t room = 0;  // the player is in; -1: between rooms
+    int32_t room = -1;  // the player is in, or was last; -1: none yet
     uint32_t roomsSolved = 0, rooms = 0;
     uint32_t flowersOpen = 0, flowers = 0;
     uint32_t won = 0;  // the last room was reached with all flowers open

@@ -3,7 +3,7 @@
 namespace ag::game {
 namespace {
 
-constexpr int kColumns = 2, kGap = 4;  // pixels between pictures
+constexpr int kColumns = 4, kGap = 4;  // pixels between pictures
 
 }  // namespace
 

@@ -15,7 +15,8 @@ class ContactSheet {
 
     bool wants(uint32_t frame) const;  // after this frame
     void add(Image image) { images_.push_back(std::move(image)); }
-    Image image() const;  // two a row
+    Image image() const;
+    const std::vector<Image>& pictures() const { return images_; }  // four a row
 
   private:
     uint32_t moments_ = 0, frames_ = 1;

@@ -3,13 +3,13 @@
 #include <iostream>
 
 #include "engine/core/log.h"
-#include "engine/scene/gltf_import.h"
+#include "game/dress_level.h"
 
 namespace ag::game {
 namespace {
 
 constexpr const char* kLevel = AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb";
-constexpr float kMood = -1.5f;  // stops: so much darker than what the eye gets used to
+constexpr float kMood = -2.15f;  // stops: so much darker than what the eye gets used to
 
 }  // namespace
 
@@ -26,7 +26,7 @@ gpu::DeviceOptions deviceOptions(const Demo& demo, std::optional<gpu::WindowSurf
 }
 
 Status loadLevel(Demo& demo) {
-    auto level = importGltf(demo.options.scene.empty() ? kLevel : demo.options.scene);
+    auto level = readLevel(demo.options.scene.empty() ? kLevel : demo.options.scene);
     if (!level) return level.error();
     for (const std::string& warning : level->warnings)
         spdlog::warn("{}: {}", level->name, warning);

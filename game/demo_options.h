@@ -26,8 +26,9 @@ struct DemoOptions {
     std::string quality, userFolder;
     uint32_t captureFrames = 16;  // that F10 records
     bool renderDoc = false;
-    double budgetMs = 0;  // of a frame's passes; 0: none was given
-    bool resume = false;  // --continue
+    double budgetMs = 0;   // of a frame's passes; 0: none was given
+    bool resume = false;   // --continue
+    uint32_t chapter = 0;  // the room to start in, from 1; 0: where the level starts
     bool serial = false;
     bool validate = false;
     std::vector<std::string> without;  // device features to do without

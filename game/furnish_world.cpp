@@ -85,8 +85,10 @@ void addTagged(const Furnished& f, const std::vector<Entity>& entities, uint32_t
     const NodeExtras& e = f.node.extras;
     const bool shown = f.node.mesh >= 0;
     if (e.tag == "room")
-        f.world.add(f.entity,
-                    Room{.center = f.node.local.translation, .half = e.moveExtent, .index = e.room});
+        f.world.add(f.entity, Room{.center = f.node.local.translation,
+                                   .half = e.moveExtent,
+                                   .index = e.room,
+                                   .openToSky = e.openToSky});
     if (e.tag == "lantern") addLantern(f, lanterns++);
     if (!shown) return;
     if (e.tag == "flame") addLantern(f, flames++);

@@ -9,6 +9,7 @@
 #include "engine/scene/static_scene.h"
 #include "game/furnish_world.h"
 #include "game/systems/make_sounds.h"
+#include "game/systems/show_sky.h"
 
 namespace ag::game {
 namespace {
@@ -62,6 +63,7 @@ Game::Game(SceneAsset level, uint32_t threads)
     world_.setResource<ActiveCamera>(start);
     world_.setResource<ExtractState>();
     world_.setResource<RenderScene>().geometry = &level_.geometry;
+    world_.setResource<LevelSky>().sky = level_.sky;
 }
 
 void Game::tick(const Input& input) {

@@ -11,9 +11,12 @@
 #include "game/contact_sheet.h"
 #include "game/demo_options.h"
 #include "game/pass_log.h"
+#include "game/picture_check.h"
 
 namespace ag::game {
 namespace {
+
+constexpr uint32_t kMoments = 20;
 
 using Clock = std::chrono::steady_clock;
 
@@ -31,7 +34,7 @@ class HeadlessRun {
         renderer_.load(demo.game->level().geometry);
         const uint32_t replay = uint32_t(demo.replay.size()), per = demo.options.ticksPerFrame;
         frames_ = demo.options.frames ? demo.options.frames : std::max((replay + per - 1) / per, 1u);
-        sheet_ = ContactSheet(demo.options.moments.empty() ? 0 : 10, frames_);
+        sheet_ = ContactSheet(demo.options.moments.empty() ? 0 : kMoments, frames_);
     }
 
     int run() {
@@ -108,9 +111,24 @@ class HeadlessRun {
                    demo_.game->player().carried ? ", carrying a crate" : "", p.flowersOpen, p.flowers,
                    p.roomsSolved, p.rooms, p.won ? ", finished" : "", demo_.game->stateHash(),
                    double(renderer_.deviceBytes()) / 1048576.0, residentBefore_, residentMib()) +
-               budgetLine() + passes_.text();
+               budgetLine() + momentLines() + passes_.text();
     }
 
+    // Of each moment: what is nearly black, and what is burnt out.
+    std::string momentLines() const {
+        std::string text;
+        Extremes worst;
+        for (size_t i = 0; i < sheet_.pictures().size(); ++i) {
+            const Extremes e = extremesOf(sheet_.pictures()[i]);
+            text +=
+                fmt::format("moment {}: {:.1f} % dark, {:.1f} % bright\n", i, 100 * e.dark, 100 * e.bright);
+            worst = {std::max(worst.dark, e.dark), std::max(worst.bright, e.bright)};
+        }
+        if (text.empty()) return "";
+        const bool good = worst.dark < kMostDark && worst.bright < kMostBright;
+        return text + fmt::format("moments: at most {:.1f} % dark, {:.1f} % bright: {}\n\n", 100 * worst.dark,
+                                  100 * worst.bright, good ? "good" : "too much");
+    }
     std::string budgetLine() const {
         if (demo_.options.budgetMs <= 0) return "";
         return fmt::format(

@@ -1,6 +1,7 @@
 // The demo: a dark gallery, a lamp in your hand, and flowers that open in light that has bounced. Esc is the
 // menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world, F9 the
 // profiler; F10 captures frames.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
@@ -27,7 +28,7 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_option("--size", o.sizeText, "pixels, WxH")->capture_default_str();
     program.add_option("--scene", o.scene, "another level, glTF or GLB");
     program.add_option("--screenshot", o.screenshot, "save the last frame as PNG");
-    program.add_option("--moments", o.moments, "save ten moments of a headless run as one PNG");
+    program.add_option("--moments", o.moments, "save twenty moments of a headless run as one PNG");
     program.add_option("--ticks-per-frame", o.ticksPerFrame, "headless: ticks of 1/60 s for each frame")
         ->check(numberFrom(1, 60))
         ->capture_default_str();
@@ -39,6 +40,9 @@ void addOptions(CLI::App& program, DemoOptions& o) {
         ->excludes("--quality");
     program.add_option("--user", o.userFolder, "folder of the save, the keys and the settings");
     program.add_flag("--continue", o.resume, "go on with the saved game");
+    program.add_option("--chapter", o.chapter, "start in this room, from 1: all before it are solved")
+        ->check(numberFrom(1, 1000))
+        ->excludes("--continue");
     program.add_option("--report", o.report, "save a report of the passes and times");
     program.add_option("--view", o.view, "show this intermediate instead of the final image");
     program.add_option("--set", o.assignments, "group.name=value")
@@ -86,9 +90,9 @@ Status readUserFiles(Demo& demo) {
 
 Status readReplay(Demo& demo) {
     const DemoOptions& o = demo.options;
-    const std::string replay = !o.replay.empty()                            ? o.replay
-                               : o.headless && o.scene.empty() && !o.resume ? kWalkthrough
-                                                                            : "";
+    const std::string replay = !o.replay.empty()                                          ? o.replay
+                               : o.headless && o.scene.empty() && !o.resume && !o.chapter ? kWalkthrough
+                                                                                          : "";
     if (replay.empty()) return Ok{};
     auto ticks = loadReplay(replay);
     if (!ticks) return ticks.error();
@@ -124,6 +128,10 @@ Status prepare(Demo& demo) {
     if (o.budgetMs > 0) demo.user.quality = Quality::kAutomatic;
     useQuality(demo, demo.user.quality, render::qualitySteps()[render::firstFullSizeStep()]);
     if (Status s = loadLevel(demo); !s) return s;
+    if (o.chapter > 0 && !o.record.empty())
+        return Error{"a recording starts with the level, not with --chapter"};
+    if (o.chapter > 0 && !startAtRoom(*demo.game, int32_t(o.chapter) - 1))
+        return Error{fmt::format("the level has no room {}", o.chapter)};
     return o.resume ? continueGame(*demo.game, demo.files.save()) : Status(Ok{});
 }
 

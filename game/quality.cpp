@@ -32,7 +32,7 @@ std::string_view qualityName(Quality quality) {
 }
 
 void openEyes(render::RenderSettings& gi) {
-    gi.exposure = {.automatic = true, .least = -2, .most = 3};
+    gi.exposure = {.automatic = true, .least = -4, .most = 4};
     gi.composite.tonemap = render::Tonemap::kAgx;
 }
 

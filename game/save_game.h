@@ -19,6 +19,8 @@ Status putSaveAside(const std::string& path, const std::string& suffix);
 Status putBrokenSaveAside(const Game& game, const std::string& path);
 // Only for a game fresh from its level; if it fails, the game is as it was.
 Status restoreGame(Game& game, const std::string& text, const std::string& path);
+// From the entrance of a room, with all rooms before it solved. False: there is no such room.
+bool startAtRoom(Game& game, int32_t room);
 Status continueGame(Game& game, const std::string& path);
 
 }  // namespace ag::game

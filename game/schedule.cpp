@@ -12,6 +12,7 @@
 #include "game/systems/make_sounds.h"
 #include "game/systems/move_boxes.h"
 #include "game/systems/play_animations.h"
+#include "game/systems/show_sky.h"
 #include "game/systems/walk_player.h"
 
 namespace ag::game {
@@ -57,6 +58,7 @@ Schedule makeFrameSchedule() {
     s.add("updateChildTransforms", updateChildTransforms);
     s.add("poseSkinnedMeshes", poseSkinnedMeshes);
     s.add("extractScene", extractScene);
+    s.add("showSky", showSky);
     s.add("extractProbes", render::extractProbes);
     return s;
 }

@@ -181,6 +181,7 @@ void addVector(tinygltf::Value::Object& extras, const char* name, glm::vec3 v) {
 void addGameExtras(const NodeExtras& e, tinygltf::Value::Object& extras) {
     if (!e.bounces) extras["bounces"] = tinygltf::Value(false);
     if (!e.castsShadow) extras["castsShadow"] = tinygltf::Value(false);
+    if (e.openToSky) extras["openToSky"] = tinygltf::Value(true);
     if (e.shy) extras["shy"] = tinygltf::Value(true);
     if (!e.tag.empty()) extras["tag"] = tinygltf::Value(e.tag);
     if (!e.text.empty()) extras["text"] = tinygltf::Value(e.text);

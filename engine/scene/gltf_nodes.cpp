@@ -78,6 +78,7 @@ NodeExtras extrasOf(const tinygltf::Value& extras) {
                                       {"most", &out.most},
                                       {"swing", &out.swing}})
         *value = floatOf(extras, name, 0);
+    out.openToSky = flagOf(extras, "openToSky", false);
     out.shy = flagOf(extras, "shy", false);
     out.movePeriod = floatOf(extras, "movePeriod", 0);
     out.spinSpeed = floatOf(extras, "spinSpeed", 0);

@@ -31,18 +31,19 @@ struct NodeExtras {
     float flickerPeriod = 0;  // s between turns, 0: burns steadily
     float flickerOff = 0;     // part of the turns in which it is off, 0 to 1
     // Of a thing in a game
-    std::string tag;     // what it is: "flower", "door", ...
-    std::string text;    // of a hint
-    int32_t room = -1;   // it belongs to
-    glm::vec3 wants{0};  // of a flower: colour of light, the greatest channel 1
-    float amount = 0;    // of a flower: W/m²
-    bool shy = false;    // of a flower: the amount is the most it bears
-    float mass = 0;      // kg, 0: does not fall
-    glm::vec3 pivot{0};  // m, of a hinge, in the node's frame
-    glm::vec3 axis{0};   // of a hinge, unit; zero: none
-    float least = 0;     // rad, where the hinge stops; least > most: it does not
-    float most = 0;      // rad
-    float swing = 0;     // rad, of a pendulum; its rest is straight down
+    std::string tag;         // what it is: "flower", "door", ...
+    std::string text;        // of a hint
+    int32_t room = -1;       // it belongs to
+    glm::vec3 wants{0};      // of a flower: colour of light, the greatest channel 1
+    float amount = 0;        // of a flower: W/m²
+    bool openToSky = false;  // of a room: it has no ceiling
+    bool shy = false;        // of a flower: the amount is the most it bears
+    float mass = 0;          // kg, 0: does not fall
+    glm::vec3 pivot{0};      // m, of a hinge, in the node's frame
+    glm::vec3 axis{0};       // of a hinge, unit; zero: none
+    float least = 0;         // rad, where the hinge stops; least > most: it does not
+    float most = 0;          // rad
+    float swing = 0;         // rad, of a pendulum; its rest is straight down
     // Of a node that moves by an animation or whose mesh is bent by one
     int32_t clip = 0;     // the animation, -1: none
     float clipStart = 0;  // s

@@ -79,7 +79,7 @@ FlowerMood moodIn(const Flower& flower, const render::ProbeLight& light, float d
 
 void growFlowers(View<Flower, const render::ProbeLight, const LocalTransform> flowers,
                  View<const PunctualLight, const BounceLight, const LocalTransform> lights,
-                 Res<const GameTime> time) {
+                 Res<const Progress> progress, Res<const GameTime> time) {
     flowers.each([&](Flower& flower, const render::ProbeLight& light, const LocalTransform& at) {
         const Flower before = flower;
         if (light.measured == 0) return false;  // nothing was measured yet
@@ -92,7 +92,9 @@ void growFlowers(View<Flower, const render::ProbeLight, const LocalTransform> fl
         flower.promise = flower.mood == FlowerMood::kOpen ? 1 : promiseIn(flower, light, direct);
         flower.received = mean(light.bounced);
         flower.match = matchOf(light.bounced, flower.wants);
-        if (flower.mood != FlowerMood::kOpen) {
+        if (flower.mood != FlowerMood::kOpen && flower.room != progress->room) {
+            flower.mood = FlowerMood::kDark;  // nothing opens or closes where nobody is
+        } else if (flower.mood != FlowerMood::kOpen) {
             flower.mood = moodIn(flower, light, direct);
             flower.openness = std::clamp(flower.openness + rate(flower.mood) * float(time->step), 0.0f, 1.0f);
         } else {

@@ -24,7 +24,7 @@ float softEdge(const PunctualLight& light, const LocalTransform& at, glm::dvec3 
 
 void growFlowers(View<Flower, const render::ProbeLight, const LocalTransform> flowers,
                  View<const PunctualLight, const BounceLight, const LocalTransform> lights,
-                 Res<const GameTime> time);
+                 Res<const Progress> progress, Res<const GameTime> time);
 void growHearts(View<const FlowerHeart, LocalTransform> hearts, Lookup<const Flower> flowers);
 void openPetals(View<const Petal, LocalTransform> petals, Lookup<const Flower> flowers);
 

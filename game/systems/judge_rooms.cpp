@@ -31,7 +31,7 @@ bool inside(const Room& room, glm::dvec3 p) {
 
 void judgeRooms(View<Room> rooms, View<Flower> flowers, Res<const Player> player, Res<const GameTime> time,
                 Res<Progress> progress) {
-    Progress now{.room = -1};
+    Progress now{.room = progress->room};  // porches and corridors belong to the room one comes from
     // A room without flowers is lit when all the others are.
     const bool allSolved = progress->rooms > 0 && progress->roomsSolved == progress->rooms;
     int32_t last = -1;

@@ -2,6 +2,8 @@
 // each.
 #include "tools/scenegen/gallery.h"
 
+#include <fmt/format.h>
+
 #include "tools/scenegen/gallery_parts.h"
 
 namespace ag::scenegen {
@@ -10,26 +12,33 @@ namespace {
 constexpr float kHeight = 3.6f, kWall = 0.3f;  // m
 constexpr glm::vec2 kDoor(1.4f, 2.4f);         // m, width and height
 constexpr float kPi = 3.14159265f;
+constexpr float kDusk = 0.004f;  // of full daylight
 
+// A room as a list of what makes it: its place, and what it is made of.
 struct Hall {
     int room;
     float left, right, front, back;  // x, x, z, z: front > back
-    uint32_t wall;
+    uint32_t wall, ceiling;
+    Tiles tiles;
+    const char* name = "";
+    const char* rule = "";  // its own sentence
+    float height = kHeight;
+    bool open = false;  // to the sky
 };
 
 // A wall across the way with a doorway in its middle; `z` is its side towards the room, it grows towards -z.
 void crossWall(Furnisher& f, const Hall& h, float z, bool doorway) {
     const float middle = z - kWall / 2, half = kDoor.x / 2;
     if (!doorway) {
-        f.solid("wall", {(h.left + h.right) / 2, kHeight / 2, middle},
-                {h.right - h.left + 2 * kWall, kHeight, kWall}, h.wall);
+        f.solid("wall", {(h.left + h.right) / 2, h.height / 2, middle},
+                {h.right - h.left + 2 * kWall, h.height, kWall}, h.wall);
         return;
     }
-    f.solid("wall", {(h.left - kWall - half) / 2, kHeight / 2, middle},
-            {-half - h.left + kWall, kHeight, kWall}, h.wall);
-    f.solid("wall", {(h.right + kWall + half) / 2, kHeight / 2, middle},
-            {h.right - half + kWall, kHeight, kWall}, h.wall);
-    f.solid("lintel", {0, (kHeight + kDoor.y) / 2, middle}, {kDoor.x + 0.02f, kHeight - kDoor.y, kWall},
+    f.solid("wall", {(h.left - kWall - half) / 2, h.height / 2, middle},
+            {-half - h.left + kWall, h.height, kWall}, h.wall);
+    f.solid("wall", {(h.right + kWall + half) / 2, h.height / 2, middle},
+            {h.right - half + kWall, h.height, kWall}, h.wall);
+    f.solid("lintel", {0, (h.height + kDoor.y) / 2, middle}, {kDoor.x + 0.02f, h.height - kDoor.y, kWall},
             h.wall);
     for (const float side : {-1.0f, 1.0f})  // the frame
         f.solid("jamb", {side * (half + 0.02f), kDoor.y / 2, middle}, {0.1f, kDoor.y, kWall + 0.1f},
@@ -39,47 +48,70 @@ void crossWall(Furnisher& f, const Hall& h, float z, bool doorway) {
 
 void sideWall(Furnisher& f, const Hall& h, float side, float front, float back) {
     const float x = side < 0 ? h.left - kWall / 2 : h.right + kWall / 2, length = front - back;
-    f.solid("wall", {x, kHeight / 2, (front + back) / 2}, {kWall, kHeight, length}, h.wall);
+    f.solid("wall", {x, h.height / 2, (front + back) / 2}, {kWall, h.height, length}, h.wall);
     const float inside = side < 0 ? h.left : h.right;
     f.solid("skirting", {inside - side * 0.03f, 0.09f, (front + back) / 2}, {0.06f, 0.18f, length},
             f.darkWood);
-    f.solid("cornice", {inside - side * 0.06f, kHeight - 0.08f, (front + back) / 2}, {0.12f, 0.16f, length},
+    f.solid("cornice", {inside - side * 0.06f, h.height - 0.08f, (front + back) / 2}, {0.12f, 0.16f, length},
             f.stone);
 }
 
-void hallShell(SceneBuilder& b, Furnisher& f, const Hall& h, const char* name) {
-    f.floor("floor", {h.left, h.back - kWall}, {h.right, h.front});
-    f.ceiling("ceiling", {h.left - kWall, h.back - kWall}, {h.right + kWall, h.front}, kHeight);
-    const uint32_t node = b.place(name, {(h.left + h.right) / 2, 0, (h.front + h.back) / 2});
+// Side walls where nothing else is asked for, floor, ceiling, and the room's own node.
+void hallShell(SceneBuilder& b, Furnisher& f, const Hall& h) {
+    f.floor("floor", {h.left, h.back - kWall}, {h.right, h.front}, h.tiles);
+    const glm::vec2 min(h.left - kWall, h.back - kWall), max(h.right + kWall, h.front);
+    if (!h.open) f.ceiling("ceiling", min, max, h.height, h.ceiling);
+    const uint32_t node = b.place(h.name, {(h.left + h.right) / 2, 0, (h.front + h.back) / 2});
     NodeExtras& extras = b.node(node).extras;
     extras.tag = "room";
     extras.room = h.room;
-    extras.moveExtent = {(h.right - h.left) / 2, kHeight, (h.front - h.back) / 2};  // half its size
+    extras.text = h.rule;
+    extras.openToSky = h.open;
+    extras.moveExtent = {(h.right - h.left) / 2, h.height, (h.front - h.back) / 2};  // half its size
+}
+
+void plainWalls(Furnisher& f, const Hall& h) {
+    crossWall(f, h, h.front + kWall, true);
+    crossWall(f, h, h.back, true);
+    sideWall(f, h, -1, h.front, h.back);
+    sideWall(f, h, 1, h.front, h.back);
 }
 
 void lanterns(Furnisher& f, const Hall& h, int columns, int rows) {
     for (int z = 0; z < rows; ++z)
         for (int x = 0; x < columns; ++x)
             f.lantern(h.room,
-                      {h.left + (h.right - h.left) * (float(x) + 0.5f) / float(columns), kHeight - 0.1f,
+                      {h.left + (h.right - h.left) * (float(x) + 0.5f) / float(columns), h.height - 0.1f,
                        h.front + (h.back - h.front) * (float(z) + 0.5f) / float(rows)},
-                      0.7f);
+                      h.height - 2.9f);
 }
 
+constexpr glm::vec3 kCandle(1.15f, 0.82f, 0.50f);  // W/sr, of a sconce
+
 void corridor(Furnisher& f, uint32_t wall, float front, float back) {
-    const Hall h{-1, -1.2f, 1.2f, front, back, wall};
-    f.floor("corridor floor", {h.left, back}, {h.right, front});
-    f.ceiling("corridor ceiling", {h.left - kWall, back}, {h.right + kWall, front}, kHeight);
+    const Hall h{-1, -1.2f, 1.2f, front, back, wall, f.plaster, {f.tileLight, f.tileDark}, "", "", 2.8f};
+    f.floor("corridor floor", {h.left, back}, {h.right, front}, h.tiles);
+    f.ceiling("corridor ceiling", {h.left - kWall, back}, {h.right + kWall, front}, h.height, h.ceiling);
     sideWall(f, h, -1, front, back);
     sideWall(f, h, 1, front, back);
     f.painting({-1.2f, 1.6f, (front + back) / 2}, kPi / 2, {0.7f, 0.9f}, uint32_t(-front));
-    f.sconce({1.16f, 1.8f, (front + back) / 2}, {-1, 0, 0});
+    f.sconce({1.16f, 1.8f, (front + back) / 2}, {-1, 0, 0}, kCandle);
 }
 
 // Light that has bounced. Two white flowers: one by a wall, one behind a screen.
 void foyer(SceneBuilder& b, Furnisher& f) {
-    const Hall h{0, -4, 4, 0, -8, f.plaster};
-    hallShell(b, f, h, "room of the first light");
+    const Hall h{
+        .room = 0,
+        .left = -4,
+        .right = 4,
+        .front = 0,
+        .back = -8,
+        .wall = f.plaster,
+        .ceiling = f.plaster,
+        .tiles = {f.tileLight, f.tileDark},
+        .name = "room of the first light",
+        .rule = "A flower opens in light that comes off a wall. Point the lamp at the wall beside it."};
+    hallShell(b, f, h);
     crossWall(f, h, kWall, false);
     crossWall(f, h, h.back, true);
     sideWall(f, h, -1, h.front, h.back);
@@ -88,17 +120,17 @@ void foyer(SceneBuilder& b, Furnisher& f) {
         for (const float z : {-2.2f, -5.6f})
             f.column({x, 0, z}, kHeight);
     f.plinth({-2.9f, 0, -3.9f}, 0.7f);
-    f.flower(0, kWhitePaint, 0.18f, {-2.9f, 0.7f, -3.9f}, 0.3f);
+    f.flower(0, kWhitePaint, 0.10f, {-2.9f, 0.7f, -3.9f}, 0.3f);
     f.plinth({3.2f, 0, -7.0f}, 0.5f);
-    f.flower(0, kWhitePaint, 0.18f, {3.2f, 0.5f, -7.0f}, 1);
+    f.flower(0, kWhitePaint, 0.10f, {3.2f, 0.5f, -7.0f}, 1);
     f.solid("screen", {2.35f, 1.1f, -7.15f}, {0.08f, 2.2f, 1.7f}, f.wood);
     f.bench({3.4f, 0, -2.6f}, kPi / 2);
     f.bench({-3.4f, 0, -6.9f}, kPi / 2);
     f.painting({4, 1.7f, -3.9f}, -kPi / 2, {1.4f, 1.0f}, 3);
     f.painting({-4, 1.7f, -1.6f}, kPi / 2, {1.0f, 1.3f}, 5);
     f.painting({-2.5f, 1.7f, -8}, 0, {1.2f, 0.9f}, 8);
-    f.sconce({-3.96f, 1.9f, -5.6f}, {1, 0, 0});
-    f.sconce({3.96f, 1.9f, -1.4f}, {-1, 0, 0});
+    f.sconce({-3.96f, 1.9f, -5.6f}, {1, 0, 0}, kCandle);
+    f.sconce({3.96f, 1.9f, -1.4f}, {-1, 0, 0}, kCandle);
     f.crate(nullptr, {-1.3f, 0.3f, -2.7f}, 0.6f, 14);
     f.crate(nullptr, {-3.3f, 0.3f, -0.8f}, 0.6f, 14);
     f.crate(nullptr, {-2.6f, 0.3f, -0.7f}, 0.6f, 14);
@@ -112,12 +144,25 @@ void foyer(SceneBuilder& b, Furnisher& f) {
 
 // Light takes the colour of what it bounces off.
 void colours(SceneBuilder& b, Furnisher& f) {
-    const Hall h{1, -5, 5, -11.3f, -20, f.plaster};
-    hallShell(b, f, h, "room of colours");
-    crossWall(f, h, h.front + kWall, true);
-    crossWall(f, h, h.back, true);
-    sideWall(f, h, -1, h.front, h.back);
-    sideWall(f, h, 1, h.front, h.back);
+    const uint32_t polished = f.substance("polished tile", {0.34f, 0.32f, 0.30f}),
+                   black = f.substance("black polished tile", {0.10f, 0.10f, 0.11f});
+    for (const uint32_t m : {polished, black}) {  // the floor shows the cloths once more
+        b.materialAt(m).roughness = 0.25f;
+        b.materialAt(m).specular = 1;
+    }
+    const Hall h{.room = 1,
+                 .left = -5,
+                 .right = 5,
+                 .front = -11.3f,
+                 .back = -20,
+                 .wall = f.substance("ivory plaster", {0.72f, 0.66f, 0.54f}),
+                 .ceiling = f.plaster,
+                 .tiles = {polished, black},
+                 .name = "room of colours",
+                 .rule = "Light takes the colour of the cloth it comes off.",
+                 .height = 4.2f};
+    hallShell(b, f, h);
+    plainWalls(f, h);
     f.tapestry(kRedPaint, {-5, 1.75f, -15.5f}, kPi / 2, {4.6f, 2.7f});
     f.tapestry(kBluePaint, {5, 1.75f, -15.5f}, -kPi / 2, {4.6f, 2.7f});
     f.tapestry(kGreenPaint, {2.9f, 1.75f, -20}, 0, {3.6f, 2.7f});
@@ -133,16 +178,26 @@ void colours(SceneBuilder& b, Furnisher& f) {
             f.column({x, 0, z}, kHeight);
     f.bench({0, 0, -15.3f}, 0);
     f.bench({-3.9f, 0, -12.2f}, 0);
-    f.sconce({-4.96f, 1.9f, -12.4f}, {1, 0, 0});
-    f.sconce({4.96f, 1.9f, -18.6f}, {-1, 0, 0});
+    f.sconce({-4.96f, 1.9f, -12.4f}, {1, 0, 0}, kCandle);
+    f.sconce({4.96f, 1.9f, -18.6f}, {-1, 0, 0}, kCandle);
     lanterns(f, h, 4, 3);
     f.hint(1, {0, 0, -12}, "Each flower wants a colour. Light takes the colour of the cloth it bounces off.");
 }
 
 // What stands between: a beam to be shaded, a panel to be opened, a curtain to pass under.
 void shadows(SceneBuilder& b, Furnisher& f) {
-    const Hall h{2, -5, 5, -23.3f, -32, f.plaster};
-    hallShell(b, f, h, "room of shadows");
+    const Hall h{.room = 2,
+                 .left = -5,
+                 .right = 5,
+                 .front = -23.3f,
+                 .back = -32,
+                 .wall = f.substance("sand blocks", {0.62f, 0.53f, 0.40f}),
+                 .ceiling = f.wood,
+                 .tiles = {f.substance("pale stone", {0.46f, 0.42f, 0.36f}),
+                           f.substance("brown stone", {0.26f, 0.20f, 0.15f})},
+                 .name = "room of shadows",
+                 .rule = "A beam closes what it falls on, and what stands in its way makes shade."};
+    hallShell(b, f, h);
     crossWall(f, h, h.front + kWall, true);
     crossWall(f, h, h.back, true);
     sideWall(f, h, 1, h.front, h.back);
@@ -153,8 +208,8 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     f.solid("niche back", {-7.35f, kHeight / 2, -30}, {kWall, kHeight, 2}, h.wall);
     f.solid("niche side", {-6.2f, kHeight / 2, -29.15f}, {2.4f, kHeight, kWall}, h.wall);
     f.solid("niche side", {-6.2f, kHeight / 2, -30.85f}, {2.4f, kHeight, kWall}, h.wall);
-    f.floor("niche floor", {-7.2f, -30.7f}, {-5, -29.3f});
-    f.ceiling("niche ceiling", {-7.5f, -31}, {-5.3f, -29}, kHeight);
+    f.floor("niche floor", {-7.2f, -30.7f}, {-5, -29.3f}, h.tiles);
+    f.ceiling("niche ceiling", {-7.5f, -31}, {-5.3f, -29}, kHeight, f.plaster);
     MeshParts panel;
     addBox(panel, f.wood, {0, 1.1f, 0.66f}, {0.06f, 2.16f, 1.3f});
     for (const float y : {0.55f, 1.65f})
@@ -188,7 +243,7 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     f.column({2.6f, 0, -28.6f}, kHeight);
     f.bench({-4.3f, 0, -27.6f}, kPi / 2);
     f.painting({5, 1.7f, -25}, -kPi / 2, {1.3f, 1.0f}, 12);
-    f.sconce({-4.96f, 1.9f, -28.4f}, {1, 0, 0});
+    f.sconce({-4.96f, 1.9f, -28.4f}, {1, 0, 0}, kCandle);
     lanterns(f, h, 4, 3);
     f.hint(2, {0, 0, -24}, "Direct light closes a flower. Push the crate into the beam.");
     f.hint(2, {-3.4f, 0, -29.8f}, "Walk against the panel: it turns. Light the niche, not the flower.");
@@ -205,12 +260,19 @@ MeshParts paintedBoard(uint32_t front, uint32_t back, glm::vec3 middle, glm::vec
 
 // Paint that moves, between walls that give nothing back.
 void movingPaint(SceneBuilder& b, Furnisher& f) {
-    const Hall h{3, -5, 5, -35.3f, -44, f.charcoal};
-    hallShell(b, f, h, "room of moving paint");
-    crossWall(f, h, h.front + kWall, true);
-    crossWall(f, h, h.back, true);
-    sideWall(f, h, -1, h.front, h.back);
-    sideWall(f, h, 1, h.front, h.back);
+    const Hall h{.room = 3,
+                 .left = -5,
+                 .right = 5,
+                 .front = -35.3f,
+                 .back = -44,
+                 .wall = f.charcoal,
+                 .ceiling = f.substance("black plaster", {0.06f, 0.06f, 0.07f}),
+                 .tiles = {f.substance("gray stone", {0.28f, 0.28f, 0.30f}),
+                           f.substance("slate stone", {0.13f, 0.13f, 0.15f})},
+                 .name = "room of moving paint",
+                 .rule = "Black walls give nothing back. Paint that moves does."};
+    hallShell(b, f, h);
+    plainWalls(f, h);
     f.plinth({-3.6f, 0, -38.4f}, 0.3f);
     f.flower(3, kYellowPaint, 0.05f, {-3.6f, 0.3f, -38.4f}, 0);
     f.crate(&kYellowPaint, {0.6f, 0.45f, -38.4f}, 0.9f, 16);
@@ -237,11 +299,13 @@ void movingPaint(SceneBuilder& b, Furnisher& f) {
     swing.axis = {0, 0, 1};
     swing.swing = 0.35f;
     f.plinth({-2.7f, 0, -43.1f}, 0.5f);
-    f.flower(3, kCyanPaint, 0.04f, {-2.7f, 0.5f, -43.1f}, 0);
+    f.flower(3, kCyanPaint, 0.03f, {-2.7f, 0.5f, -43.1f}, 0);
     f.column({-1.2f, 0, -36.8f}, kHeight);
     f.column({3.4f, 0, -37.4f}, kHeight);
-    f.sconce({4.96f, 1.9f, -39}, {-1, 0, 0});
-    f.sconce({-4.96f, 1.9f, -36.6f}, {1, 0, 0});
+    f.sconce({4.96f, 1.9f, -39}, {-1, 0, 0}, kCandle);
+    f.sconce({-4.96f, 1.9f, -36.6f}, {1, 0, 0}, kCandle);
+    f.sconce({-4.96f, 1.9f, -42.4f}, {1, 0, 0}, kCandle);
+    f.sconce({2.6f, 1.9f, -43.96f}, {0, 0, 1}, kCandle);
     lanterns(f, h, 4, 3);
     f.hint(3, {0, 0, -36},
            "Black walls give nothing back. Bring the paint to the flower: crates can be carried.");
@@ -249,9 +313,191 @@ void movingPaint(SceneBuilder& b, Furnisher& f) {
     f.hint(3, {-2.2f, 0, -40.4f}, "Light the swinging board from the flower's side.");
 }
 
+// Two cloths side by side: only both together have the flower's colour.
+void mixing(SceneBuilder& b, Furnisher& f) {
+    const Hall h{.room = 4,
+                 .left = -4.5f,
+                 .right = 4.5f,
+                 .front = -47.3f,
+                 .back = -55,
+                 .wall = f.substance("violet plaster", {0.34f, 0.30f, 0.40f}),
+                 .ceiling = f.plaster,
+                 .tiles = {f.substance("oak wood", {0.40f, 0.26f, 0.14f}),
+                           f.substance("walnut wood", {0.24f, 0.15f, 0.09f})},
+                 .name = "room of mixing",
+                 .rule = "No cloth here has the flower's colour. Two together do.",
+                 .height = 3.2f};
+    hallShell(b, f, h);
+    plainWalls(f, h);
+    f.tapestry(kRedPaint, {-4.5f, 1.6f, -49.9f}, kPi / 2, {2.2f, 2.5f});
+    f.tapestry(kBluePaint, {-4.5f, 1.6f, -52.1f}, kPi / 2, {2.2f, 2.5f});
+    f.plinth({-3.0f, 0, -51.0f}, 0.3f);
+    f.flower(4, kMagentaPaint, 0.05f, {-3.0f, 0.3f, -51.0f}, 0);
+    f.tapestry(kGreenPaint, {4.5f, 1.6f, -49.9f}, -kPi / 2, {2.2f, 2.5f});
+    f.tapestry(kRedPaint, {4.5f, 1.6f, -52.1f}, -kPi / 2, {2.2f, 2.5f});
+    f.plinth({3.0f, 0, -51.0f}, 0.3f);
+    f.flower(4, kYellowPaint, 0.05f, {3.0f, 0.3f, -51.0f}, 1);
+    f.bench({0, 0, -53.6f}, 0);
+    f.painting({-2.6f, 1.6f, -55}, 0, {1.1f, 0.9f}, 21);
+    f.painting({2.6f, 1.6f, -55}, 0, {1.1f, 0.9f}, 22);
+    for (const float x : {-4.46f, 4.46f})
+        f.sconce({x, 1.9f, -54.2f}, {x < 0 ? 1 : -1, 0, 0}, kCandle);
+    f.sconce({2.8f, 1.9f, -47.34f}, {0, 0, -1}, kCandle);
+    lanterns(f, h, 3, 3);
+    f.hint(4, {0, 0, -51}, "Put the lamp's spot on the seam between two cloths, above the flower.");
+}
+
+// A thing that shines of itself, carried where no lamp reaches.
+void signs(SceneBuilder& b, Furnisher& f) {
+    const Hall h{.room = 5,
+                 .left = -4,
+                 .right = 4,
+                 .front = -58.3f,
+                 .back = -65.5f,
+                 .wall = f.charcoal,
+                 .ceiling = f.iron,
+                 .tiles = {f.substance("wet gray tile", {0.22f, 0.24f, 0.26f}),
+                           f.substance("wet dark tile", {0.09f, 0.10f, 0.11f})},
+                 .name = "room of signs",
+                 .rule = "A sign shines of itself. Carry it to those who want its colour.",
+                 .height = 3.4f};
+    for (const uint32_t m : {h.tiles.light, h.tiles.dark}) {
+        b.materialAt(m).roughness = 0.3f;
+        b.materialAt(m).specular = 1;
+    }
+    hallShell(b, f, h);
+    plainWalls(f, h);
+    for (const float side : {-1.0f, 1.0f}) {  // stalls
+        f.solid("stall", {side * 2.9f, 0.9f, -61.3f}, {2.2f, 1.8f, 0.12f}, f.charcoal);
+        f.plinth({side * 3.2f, 0, -62.6f}, 0.3f);
+    }
+    f.flower(5, kCyanPaint, 0.025f, {-3.2f, 0.3f, -62.6f}, 0);
+    f.flower(5, kCyanPaint, 0.025f, {3.2f, 0.3f, -62.6f}, 1);
+    f.bench({0, 0, -63.2f}, 0);
+    f.sign(kCyanPaint, {0.5f, 5.0f, 5.2f}, {0, 0.65f, -63.2f});
+    f.sconce({-3.96f, 1.9f, -60.2f}, {1, 0, 0}, kCandle);
+    f.sconce({3.96f, 1.9f, -60.2f}, {-1, 0, 0}, kCandle);
+    f.sconce({2.6f, 1.9f, -65.46f}, {0, 0, 1}, kCandle);
+    lanterns(f, h, 3, 3);
+    f.hint(5, {0, 0, -61},
+           "Pick the sign up with the use key, walk round the stall and hold it before the flower.");
+}
+
+// What wants the dark, beside what wants light.
+void night(SceneBuilder& b, Furnisher& f) {
+    const Hall h{.room = 6,
+                 .left = -4.5f,
+                 .right = 4.5f,
+                 .front = -68.8f,
+                 .back = -76,
+                 .wall = f.substance("night plaster", {0.20f, 0.26f, 0.42f}),
+                 .ceiling = f.substance("blue plaster", {0.14f, 0.18f, 0.32f}),
+                 .tiles = {f.substance("moon stone", {0.42f, 0.44f, 0.48f}),
+                           f.substance("ink stone", {0.12f, 0.14f, 0.20f})},
+                 .name = "room of the night",
+                 .rule = "One flower here is shy: it opens in the dark. Take the light away from it.",
+                 .height = 3.8f};
+    hallShell(b, f, h);
+    plainWalls(f, h);
+    f.solid("screen", {-1.6f, 1.3f, -74.4f}, {0.12f, 2.6f, 3.2f}, f.wood);
+    f.plinth({-3.3f, 0, -74.6f}, 0.5f);
+    f.flower(6, kBluePaint, 0.03f, {-3.3f, 0.5f, -74.6f}, 0, true);
+    f.sign(kYellowPaint, {3.2f, 2.5f, 0.8f}, {-2.7f, 0.3f, -73.5f});
+    f.tapestry(kGreenPaint, {4.5f, 1.7f, -72.4f}, -kPi / 2, {3.0f, 2.6f});
+    f.plinth({3.1f, 0, -72.4f}, 0.4f);
+    f.flower(6, kGreenPaint, 0.04f, {3.1f, 0.4f, -72.4f}, 0);
+    f.bench({-3.7f, 0, -70.6f}, kPi / 2);
+    f.painting({-4.5f, 1.7f, -70.6f}, kPi / 2, {1.0f, 1.3f}, 31);
+    f.sconce({4.46f, 1.9f, -69.6f}, {-1, 0, 0}, {0.7f, 0.8f, 1.1f});
+    f.sconce({-4.46f, 1.9f, -69.4f}, {1, 0, 0}, {0.7f, 0.8f, 1.1f});
+    f.sconce({3.2f, 1.9f, -75.96f}, {0, 0, 1}, {0.7f, 0.8f, 1.1f});
+    lanterns(f, h, 3, 3);
+    f.hint(6, {-3, 0, -73}, "Carry the sign out from behind the screen, and turn the lamp away.");
+    f.hint(6, {3, 0, -72}, "The green one opens as in the room of colours.");
+}
+
+// A porch behind a panel, with the evening sun in its window.
+void porch(SceneBuilder& b, Furnisher& f, const Hall& h, float z, const Paint& glass, glm::vec3 sun) {
+    const float x = h.right;
+    f.solid("porch lintel", {x + 0.15f, (h.height + 2.3f) / 2, z}, {kWall, h.height - 2.3f, 1.4f}, h.wall);
+    f.solid("porch back", {x + 2.35f, h.height / 2, z}, {kWall, h.height, 2}, h.wall);
+    for (const float side : {-1.0f, 1.0f})
+        f.solid("porch side", {x + 1.2f, h.height / 2, z + side * 0.85f}, {2.4f, h.height, kWall}, h.wall);
+    f.floor("porch floor", {x, z - 0.7f}, {x + 2.2f, z + 0.7f}, h.tiles);
+    f.ceiling("porch ceiling", {x + 0.3f, z - 1}, {x + 2.5f, z + 1}, h.height, h.ceiling);
+    MeshParts panel;
+    addBox(panel, f.wood, {0, 1.1f, 0.66f}, {0.06f, 2.16f, 1.3f});
+    for (const float y : {0.55f, 1.65f})
+        addBox(panel, f.darkWood, {0, y, 0.66f}, {0.09f, 0.8f, 1.0f});
+    const uint32_t leaf = b.model("shutter", panel, {x + 0.05f, 0.03f, z - 0.67f});
+    NodeExtras& extras = b.node(leaf).extras;
+    extras.tag = "panel";
+    extras.mass = 12;
+    extras.axis = {0, 1, 0};
+    extras.least = -0.02f;
+    extras.most = 1.45f;
+    // Its window, and the sun that comes in by it.
+    const uint32_t pane = b.emissive(fmt::format("{} pane", glass.name), glass.albedo, glass.albedo * 0.9f);
+    b.box("pane", {x + 2.18f, 1.75f, z}, {0.03f, 0.7f, 0.7f}, pane);
+    const uint32_t light =
+        b.spot(fmt::format("{} sun", glass.name), {x + 2.1f, 1.75f, z}, {-1, -0.02f, 0}, sun, {5, 8});
+    b.node(light).extras.tag = "beam";
+}
+
+void greenhouse(SceneBuilder& b, Furnisher& f) {
+    const Hall h{.room = 7,
+                 .left = -4.5f,
+                 .right = 4.5f,
+                 .front = -79.3f,
+                 .back = -88,
+                 .wall = f.substance("lime plaster", {0.66f, 0.68f, 0.60f}),
+                 .ceiling = f.iron,
+                 .tiles = {f.substance("terracotta tile", {0.48f, 0.24f, 0.15f}),
+                           f.substance("brick tile", {0.32f, 0.15f, 0.10f})},
+                 .name = "greenhouse",
+                 .rule = "The evening sun stands behind coloured panes. Let it in.",
+                 .height = 3.4f,
+                 .open = true};
+    hallShell(b, f, h);
+    f.pergola({h.left - kWall, h.back - kWall}, {h.right + kWall, h.front}, h.height, f.iron, 0.8f);
+    crossWall(f, h, h.front + kWall, true);
+    crossWall(f, h, h.back, true);
+    sideWall(f, h, -1, h.front, h.back);
+    sideWall(f, h, 1, h.front, -81.3f);
+    sideWall(f, h, 1, -82.7f, -85.3f);
+    sideWall(f, h, 1, -86.7f, h.back);
+    porch(b, f, h, -82, kYellowPaint, {420, 290, 16});
+    porch(b, f, h, -86, kRedPaint, {420, 40, 24});
+    f.plinth({-3.3f, 0, -80.1f}, 0.4f);
+    f.flower(7, kYellowPaint, 0.05f, {-3.3f, 0.4f, -80.1f}, 0);
+    f.plinth({-3.3f, 0, -87.5f}, 0.3f);
+    f.flower(7, kRedPaint, 0.05f, {-3.3f, 0.3f, -87.5f}, 1);
+    f.hedge({-4.1f, 0.35f, -84}, {0.6f, 0.7f, 2.0f});
+    f.hedge({2.2f, 0.3f, -87.4f}, {1.8f, 0.6f, 0.6f});
+    f.tree({3.6f, 0, -84}, 2.4f);
+    f.sconce({-4.46f, 2.2f, -84}, {1, 0, 0}, kCandle);
+    f.sconce({2.6f, 2.0f, -79.34f}, {0, 0, -1}, kCandle);
+    lanterns(f, h, 3, 3);
+    f.hint(7, {3.4f, 0, -82}, "Walk against the shutter: it turns, and the sun falls on the wall.");
+    f.hint(7, {3.4f, 0, -86}, "Walk against the shutter: it turns, and the sun falls on the wall.");
+}
+
 void garden(SceneBuilder& b, Furnisher& f) {
-    const Hall h{4, -3.5f, 3.5f, -44.3f, -51, f.plaster};
-    hallShell(b, f, h, "garden");
+    const uint32_t gravel = f.substance("gravel stone", {0.50f, 0.47f, 0.41f}),
+                   turf = f.substance("turf leaf", {0.16f, 0.30f, 0.09f});
+    const Hall h{.room = 8,
+                 .left = -6,
+                 .right = 6,
+                 .front = -88.3f,
+                 .back = -99,
+                 .wall = f.substance("garden blocks", {0.56f, 0.50f, 0.40f}),
+                 .ceiling = f.plaster,
+                 .tiles = {gravel, turf},
+                 .name = "garden",
+                 .height = 3.0f,
+                 .open = true};
+    hallShell(b, f, h);
+    crossWall(f, h, h.front + kWall, true);
     crossWall(f, h, h.back, false);
     sideWall(f, h, -1, h.front, h.back);
     sideWall(f, h, 1, h.front, h.back);
@@ -260,13 +506,17 @@ void garden(SceneBuilder& b, Furnisher& f) {
                               {0.9f, 0.42f}, {0.85f, 0.3f},  {0.2f, 0.28f},  {0.15f, 0.9f},
                               {0.4f, 1.05f}, {0.42f, 1.12f}, {0.1f, 1.08f},  {0, 1.25f}};
     addLathe(fountain, f.stone, bowl, 20, glm::vec3(0));
-    b.node(b.model("fountain", fountain, {0, 0, -48.2f})).extras.collider = true;
-    f.bench({-2.8f, 0, -48.2f}, kPi / 2);
-    f.bench({2.8f, 0, -48.2f}, kPi / 2);
-    for (const float x : {-2.6f, 2.6f})
-        for (const float z : {-46.0f, -50.2f})
-            f.column({x, 0, z}, kHeight);
-    lanterns(f, h, 4, 4);
+    b.node(b.model("fountain", fountain, {0, 0, -94})).extras.collider = true;
+    f.bench({-2.8f, 0, -94}, kPi / 2);
+    f.bench({2.8f, 0, -94}, kPi / 2);
+    for (const float x : {-4.4f, 4.4f})
+        for (const float z : {-90.6f, -93.8f, -97.2f})
+            f.tree({x, 0, z}, 3.6f);
+    for (const float x : {-5.6f, 5.6f})
+        f.hedge({x, 0.45f, -93.6f}, {0.7f, 0.9f, 9.6f});
+    f.hedge({0, 0.4f, -98.6f}, {9, 0.8f, 0.6f});
+    f.pergola({-1.6f, -98}, {1.6f, -89.5f}, h.height, f.wood, 1.7f);
+    lanterns(f, h, 2, 4);
 }
 
 }  // namespace
@@ -281,10 +531,22 @@ SceneAsset gallery(uint32_t) {
     shadows(b, f);
     corridor(f, f.plaster, -32.3f, -35);
     movingPaint(b, f);
+    corridor(f, f.plaster, -44.3f, -47);
+    mixing(b, f);
+    corridor(f, f.plaster, -55.3f, -58);
+    signs(b, f);
+    corridor(f, f.plaster, -65.8f, -68.5f);
+    night(b, f);
+    corridor(f, f.plaster, -76.3f, -79);
+    greenhouse(b, f);
     garden(b, f);
     int room = 0;
-    for (const float z : {-8.15f, -20.15f, -32.15f, -44.15f})
+    for (const float z : {-8.15f, -20.15f, -32.15f, -44.15f, -55.15f, -65.65f, -76.15f, -88.15f})
         f.door(room++, {0, 0, z}, kDoor);
+    const uint32_t sky = b.place("sky", {0, 0, 0});
+    b.node(sky).extras.tag = "sky";
+    b.node(sky).extras.axis = glm::normalize(glm::vec3(-0.9f, -0.25f, 0.35f));
+    b.node(sky).extras.amount = kDusk;
     b.spot("hand_lamp", {0.22f, 1.4f, -1.35f}, {-0.2f, -0.1f, -1}, kLampColor, {5, 25});
     const uint32_t camera = b.camera("player", {0, 1.65f, -1.2f}, {-0.4f, 1.5f, -8}, 65);
     b.node(camera).extras.tag = "spawn";

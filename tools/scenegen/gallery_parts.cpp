@@ -35,7 +35,8 @@ Furnisher::Furnisher(SceneBuilder& b) : b_(b) {
     brass = b.material("brass", {0.62f, 0.46f, 0.18f});
     iron = b.material("iron", {0.08f, 0.08f, 0.09f});
     leaf = b.material("leaf", {0.10f, 0.30f, 0.07f});
-    charcoal = b.material("charcoal", {0.045f, 0.045f, 0.05f});
+    clay = b.material("clay stone", {0.45f, 0.22f, 0.13f});
+    charcoal = b.material("charcoal", {0.075f, 0.075f, 0.082f});
     tileLight = b.material("light tile", {0.40f, 0.36f, 0.31f});
     tileDark = b.material("dark tile", {0.20f, 0.16f, 0.13f});
     linen = b.material("linen", {0.58f, 0.50f, 0.40f});
@@ -45,11 +46,18 @@ Furnisher::Furnisher(SceneBuilder& b) : b_(b) {
 uint32_t Furnisher::paint(const Paint& p) {
     for (const auto& [name, material] : paints_)
         if (name == p.name) return material;
-    paints_.push_back({p.name, b_.material(p.name, p.albedo)});
+    paints_.push_back({p.name, b_.material(fmt::format("{} cloth", p.name), p.albedo)});
     return paints_.back().second;
 }
 
-void Furnisher::floor(const char* name, glm::vec2 min, glm::vec2 max) {
+uint32_t Furnisher::substance(const char* name, glm::vec3 albedo) {
+    for (const auto& [known, material] : paints_)
+        if (known == name) return material;
+    paints_.push_back({name, b_.material(name, albedo)});
+    return paints_.back().second;
+}
+
+void Furnisher::floor(const char* name, glm::vec2 min, glm::vec2 max, Tiles tiles) {
     MeshParts parts;
     const glm::uvec2 count = glm::max(glm::uvec2(glm::round(max - min)), glm::uvec2(1));
     const glm::vec2 step = (max - min) / glm::vec2(count);
@@ -57,19 +65,19 @@ void Furnisher::floor(const char* name, glm::vec2 min, glm::vec2 max) {
         for (uint32_t x = 0; x < count.x; ++x) {
             const glm::vec2 a = min + step * glm::vec2(x, z);
             addSheet(
-                parts, (x + z) % 2 ? tileDark : tileLight,
+                parts, (x + z) % 2 ? tiles.dark : tiles.light,
                 [&](float u, float v) { return glm::vec3(a.x + u * step.x, 0, a.y + (1 - v) * step.y); }, 1,
                 1);
         }
     b_.model(name, parts, glm::vec3(0));
     const glm::vec2 middle = (min + max) / 2.0f, size = max - min;
-    solid("ground", {middle.x, -0.16f, middle.y}, {size.x, 0.3f, size.y}, tileDark);
+    solid("ground", {middle.x, -0.16f, middle.y}, {size.x, 0.3f, size.y}, tiles.dark);
 }
 
-void Furnisher::ceiling(const char* name, glm::vec2 min, glm::vec2 max, float height) {
+void Furnisher::ceiling(const char* name, glm::vec2 min, glm::vec2 max, float height, uint32_t material) {
     const glm::vec2 middle = (min + max) / 2.0f, size = max - min;
     MeshParts parts;
-    addBox(parts, plaster, {0, 0.1f, 0}, {size.x, 0.2f, size.y});
+    addBox(parts, material, {0, 0.1f, 0}, {size.x, 0.2f, size.y});
     for (float z = -size.y / 2 + 1; z < size.y / 2 - 0.2f; z += 2)  // beams
         addBox(parts, wood, {0, -0.08f, z}, {size.x, 0.16f, 0.2f});
     b_.model(name, parts, {middle.x, height, middle.y});
@@ -81,8 +89,19 @@ uint32_t Furnisher::solid(const char* name, glm::vec3 center, glm::vec3 size, ui
     return node;
 }
 
+void Furnisher::pergola(glm::vec2 min, glm::vec2 max, float height, uint32_t material, float apart) {
+    const glm::vec2 middle = (min + max) / 2.0f, size = max - min;
+    MeshParts parts;
+    for (float z = -size.y / 2 + apart / 2; z < size.y / 2; z += apart)
+        addBox(parts, material, {0, -0.08f, z}, {size.x, 0.16f, 0.12f});
+    for (float x = -size.x / 2 + apart; x < size.x / 2 - 0.1f; x += 2 * apart)
+        addBox(parts, material, {x, 0.04f, 0}, {0.12f, 0.10f, size.y});
+    b_.model("pergola", parts, {middle.x, height, middle.y});
+}
+
 void Furnisher::column(glm::vec3 at, float height) {
-    if (column_ == ~0u) {
+    if (column_ == ~0u || columnHeight_ != height) {
+        columnHeight_ = height;
         MeshParts parts;
         const float h = height;
         const glm::vec2 profile[] = {{0.34f, 0},         {0.34f, 0.12f},     {0.28f, 0.14f},
@@ -167,7 +186,7 @@ uint32_t Furnisher::heartOf(const Paint& p) {
     return hearts_.back().second;
 }
 
-void Furnisher::flower(int room, const Paint& p, float amount, glm::vec3 at, float yaw) {
+void Furnisher::flower(int room, const Paint& p, float amount, glm::vec3 at, float yaw, bool shy) {
     uint32_t petal = ~0u;
     for (const auto& [name, material] : glows_)
         if (name == p.name) petal = material;
@@ -179,7 +198,7 @@ void Furnisher::flower(int room, const Paint& p, float amount, glm::vec3 at, flo
     MeshParts parts;
     const glm::vec2 pot[] = {{0.09f, 0},      {0.13f, 0.13f}, {0.155f, 0.15f},
                              {0.155f, 0.18f}, {0.12f, 0.18f}, {0, 0.165f}};
-    addLathe(parts, wood, pot, 14, glm::vec3(0));
+    addLathe(parts, clay, pot, 14, glm::vec3(0));
     const glm::vec2 stem[] = {{0.016f, 0.16f}, {0.012f, 0.40f}, {0.03f, 0.43f}, {0.0f, 0.45f}};
     addLathe(parts, leaf, stem, 7, glm::vec3(0));
     for (const float side : {1.0f, -1.0f})
@@ -197,6 +216,7 @@ void Furnisher::flower(int room, const Paint& p, float amount, glm::vec3 at, flo
     b_.node(root).extras.room = room;
     b_.node(root).extras.wants = wants;
     b_.node(root).extras.amount = amount;
+    b_.node(root).extras.shy = shy;
     b_.materialAt(leaf).doubleSided = true;
     // Between them a glow that is as large as its light is good.
     MeshParts heart;
@@ -260,14 +280,13 @@ void Furnisher::lantern(int room, glm::vec3 from, float chain) {
     extras.bounces = false;
 }
 
-void Furnisher::sconce(glm::vec3 at, glm::vec3 off) {
+void Furnisher::sconce(glm::vec3 at, glm::vec3 off, glm::vec3 intensity) {
     MeshParts parts;
     addBox(parts, brass, glm::vec3(0), {0.08f, 0.22f, 0.08f});
     const glm::vec2 bowl[] = {{0, 0.06f}, {0.08f, 0.10f}, {0.11f, 0.16f}};
     addLathe(parts, brass, bowl, 10, off * 0.14f);
     b_.model("sconce", parts, at);
-    const uint32_t light = b_.point("sconce light", at + off * 0.35f + glm::vec3(0, 0.35f, 0),
-                                    glm::vec3(0.22f, 0.15f, 0.08f), 4.5f);
+    const uint32_t light = b_.point("sconce light", at + off * 0.35f + glm::vec3(0, 0.35f, 0), intensity, 9);
     b_.node(light).extras.bounces = b_.node(light).extras.castsShadow = false;
     b_.node(light).extras.tag = "sconce";
 }
@@ -286,6 +305,46 @@ void Furnisher::crate(const Paint* p, glm::vec3 center, float size, float mass) 
     const uint32_t node = b_.model(p ? fmt::format("{} crate", p->name) : "crate", parts, center);
     b_.node(node).extras.tag = "crate";
     b_.node(node).extras.mass = mass;
+}
+
+void Furnisher::sign(const Paint& p, glm::vec3 radiance, glm::vec3 center) {
+    MeshParts parts;
+    const uint32_t glow = b_.emissive(fmt::format("{} sign", p.name), p.albedo, radiance);
+    addBox(parts, iron, glm::vec3(0), {0.46f, 0.26f, 0.08f});
+    for (const float side : {1.0f, -1.0f})  // a pane on either face
+        addSheet(
+            parts, glow,
+            [&](float u, float v) {
+                return glm::vec3(side * (u - 0.5f) * 0.44f, (v - 0.5f) * 0.24f, side * 0.045f);
+            },
+            4, 2);
+    for (const float y : {-0.15f, 0.15f})
+        addBox(parts, iron, {0, y, 0}, {0.54f, 0.04f, 0.14f});
+    for (const float x : {-0.25f, 0.25f})
+        addBox(parts, iron, {x, 0, 0}, {0.04f, 0.30f, 0.14f});
+    const uint32_t node = b_.model(fmt::format("{} sign", p.name), parts, center);
+    b_.node(node).extras.tag = "crate";
+    b_.node(node).extras.mass = 8;
+}
+
+void Furnisher::hedge(glm::vec3 center, glm::vec3 size) {
+    solid("hedge", center, size, leaf);
+}
+
+void Furnisher::tree(glm::vec3 at, float height) {
+    MeshParts parts;
+    const glm::vec2 trunk[] = {{0.16f, 0}, {0.10f, 0.4f}, {0.08f, height * 0.6f}};
+    addLathe(parts, darkWood, trunk, 8, glm::vec3(0));
+    for (int i = 0; i < 5; ++i) {
+        const float r = 0.30f * height * (1 - 0.09f * float(i)), turn = 2.4f * float(i);
+        const glm::vec2 crown[] = {
+            {0, -r * 0.6f}, {r * 0.6f, -r * 0.5f}, {r * 0.8f, 0}, {r * 0.5f, r * 0.5f}, {0, r * 0.6f}};
+        addLathe(
+            parts, leaf, crown, 9,
+            {0.35f * r * std::cos(turn), height * (0.6f + 0.07f * float(i)), 0.35f * r * std::sin(turn)});
+    }
+    b_.node(b_.model("tree", parts, at)).extras.collider = false;
+    solid("trunk", at + glm::vec3(0, 0.5f, 0), {0.2f, 1, 0.2f}, darkWood);
 }
 
 void Furnisher::curtain(glm::vec3 from, glm::vec3 to, float low, float high) {

@@ -95,7 +95,7 @@ void Bot::look(double x, double y, double z) {
 }
 
 bool Bot::waitForFlower(size_t index, int mostTicks) {
-    const int margin = 30;  // for other machines and longer frames
+    const int margin = 60;  // for other machines and longer frames
     render::ProbeLight best;
     for (int i = 0; i < mostTicks; ++i) {
         tick({0, 0});
@@ -128,7 +128,10 @@ bool Bot::waitForDoor(int room, int mostTicks) {
         View<const Room>(stage_.game.world(), {}).each([&](const Room& r) {
             open = open || (r.index == room && r.solved && r.since > 1.7f);
         });
-        if (open) return true;
+        if (open) {
+            wait(60);  // it may open later elsewhere
+            return true;
+        }
         tick({0, 0});
     }
     return fail(fmt::format("the door of room {} stays shut", room));

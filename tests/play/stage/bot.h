@@ -42,6 +42,8 @@ class Bot {
 
 // Plays the shipped level from the start to the garden; false if something did not go as planned.
 bool playWalkthrough(Bot& bot);
+// The same from a room's entrance on.
+bool playFrom(Bot& bot, int room);
 // Three ways that do not open a flower: the beam on it (flower 0), light of another colour (flower 4), light
 // on the wrong side of a wall (flower 1).
 bool playDirectBeam(Bot& bot);

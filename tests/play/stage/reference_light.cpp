@@ -8,7 +8,7 @@
 namespace ag::game {
 namespace {
 
-constexpr uint32_t kDirections = 128, kSamples = 512;
+constexpr uint32_t kDirections = 128, kSamples = 160;
 
 // A small plane in each of many directions, evenly over the sphere.
 reference::FirstHits planesAround(glm::vec3 point) {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "engine/scene/components.h"
-#include "engine/scene/gltf_import.h"
+#include "game/dress_level.h"
 
 namespace ag::game {
 
 SceneAsset shippedLevel() {
-    return *importGltf(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
+    return *readLevel(AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb");
 }
 
 Stage::Stage(gpu::Device& device, SceneAsset level, uint32_t ticksPerFrame, glm::uvec2 pixels)

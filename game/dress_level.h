@@ -1,0 +1,20 @@
+// What a level's file does not hold: textures of its materials, drawn at the start by the materials' names,
+// and its sky. A file of plain colours is so a level of plaster, oak and cloth.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/scene/scene_asset.h"
+
+namespace ag::game {
+
+// A level's file, dressed. The error is one sentence.
+Result<SceneAsset> readLevel(const std::string& path);
+
+// A node with the tag "sky" gives the level a clear sky: `axis` is the way the sun's light travels, `amount`
+// the share of full daylight.
+void addSky(SceneAsset& level);
+// Materials whose names end in a known substance ("oak", "plaster") get its picture and bumps, laid over all
+// faces in meters; their mean albedo stays. Materials that have textures stay as they are.
+void addTextures(SceneAsset& level);
+
+}  // namespace ag::game

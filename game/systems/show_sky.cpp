@@ -1,0 +1,18 @@
+#include "game/systems/show_sky.h"
+
+#include <cstdlib>
+
+namespace ag::game {
+
+void showSky(View<const Room> rooms, Res<const Progress> progress, Res<const LevelSky> level,
+             Res<RenderScene> scene) {
+    bool any = false, seen = false;
+    rooms.each([&](const Room& room) {
+        any = true;
+        seen = seen || (room.openToSky && std::abs(room.index - progress->room) <= 1);
+    });
+    if (any && progress->room < 0) return;  // between rooms it stays as it is
+    scene->sky = seen || !any ? level->sky : nullptr;
+}
+
+}  // namespace ag::game
