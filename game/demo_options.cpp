@@ -1,5 +1,6 @@
 #include "game/demo_options.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include "engine/core/log.h"
@@ -43,6 +44,7 @@ void useQuality(Demo& demo, Quality preset, const render::QualityStep& step) {
         render::addBounces(demo.gi);
         demo.gi.antialiasing.scale = step.scale;
     }
+    if (demo.user.resolution > 0) demo.gi.antialiasing.scale = std::clamp(demo.user.resolution, 0.5f, 1.0f);
     demo.gi.composite.exposure = demo.user.exposure + kMood;
     demo.sound.volume = demo.user.volume;
     for (const std::string& assignment : demo.options.assignments)

@@ -11,8 +11,19 @@
 namespace ag::game {
 namespace {
 
-enum class MainLine { kResume, kContinue, kNew, kSettings, kKeys, kQuit };
-enum SettingLine { kQuality, kSensitivity, kFieldOfView, kExposure, kVolume, kHints, kInvert, kSettingsBack };
+enum class MainLine { kResume, kContinue, kNew, kRooms, kSettings, kKeys, kQuit };
+enum SettingLine {
+    kQuality,
+    kSensitivity,
+    kFieldOfView,
+    kExposure,
+    kVolume,
+    kResolution,
+    kFullscreen,
+    kHints,
+    kInvert,
+    kSettingsBack
+};
 
 void openPage(Menu& menu, MenuPage page) {
     menu.page = page;
@@ -20,11 +31,13 @@ void openPage(Menu& menu, MenuPage page) {
 }
 
 // Only what can be done.
-std::vector<MainLine> mainLines(const Menu& menu) {
+std::vector<MainLine> mainLines(const Menu& menu, const UserSettings& settings) {
     std::vector<MainLine> lines;
     if (menu.started) lines.push_back(MainLine::kResume);
     if (menu.hasSave) lines.push_back(MainLine::kContinue);
-    lines.insert(lines.end(), {MainLine::kNew, MainLine::kSettings, MainLine::kKeys, MainLine::kQuit});
+    lines.push_back(MainLine::kNew);
+    if (settings.roomsReached > 1) lines.push_back(MainLine::kRooms);
+    lines.insert(lines.end(), {MainLine::kSettings, MainLine::kKeys, MainLine::kQuit});
     return lines;
 }
 
@@ -36,6 +49,8 @@ std::string textOf(MainLine line, const Menu& menu) {
             return menu.started ? "Back to the saved game" : "Continue";
         case MainLine::kNew:
             return "New game";
+        case MainLine::kRooms:
+            return "Rooms";
         case MainLine::kSettings:
             return "Settings";
         case MainLine::kKeys:
@@ -45,14 +60,17 @@ std::string textOf(MainLine line, const Menu& menu) {
     }
 }
 
-MenuEvent chooseMain(Menu& menu) {
-    switch (mainLines(menu)[size_t(menu.selected)]) {
+MenuEvent chooseMain(Menu& menu, const UserSettings& settings) {
+    switch (mainLines(menu, settings)[size_t(menu.selected)]) {
         case MainLine::kResume:
             return MenuEvent::kResume;
         case MainLine::kContinue:
             return MenuEvent::kContinue;
         case MainLine::kNew:
             return MenuEvent::kNewGame;
+        case MainLine::kRooms:
+            openPage(menu, MenuPage::kRooms);
+            return MenuEvent::kNone;
         case MainLine::kSettings:
             openPage(menu, MenuPage::kSettings);
             return MenuEvent::kNone;
@@ -86,6 +104,16 @@ MenuEvent changeSetting(Menu& menu, UserSettings& s, int step) {
             move(s.volume, 0.1f, 0, 1);
             s.volume = std::round(s.volume * 10) / 10;  // ends at nothing, not nearly
             break;
+        case kResolution: {
+            // 0 stands below a half, which is the least.
+            const int tenths = s.resolution > 0 ? int(std::lround(s.resolution * 10)) - 4 : 0;
+            const int next = (tenths + step + 7) % 7;
+            s.resolution = next > 0 ? float(next + 4) / 10 : 0;
+            break;
+        }
+        case kFullscreen:
+            s.fullscreen = !s.fullscreen;
+            break;
         case kHints:
             s.hints = !s.hints;
             break;
@@ -101,8 +129,14 @@ MenuEvent changeSetting(Menu& menu, UserSettings& s, int step) {
 
 MenuEvent choose(Menu& menu, UserSettings& settings) {
     menu.message.clear();
-    if (menu.page == MenuPage::kMain) return chooseMain(menu);
+    if (menu.page == MenuPage::kMain) return chooseMain(menu, settings);
     if (menu.page == MenuPage::kSettings) return changeSetting(menu, settings, 1);
+    if (menu.page == MenuPage::kRooms) {
+        menu.room = menu.selected;
+        const bool back = menu.selected >= int(settings.roomsReached);
+        openPage(menu, MenuPage::kMain);
+        return back ? MenuEvent::kNone : MenuEvent::kStartRoom;
+    }
     if (menu.selected >= int(kActionCount))
         openPage(menu, MenuPage::kMain);
     else
@@ -130,8 +164,14 @@ MenuEvent bindKey(Menu& menu, int code, Bindings& keys) {
 std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, const Bindings& keys) {
     std::vector<std::string> lines;
     if (menu.page == MenuPage::kMain) {
-        for (const MainLine line : mainLines(menu))
+        for (const MainLine line : mainLines(menu, s))
             lines.push_back(textOf(line, menu));
+        return lines;
+    }
+    if (menu.page == MenuPage::kRooms) {
+        for (int i = 0; i < int(s.roomsReached); ++i)
+            lines.push_back(fmt::format("Room {}", i + 1));
+        lines.push_back("Back");
         return lines;
     }
     if (menu.page == MenuPage::kSettings)
@@ -140,6 +180,9 @@ std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, cons
                 fmt::format("Field of view: {:.0f} degrees", s.fieldOfView),
                 fmt::format("Brightness: {:+.1f} stops", s.exposure),
                 s.volume > 0 ? fmt::format("Sound: {:.0f} %", s.volume * 100) : "Sound: off",
+                s.resolution > 0 ? fmt::format("Resolution: {:.0f} %", s.resolution * 100)
+                                 : "Resolution: by quality",
+                fmt::format("Fullscreen: {}", s.fullscreen ? "on" : "off"),
                 fmt::format("Hints: {}", s.hints ? "on" : "off"),
                 fmt::format("Mouse up looks {}", s.invertLook ? "down" : "up"),
                 "Back"};

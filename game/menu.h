@@ -9,13 +9,14 @@
 
 namespace ag::game {
 
-enum class MenuPage : uint32_t { kMain, kSettings, kKeys };
+enum class MenuPage : uint32_t { kMain, kSettings, kKeys, kRooms };
 enum class MenuEvent : uint32_t {
     kNone,
     kResume,
     kContinue,
     kNewGame,
     kQuit,
+    kStartRoom,  // Menu::room
     kSettingsChanged,
     kKeysChanged
 };
@@ -26,6 +27,7 @@ struct Menu {
     bool hasSave = false;
     MenuPage page = MenuPage::kMain;
     int selected = 0;
+    int room = 0;              // that was chosen
     bool waitsForKey = false;  // the next key is bound to the selected action
     std::string message;       // what went wrong, in one sentence
 };

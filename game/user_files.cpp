@@ -19,12 +19,16 @@ struct Number {
 constexpr Number kNumbers[] = {{"sensitivity", &UserSettings::sensitivity, 0.1f, 5},
                                {"field_of_view", &UserSettings::fieldOfView, 40, 100},
                                {"exposure", &UserSettings::exposure, -4, 6},
-                               {"volume", &UserSettings::volume, 0, 1}};
+                               {"volume", &UserSettings::volume, 0, 1},
+                               {"resolution", &UserSettings::resolution, 0, 1},
+                               {"rooms_reached", &UserSettings::roomsReached, 0, 1000}};
 struct Flag {
     const char* name;
     bool UserSettings::*value;
 };
-constexpr Flag kFlags[] = {{"hints", &UserSettings::hints}, {"invert_look", &UserSettings::invertLook}};
+constexpr Flag kFlags[] = {{"hints", &UserSettings::hints},
+                           {"invert_look", &UserSettings::invertLook},
+                           {"fullscreen", &UserSettings::fullscreen}};
 
 bool readLine(const std::string& line, UserSettings& s) {
     std::istringstream in(line);

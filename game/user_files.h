@@ -15,6 +15,9 @@ struct UserSettings {
     float fieldOfView = 65;  // degrees, upright
     float exposure = 1;      // stops
     float volume = 0.7f;     // of the sound, 0: none
+    float resolution = 0;    // of the window's sides that is rendered; 0: as the quality says
+    float roomsReached = 0;  // how many rooms may be started from the menu
+    bool fullscreen = false;
     bool hints = true;
     bool invertLook = false;
 };

@@ -125,6 +125,11 @@ class WindowedRun {
         if (moved || event != MenuEvent::kNone) speaker_.play({&click, 1});
     }
     void debugKey(int key) {
+        if (key == GLFW_KEY_F11) {
+            demo_.user.fullscreen = !demo_.user.fullscreen;
+            usePlayerSettings();
+            report(saveUserSettings(demo_.user, demo_.files.settings()));
+        }
         if (key == GLFW_KEY_F1) panels_.showSettings = !panels_.showSettings;
         if (key == GLFW_KEY_F2) panels_.showPasses = !panels_.showPasses;
         if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
@@ -148,6 +153,9 @@ class WindowedRun {
                 break;
             case MenuEvent::kContinue:
                 continueSaved();
+                break;
+            case MenuEvent::kStartRoom:
+                startRoom();
                 break;
             case MenuEvent::kSettingsChanged:
                 usePlayerSettings();
@@ -185,6 +193,18 @@ class WindowedRun {
             report(putSaveAside(demo_.files.save(), ".before"));  // a new game takes nothing that was won
         play();
     }
+    void startRoom() {
+        if (!reload() || !startAtRoom(*demo_.game, menu_.room)) return;
+        endRecording();
+        solved_ = demo_.game->progress().roomsSolved;
+        play();
+    }
+    // What starts elsewhere than the level does is no recording.
+    void endRecording() {
+        if (demo_.options.record.empty()) return;
+        spdlog::warn("a recording starts with the level: this one ends here");
+        demo_.options.record.clear();
+    }
     // A save that cannot be read stays where it is, and so does the game under way.
     void continueSaved() {
         const auto text = readFile(demo_.files.save());
@@ -192,10 +212,7 @@ class WindowedRun {
         const Status good = checkSave(*demo_.game, *text, demo_.files.save());
         if (!good || !reload()) return report(good);
         report(restoreGame(*demo_.game, *text, demo_.files.save()));
-        if (!demo_.options.record.empty()) {
-            spdlog::warn("a recording starts with the level: this one ends here");
-            demo_.options.record.clear();
-        }
+        endRecording();
         solved_ = demo_.game->progress().roomsSolved;
         play();
     }
@@ -232,8 +249,17 @@ class WindowedRun {
             speaker_.play(demo_.game->sounds());
         }
         sinceSave_ += elapsed;
+        noteRoomsReached();
         const uint32_t solved = demo_.game->progress().roomsSolved;
         if (solved != std::exchange(solved_, solved) || sinceSave_ > kSaveSeconds) autosave();
+    }
+    // Rooms one has been in can be started from the menu.
+    void noteRoomsReached() {
+        const float reached = float(demo_.game->progress().room + 1);
+        if (reached <= demo_.user.roomsReached || !demo_.options.scene.empty() || !demo_.replay.empty())
+            return;
+        demo_.user.roomsReached = reached;
+        report(saveUserSettings(demo_.user, demo_.files.settings()));
     }
     Input takeInput(double elapsed) {
         Input input = window_.takeInput(demo_.keys, elapsed);
@@ -245,6 +271,7 @@ class WindowedRun {
     // --- The picture ---
     void usePlayerSettings() {
         useQuality(demo_, demo_.user.quality, quality());
+        if (fullscreen_ != demo_.user.fullscreen) window_.setFullscreen(fullscreen_ = demo_.user.fullscreen);
         demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
     }
     bool automatic() const { return demo_.user.quality == Quality::kAutomatic; }
@@ -353,7 +380,7 @@ class WindowedRun {
     glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels
     double behind_ = 0, frameMs_ = 16, sinceSave_ = 0;
     uint32_t solved_ = 0;
-    bool quit_ = false, checkedSave_ = false;
+    bool fullscreen_ = false, quit_ = false, checkedSave_ = false;
     uint64_t ticks_ = 0, drawn_ = 0;
 };
 

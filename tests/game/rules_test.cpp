@@ -264,6 +264,35 @@ TEST(Menu, IsWalkedWithKeys) {
     EXPECT_EQ(keys.codes[size_t(Action::kForward)], GLFW_KEY_E) << "no key does two things";
 }
 
+TEST(Menu, StartsRoomsOneHasReached) {
+    Menu menu;
+    UserSettings settings{.roomsReached = 3};
+    Bindings keys;
+    const auto press = [&](int code) { return pressInMenu(menu, code, settings, keys); };
+    press(GLFW_KEY_DOWN);
+    ASSERT_EQ(menuLines(menu, settings, keys)[size_t(menu.selected)], "Rooms");
+    press(GLFW_KEY_ENTER);
+    EXPECT_EQ(menuLines(menu, settings, keys).size(), 4u) << "three rooms and the way back";
+    press(GLFW_KEY_DOWN);
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kStartRoom);
+    EXPECT_EQ(menu.room, 1);
+    EXPECT_EQ(menu.page, MenuPage::kMain);
+}
+
+TEST(Menu, ChangesTheResolutionFromAHalfToAll) {
+    Menu menu{.page = MenuPage::kSettings};
+    UserSettings settings;
+    Bindings keys;
+    while (menuLines(menu, settings, keys)[size_t(menu.selected)].find("Resolution") == std::string::npos)
+        pressInMenu(menu, GLFW_KEY_DOWN, settings, keys);
+    for (const float wanted : {0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 0.0f}) {
+        pressInMenu(menu, GLFW_KEY_RIGHT, settings, keys);
+        EXPECT_FLOAT_EQ(settings.resolution, wanted);
+    }
+    pressInMenu(menu, GLFW_KEY_LEFT, settings, keys);
+    EXPECT_FLOAT_EQ(settings.resolution, 1);
+}
+
 TEST(Menu, TurnsTheSoundOffExactly) {
     Menu menu{.page = MenuPage::kSettings};
     UserSettings settings;
