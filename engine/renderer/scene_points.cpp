@@ -30,7 +30,9 @@ void ScenePoints::update(const RenderScene& scene, bool whole, float lightUnit) 
         pool_.start(scene, whole, lightUnit);
     version_ = scene.instancesVersion;
     whole_ = whole;
-    if (!pool_.isEmpty()) fitBuffers();
+    const bool changed =
+        !pool_.changedSamples.empty() || !pool_.changedAreas.empty() || !pool_.changedBounces.empty();
+    if (changed && !pool_.isEmpty()) fitBuffers();
 }
 
 // Room for more, so that what comes one by one makes new buffers rarely.
