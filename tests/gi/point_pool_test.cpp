@@ -113,8 +113,10 @@ TEST(PointPool, RowsAndPointsAreUsedAgain) {
         const RenderScene::Range all{0, first + 2000};
         ASSERT_TRUE(p.points.follow(p.scene, std::span(&all, 1)));
         if (turn == 1) size = p.points.samples().size();
-        if (turn > 1) EXPECT_EQ(p.points.samples().size(), size);
-        if (turn > 1) EXPECT_LE(countOf(p.points.changedSamples), 1000u * 2 * 32);
+        if (turn > 1) {
+            EXPECT_EQ(p.points.samples().size(), size);
+            EXPECT_LE(countOf(p.points.changedSamples), 1000u * 2 * 32);
+        }
         EXPECT_EQ(p.areas().size(), first + 1000);
     }
 }

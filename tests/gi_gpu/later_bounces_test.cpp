@@ -36,7 +36,7 @@ double settledMean(uint32_t albedo, bool feedback) {
     b->settings.bounce.laterBounces.feedback = feedback;
     b->settings.bounce.ismAtlas.enabled = false;  // everything sees everything
     b->settings.bounce.texelRays.enabled = false;
-    const int frames = feedback ? 70 : 36;        // its clusters come to rest after 32
+    const int frames = feedback ? 70 : 36;  // its clusters come to rest after 32
     for (int i = 0; i < frames; ++i)
         b->frame();
     const double mean = meanOnSurfaces(*b);
