@@ -22,7 +22,7 @@ std::atomic<int> gValidationMessages{0};  // of the process: messages also arriv
 // (Vulkan-ValidationLayers, issue 7600): what they say of the work of two queues is not so. From 1.4 on they
 // do.
 constexpr uint32_t kFollowsTimelines = VK_MAKE_API_VERSION(0, 1, 4, 0);
-uint32_t gLayerVersion = kFollowsTimelines;
+std::atomic<uint32_t> gLayerVersion = kFollowsTimelines;  // messages arrive on any thread
 
 bool isOfTwoQueues(const VkDebugUtilsMessengerCallbackDataEXT& data) {
     const std::string_view message = data.pMessage;
@@ -100,6 +100,7 @@ struct Device::Impl {
     VkDevice device = VK_NULL_HANDLE;
     // By gpu::Queue; without a second queue the second timeline is not used.
     std::array<VkQueue, kQueues> queues{};
+    uint64_t ranOnce = 0;  // calls of runOnce()
     std::array<VkSemaphore, kQueues> timelines{};
     std::array<uint64_t, kQueues> submitted{};
     VkCommandPool oncePool = VK_NULL_HANDLE;
@@ -114,7 +115,6 @@ struct Device::Impl {
     Status createDevice(const DeviceOptions& options);
     void createPipelineCache();
     void savePipelineCache() const;
-    uint64_t ranOnce = 0;
     VkCommandBuffer recordOnce(const std::function<void(VkCommandBuffer)>& record);
 };
 
@@ -123,8 +123,7 @@ Status Device::Impl::createInstance(const DeviceOptions& options) {
     if (!loader) return Error{"no Vulkan loader found (Debian package libvulkan1)"};
     loadGlobalFunctions(vk, loader);
     static constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-    if (options.validation) gLayerVersion = versionOfLayer(vk, kLayer);
-    if (options.validation && gLayerVersion == 0)
+    if (options.validation && (gLayerVersion = versionOfLayer(vk, kLayer)) == 0)
         return Error{
             "validation was asked for, but its layer is missing (Debian package vulkan-validationlayers)"};
     std::vector<const char*> extensions;

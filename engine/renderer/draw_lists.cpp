@@ -179,8 +179,10 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
             others.push_back(i);
         }
     changed_.assign((order_.size() + 63) / 64, 0);
-    if (!others.empty()) rankAnew(others);
-    if (!others.empty()) ++ranking_;
+    if (!others.empty()) {
+        rankAnew(others);
+        ++ranking_;
+    }
     refreshBounds(scene, rows);
     versionBefore_ = instancesVersion_;
     instancesVersion_ = scene.instancesVersion;

@@ -42,9 +42,8 @@ class PointPool {
     // Static points first, then those that may move.
     std::span<const io::SurfaceSample> samples() const { return samples_; }
     std::span<const float> pointAreas() const { return areas_; }  // by instance
-    std::span<const io::BouncePoint> bouncePoints() const {
-        return bounces_;
-    }  // reflecting, then emissive ones
+    // Reflecting, then emissive ones.
+    std::span<const io::BouncePoint> bouncePoints() const { return bounces_; }
     uint32_t staticCount() const { return layers_[0].count(); }
     uint32_t emissiveCount() const { return uint32_t(bounces_.size()) - reflecting_; }
     uint32_t reflectingCount() const { return reflecting_; }

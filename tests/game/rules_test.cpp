@@ -231,6 +231,11 @@ TEST(Keys, AreReadFromAFileAndBoundAnew) {
         EXPECT_FALSE(parseBindings(text, "keys.txt")) << text;
 }
 
+void goToLine(Menu& menu, const char* word, UserSettings& settings, Bindings& keys) {
+    while (menuLines(menu, settings, keys)[size_t(menu.selected)].find(word) == std::string::npos)
+        pressInMenu(menu, GLFW_KEY_DOWN, settings, keys);
+}
+
 TEST(Menu, IsWalkedWithKeys) {
     Menu menu;
     UserSettings settings;
@@ -283,8 +288,7 @@ TEST(Menu, ChangesTheResolutionFromAHalfToAll) {
     Menu menu{.page = MenuPage::kSettings};
     UserSettings settings;
     Bindings keys;
-    while (menuLines(menu, settings, keys)[size_t(menu.selected)].find("Resolution") == std::string::npos)
-        pressInMenu(menu, GLFW_KEY_DOWN, settings, keys);
+    goToLine(menu, "Resolution", settings, keys);
     for (const float wanted : {0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f, 0.0f}) {
         pressInMenu(menu, GLFW_KEY_RIGHT, settings, keys);
         EXPECT_FLOAT_EQ(settings.resolution, wanted);
@@ -297,8 +301,7 @@ TEST(Menu, TurnsTheSoundOffExactly) {
     Menu menu{.page = MenuPage::kSettings};
     UserSettings settings;
     Bindings keys;
-    while (menuLines(menu, settings, keys)[size_t(menu.selected)].find("Sound") == std::string::npos)
-        pressInMenu(menu, GLFW_KEY_DOWN, settings, keys);
+    goToLine(menu, "Sound", settings, keys);
     for (int i = 0; i < 8; ++i)
         EXPECT_EQ(pressInMenu(menu, GLFW_KEY_LEFT, settings, keys), MenuEvent::kSettingsChanged);
     EXPECT_EQ(settings.volume, 0);

@@ -88,8 +88,9 @@ TEST(PointPool, WhatComesHasThePointsOfItsMesh) {
     ASSERT_TRUE(p.replace(row + 1, guest));
     EXPECT_LE(countOf(p.points.changedSamples), kMostMeshPoints);
     for (uint32_t i = 0; i < p.points.samples().size(); ++i)
-        if (p.points.samples()[i].instance >= row && p.points.samples()[i].instance != io::kNoInstance)
+        if (p.points.samples()[i].instance >= row && p.points.samples()[i].instance != io::kNoInstance) {
             EXPECT_GE(i, p.points.staticCount());
+        }
     EXPECT_EQ(p.points.staticVersion(), still) << "nothing still came";
 }
 

@@ -2,101 +2,13 @@
 // each.
 #include "tools/scenegen/gallery.h"
 
-#include <fmt/format.h>
-
-#include "tools/scenegen/gallery_parts.h"
+#include "tools/scenegen/gallery_halls.h"
+#include "tools/scenegen/gallery_rooms.h"
 
 namespace ag::scenegen {
 namespace {
 
-constexpr float kHeight = 3.6f, kWall = 0.3f;  // m
-constexpr glm::vec2 kDoor(1.4f, 2.4f);         // m, width and height
-constexpr float kPi = 3.14159265f;
 constexpr float kDusk = 0.004f;  // of full daylight
-
-// A room as a list of what makes it: its place, and what it is made of.
-struct Hall {
-    int room;
-    float left, right, front, back;  // x, x, z, z: front > back
-    uint32_t wall, ceiling;
-    Tiles tiles;
-    const char* name = "";
-    const char* rule = "";  // its own sentence
-    float height = kHeight;
-    bool open = false;  // to the sky
-};
-
-// A wall across the way with a doorway in its middle; `z` is its side towards the room, it grows towards -z.
-void crossWall(Furnisher& f, const Hall& h, float z, bool doorway) {
-    const float middle = z - kWall / 2, half = kDoor.x / 2;
-    if (!doorway) {
-        f.solid("wall", {(h.left + h.right) / 2, h.height / 2, middle},
-                {h.right - h.left + 2 * kWall, h.height, kWall}, h.wall);
-        return;
-    }
-    f.solid("wall", {(h.left - kWall - half) / 2, h.height / 2, middle},
-            {-half - h.left + kWall, h.height, kWall}, h.wall);
-    f.solid("wall", {(h.right + kWall + half) / 2, h.height / 2, middle},
-            {h.right - half + kWall, h.height, kWall}, h.wall);
-    f.solid("lintel", {0, (h.height + kDoor.y) / 2, middle}, {kDoor.x + 0.02f, h.height - kDoor.y, kWall},
-            h.wall);
-    for (const float side : {-1.0f, 1.0f})  // the frame
-        f.solid("jamb", {side * (half + 0.02f), kDoor.y / 2, middle}, {0.1f, kDoor.y, kWall + 0.1f},
-                f.darkWood);
-    f.solid("head", {0, kDoor.y + 0.03f, middle}, {kDoor.x + 0.3f, 0.12f, kWall + 0.1f}, f.darkWood);
-}
-
-void sideWall(Furnisher& f, const Hall& h, float side, float front, float back) {
-    const float x = side < 0 ? h.left - kWall / 2 : h.right + kWall / 2, length = front - back;
-    f.solid("wall", {x, h.height / 2, (front + back) / 2}, {kWall, h.height, length}, h.wall);
-    const float inside = side < 0 ? h.left : h.right;
-    f.solid("skirting", {inside - side * 0.03f, 0.09f, (front + back) / 2}, {0.06f, 0.18f, length},
-            f.darkWood);
-    f.solid("cornice", {inside - side * 0.06f, h.height - 0.08f, (front + back) / 2}, {0.12f, 0.16f, length},
-            f.stone);
-}
-
-// Side walls where nothing else is asked for, floor, ceiling, and the room's own node.
-void hallShell(SceneBuilder& b, Furnisher& f, const Hall& h) {
-    f.floor("floor", {h.left, h.back - kWall}, {h.right, h.front}, h.tiles);
-    const glm::vec2 min(h.left - kWall, h.back - kWall), max(h.right + kWall, h.front);
-    if (!h.open) f.ceiling("ceiling", min, max, h.height, h.ceiling);
-    const uint32_t node = b.place(h.name, {(h.left + h.right) / 2, 0, (h.front + h.back) / 2});
-    NodeExtras& extras = b.node(node).extras;
-    extras.tag = "room";
-    extras.room = h.room;
-    extras.text = h.rule;
-    extras.openToSky = h.open;
-    extras.moveExtent = {(h.right - h.left) / 2, h.height, (h.front - h.back) / 2};  // half its size
-}
-
-void plainWalls(Furnisher& f, const Hall& h) {
-    crossWall(f, h, h.front + kWall, true);
-    crossWall(f, h, h.back, true);
-    sideWall(f, h, -1, h.front, h.back);
-    sideWall(f, h, 1, h.front, h.back);
-}
-
-void lanterns(Furnisher& f, const Hall& h, int columns, int rows) {
-    for (int z = 0; z < rows; ++z)
-        for (int x = 0; x < columns; ++x)
-            f.lantern(h.room,
-                      {h.left + (h.right - h.left) * (float(x) + 0.5f) / float(columns), h.height - 0.1f,
-                       h.front + (h.back - h.front) * (float(z) + 0.5f) / float(rows)},
-                      h.height - 2.9f);
-}
-
-constexpr glm::vec3 kCandle(1.15f, 0.82f, 0.50f);  // W/sr, of a sconce
-
-void corridor(Furnisher& f, uint32_t wall, float front, float back) {
-    const Hall h{-1, -1.2f, 1.2f, front, back, wall, f.plaster, {f.tileLight, f.tileDark}, "", "", 2.8f};
-    f.floor("corridor floor", {h.left, back}, {h.right, front}, h.tiles);
-    f.ceiling("corridor ceiling", {h.left - kWall, back}, {h.right + kWall, front}, h.height, h.ceiling);
-    sideWall(f, h, -1, front, back);
-    sideWall(f, h, 1, front, back);
-    f.painting({-1.2f, 1.6f, (front + back) / 2}, kPi / 2, {0.7f, 0.9f}, uint32_t(-front));
-    f.sconce({1.16f, 1.8f, (front + back) / 2}, {-1, 0, 0}, kCandle);
-}
 
 // Light that has bounced. Two white flowers: one by a wall, one behind a screen.
 void foyer(SceneBuilder& b, Furnisher& f) {
@@ -124,10 +36,10 @@ void foyer(SceneBuilder& b, Furnisher& f) {
     f.plinth({3.2f, 0, -7.0f}, 0.5f);
     f.flower(0, kWhitePaint, 0.10f, {3.2f, 0.5f, -7.0f}, 1);
     f.solid("screen", {2.35f, 1.1f, -7.15f}, {0.08f, 2.2f, 1.7f}, f.wood);
-    f.bench({3.4f, 0, -2.6f}, kPi / 2);
-    f.bench({-3.4f, 0, -6.9f}, kPi / 2);
-    f.painting({4, 1.7f, -3.9f}, -kPi / 2, {1.4f, 1.0f}, 3);
-    f.painting({-4, 1.7f, -1.6f}, kPi / 2, {1.0f, 1.3f}, 5);
+    f.bench({3.4f, 0, -2.6f}, kQuarterTurn);
+    f.bench({-3.4f, 0, -6.9f}, kQuarterTurn);
+    f.painting({4, 1.7f, -3.9f}, -kQuarterTurn, {1.4f, 1.0f}, 3);
+    f.painting({-4, 1.7f, -1.6f}, kQuarterTurn, {1.0f, 1.3f}, 5);
     f.painting({-2.5f, 1.7f, -8}, 0, {1.2f, 0.9f}, 8);
     f.sconce({-3.96f, 1.9f, -5.6f}, {1, 0, 0}, kCandle);
     f.sconce({3.96f, 1.9f, -1.4f}, {-1, 0, 0}, kCandle);
@@ -163,8 +75,8 @@ void colours(SceneBuilder& b, Furnisher& f) {
                  .height = 4.2f};
     hallShell(b, f, h);
     plainWalls(f, h);
-    f.tapestry(kRedPaint, {-5, 1.75f, -15.5f}, kPi / 2, {4.6f, 2.7f});
-    f.tapestry(kBluePaint, {5, 1.75f, -15.5f}, -kPi / 2, {4.6f, 2.7f});
+    f.tapestry(kRedPaint, {-5, 1.75f, -15.5f}, kQuarterTurn, {4.6f, 2.7f});
+    f.tapestry(kBluePaint, {5, 1.75f, -15.5f}, -kQuarterTurn, {4.6f, 2.7f});
     f.tapestry(kGreenPaint, {2.9f, 1.75f, -20}, 0, {3.6f, 2.7f});
     f.tapestry(kGreenPaint, {-2.9f, 1.75f, -20}, 0, {3.6f, 2.7f});
     f.plinth({-3.4f, 0, -15.5f}, 0.6f);
@@ -241,8 +153,8 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     f.flower(2, kWhitePaint, 0.08f, {4.2f, 0.5f, -31.2f}, 1.2f);
     f.column({-3.6f, 0, -24.6f}, kHeight);
     f.column({2.6f, 0, -28.6f}, kHeight);
-    f.bench({-4.3f, 0, -27.6f}, kPi / 2);
-    f.painting({5, 1.7f, -25}, -kPi / 2, {1.3f, 1.0f}, 12);
+    f.bench({-4.3f, 0, -27.6f}, kQuarterTurn);
+    f.painting({5, 1.7f, -25}, -kQuarterTurn, {1.3f, 1.0f}, 12);
     f.sconce({-4.96f, 1.9f, -28.4f}, {1, 0, 0}, kCandle);
     lanterns(f, h, 4, 3);
     f.hint(2, {0, 0, -24}, "Direct light closes a flower. Push the crate into the beam.");
@@ -329,12 +241,12 @@ void mixing(SceneBuilder& b, Furnisher& f) {
                  .height = 3.2f};
     hallShell(b, f, h);
     plainWalls(f, h);
-    f.tapestry(kRedPaint, {-4.5f, 1.6f, -49.9f}, kPi / 2, {2.2f, 2.5f});
-    f.tapestry(kBluePaint, {-4.5f, 1.6f, -52.1f}, kPi / 2, {2.2f, 2.5f});
+    f.tapestry(kRedPaint, {-4.5f, 1.6f, -49.9f}, kQuarterTurn, {2.2f, 2.5f});
+    f.tapestry(kBluePaint, {-4.5f, 1.6f, -52.1f}, kQuarterTurn, {2.2f, 2.5f});
     f.plinth({-3.0f, 0, -51.0f}, 0.3f);
     f.flower(4, kMagentaPaint, 0.05f, {-3.0f, 0.3f, -51.0f}, 0);
-    f.tapestry(kGreenPaint, {4.5f, 1.6f, -49.9f}, -kPi / 2, {2.2f, 2.5f});
-    f.tapestry(kRedPaint, {4.5f, 1.6f, -52.1f}, -kPi / 2, {2.2f, 2.5f});
+    f.tapestry(kGreenPaint, {4.5f, 1.6f, -49.9f}, -kQuarterTurn, {2.2f, 2.5f});
+    f.tapestry(kRedPaint, {4.5f, 1.6f, -52.1f}, -kQuarterTurn, {2.2f, 2.5f});
     f.plinth({3.0f, 0, -51.0f}, 0.3f);
     f.flower(4, kYellowPaint, 0.05f, {3.0f, 0.3f, -51.0f}, 1);
     f.bench({0, 0, -53.6f}, 0);
@@ -403,120 +315,17 @@ void night(SceneBuilder& b, Furnisher& f) {
     f.plinth({-3.3f, 0, -74.6f}, 0.5f);
     f.flower(6, kBluePaint, 0.03f, {-3.3f, 0.5f, -74.6f}, 0, true);
     f.sign(kYellowPaint, {3.2f, 2.5f, 0.8f}, {-2.7f, 0.3f, -73.5f});
-    f.tapestry(kGreenPaint, {4.5f, 1.7f, -72.4f}, -kPi / 2, {3.0f, 2.6f});
+    f.tapestry(kGreenPaint, {4.5f, 1.7f, -72.4f}, -kQuarterTurn, {3.0f, 2.6f});
     f.plinth({3.1f, 0, -72.4f}, 0.4f);
     f.flower(6, kGreenPaint, 0.04f, {3.1f, 0.4f, -72.4f}, 0);
-    f.bench({-3.7f, 0, -70.6f}, kPi / 2);
-    f.painting({-4.5f, 1.7f, -70.6f}, kPi / 2, {1.0f, 1.3f}, 31);
+    f.bench({-3.7f, 0, -70.6f}, kQuarterTurn);
+    f.painting({-4.5f, 1.7f, -70.6f}, kQuarterTurn, {1.0f, 1.3f}, 31);
     f.sconce({4.46f, 1.9f, -69.6f}, {-1, 0, 0}, {0.7f, 0.8f, 1.1f});
     f.sconce({-4.46f, 1.9f, -69.4f}, {1, 0, 0}, {0.7f, 0.8f, 1.1f});
     f.sconce({3.2f, 1.9f, -75.96f}, {0, 0, 1}, {0.7f, 0.8f, 1.1f});
     lanterns(f, h, 3, 3);
     f.hint(6, {-3, 0, -73}, "Carry the sign out from behind the screen, and turn the lamp away.");
     f.hint(6, {3, 0, -72}, "The green one opens as in the room of colours.");
-}
-
-// A porch behind a panel, with the evening sun in its window.
-void porch(SceneBuilder& b, Furnisher& f, const Hall& h, float z, const Paint& glass, glm::vec3 sun) {
-    const float x = h.right;
-    f.solid("porch lintel", {x + 0.15f, (h.height + 2.3f) / 2, z}, {kWall, h.height - 2.3f, 1.4f}, h.wall);
-    f.solid("porch back", {x + 2.35f, h.height / 2, z}, {kWall, h.height, 2}, h.wall);
-    for (const float side : {-1.0f, 1.0f})
-        f.solid("porch side", {x + 1.2f, h.height / 2, z + side * 0.85f}, {2.4f, h.height, kWall}, h.wall);
-    f.floor("porch floor", {x, z - 0.7f}, {x + 2.2f, z + 0.7f}, h.tiles);
-    f.ceiling("porch ceiling", {x + 0.3f, z - 1}, {x + 2.5f, z + 1}, h.height, h.ceiling);
-    MeshParts panel;
-    addBox(panel, f.wood, {0, 1.1f, 0.66f}, {0.06f, 2.16f, 1.3f});
-    for (const float y : {0.55f, 1.65f})
-        addBox(panel, f.darkWood, {0, y, 0.66f}, {0.09f, 0.8f, 1.0f});
-    const uint32_t leaf = b.model("shutter", panel, {x + 0.05f, 0.03f, z - 0.67f});
-    NodeExtras& extras = b.node(leaf).extras;
-    extras.tag = "panel";
-    extras.mass = 12;
-    extras.axis = {0, 1, 0};
-    extras.least = -0.02f;
-    extras.most = 1.45f;
-    // Its window, and the sun that comes in by it.
-    const uint32_t pane = b.emissive(fmt::format("{} pane", glass.name), glass.albedo, glass.albedo * 0.9f);
-    b.box("pane", {x + 2.18f, 1.75f, z}, {0.03f, 0.7f, 0.7f}, pane);
-    const uint32_t light =
-        b.spot(fmt::format("{} sun", glass.name), {x + 2.1f, 1.75f, z}, {-1, -0.02f, 0}, sun, {5, 8});
-    b.node(light).extras.tag = "beam";
-}
-
-void greenhouse(SceneBuilder& b, Furnisher& f) {
-    const Hall h{.room = 7,
-                 .left = -4.5f,
-                 .right = 4.5f,
-                 .front = -79.3f,
-                 .back = -88,
-                 .wall = f.substance("lime plaster", {0.66f, 0.68f, 0.60f}),
-                 .ceiling = f.iron,
-                 .tiles = {f.substance("terracotta tile", {0.48f, 0.24f, 0.15f}),
-                           f.substance("brick tile", {0.32f, 0.15f, 0.10f})},
-                 .name = "greenhouse",
-                 .rule = "The evening sun stands behind coloured panes. Let it in.",
-                 .height = 3.4f,
-                 .open = true};
-    hallShell(b, f, h);
-    f.pergola({h.left - kWall, h.back - kWall}, {h.right + kWall, h.front}, h.height, f.iron, 0.8f);
-    crossWall(f, h, h.front + kWall, true);
-    crossWall(f, h, h.back, true);
-    sideWall(f, h, -1, h.front, h.back);
-    sideWall(f, h, 1, h.front, -81.3f);
-    sideWall(f, h, 1, -82.7f, -85.3f);
-    sideWall(f, h, 1, -86.7f, h.back);
-    porch(b, f, h, -82, kYellowPaint, {420, 290, 16});
-    porch(b, f, h, -86, kRedPaint, {420, 40, 24});
-    f.plinth({-3.3f, 0, -80.1f}, 0.4f);
-    f.flower(7, kYellowPaint, 0.05f, {-3.3f, 0.4f, -80.1f}, 0);
-    f.plinth({-3.3f, 0, -87.5f}, 0.3f);
-    f.flower(7, kRedPaint, 0.05f, {-3.3f, 0.3f, -87.5f}, 1);
-    f.hedge({-4.1f, 0.35f, -84}, {0.6f, 0.7f, 2.0f});
-    f.hedge({2.2f, 0.3f, -87.4f}, {1.8f, 0.6f, 0.6f});
-    f.tree({3.6f, 0, -84}, 2.4f);
-    f.sconce({-4.46f, 2.2f, -84}, {1, 0, 0}, kCandle);
-    f.sconce({2.6f, 2.0f, -79.34f}, {0, 0, -1}, kCandle);
-    lanterns(f, h, 3, 3);
-    f.hint(7, {3.4f, 0, -82}, "Walk against the shutter: it turns, and the sun falls on the wall.");
-    f.hint(7, {3.4f, 0, -86}, "Walk against the shutter: it turns, and the sun falls on the wall.");
-}
-
-void garden(SceneBuilder& b, Furnisher& f) {
-    const uint32_t gravel = f.substance("gravel stone", {0.50f, 0.47f, 0.41f}),
-                   turf = f.substance("turf leaf", {0.16f, 0.30f, 0.09f});
-    const Hall h{.room = 8,
-                 .left = -6,
-                 .right = 6,
-                 .front = -88.3f,
-                 .back = -99,
-                 .wall = f.substance("garden blocks", {0.56f, 0.50f, 0.40f}),
-                 .ceiling = f.plaster,
-                 .tiles = {gravel, turf},
-                 .name = "garden",
-                 .height = 3.0f,
-                 .open = true};
-    hallShell(b, f, h);
-    crossWall(f, h, h.front + kWall, true);
-    crossWall(f, h, h.back, false);
-    sideWall(f, h, -1, h.front, h.back);
-    sideWall(f, h, 1, h.front, h.back);
-    MeshParts fountain;
-    const glm::vec2 bowl[] = {{0.9f, 0},     {0.95f, 0.3f},  {1.05f, 0.36f}, {1.05f, 0.42f},
-                              {0.9f, 0.42f}, {0.85f, 0.3f},  {0.2f, 0.28f},  {0.15f, 0.9f},
-                              {0.4f, 1.05f}, {0.42f, 1.12f}, {0.1f, 1.08f},  {0, 1.25f}};
-    addLathe(fountain, f.stone, bowl, 20, glm::vec3(0));
-    b.node(b.model("fountain", fountain, {0, 0, -94})).extras.collider = true;
-    f.bench({-2.8f, 0, -94}, kPi / 2);
-    f.bench({2.8f, 0, -94}, kPi / 2);
-    for (const float x : {-4.4f, 4.4f})
-        for (const float z : {-90.6f, -93.8f, -97.2f})
-            f.tree({x, 0, z}, 3.6f);
-    for (const float x : {-5.6f, 5.6f})
-        f.hedge({x, 0.45f, -93.6f}, {0.7f, 0.9f, 9.6f});
-    f.hedge({0, 0.4f, -98.6f}, {9, 0.8f, 0.6f});
-    f.pergola({-1.6f, -98}, {1.6f, -89.5f}, h.height, f.wood, 1.7f);
-    lanterns(f, h, 2, 4);
 }
 
 }  // namespace

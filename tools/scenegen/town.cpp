@@ -105,48 +105,43 @@ MeshParts tree(uint32_t trunk, uint32_t leaf, float height) {
     return parts;
 }
 
-MeshParts lampPost(uint32_t iron, uint32_t shade) {
+struct Box {
+    uint32_t material;
+    glm::vec3 center, size;  // m
+};
+
+MeshParts boxes(std::initializer_list<Box> all) {
     MeshParts parts;
-    addBox(parts, iron, {0, 2, 0}, {0.12f, 4, 0.12f});
-    addBox(parts, shade, {0, 4.45f, 0}, {0.5f, 0.08f, 0.5f});
+    for (const Box& box : all)
+        addBox(parts, box.material, box.center, box.size);
     return parts;
+}
+
+MeshParts lampPost(uint32_t iron, uint32_t shade) {
+    return boxes({{iron, {0, 2, 0}, {0.12f, 4, 0.12f}}, {shade, {0, 4.45f, 0}, {0.5f, 0.08f, 0.5f}}});
 }
 
 MeshParts bench(uint32_t wood) {
-    MeshParts parts;
-    addBox(parts, wood, {0, 0.45f, 0}, {1.8f, 0.08f, 0.5f});
-    addBox(parts, wood, {0, 0.8f, 0.22f}, {1.8f, 0.4f, 0.06f});
-    addBox(parts, wood, {-0.7f, 0.2f, 0}, {0.1f, 0.42f, 0.4f});
-    addBox(parts, wood, {0.7f, 0.2f, 0}, {0.1f, 0.42f, 0.4f});
-    return parts;
+    return boxes({{wood, {0, 0.45f, 0}, {1.8f, 0.08f, 0.5f}},
+                  {wood, {0, 0.8f, 0.22f}, {1.8f, 0.4f, 0.06f}},
+                  {wood, {-0.7f, 0.2f, 0}, {0.1f, 0.42f, 0.4f}},
+                  {wood, {0.7f, 0.2f, 0}, {0.1f, 0.42f, 0.4f}}});
 }
 
 MeshParts table(uint32_t wood) {
-    MeshParts parts;
-    addBox(parts, wood, {0, 0.75f, 0}, {1.6f, 0.06f, 0.9f});
-    addBox(parts, wood, {0, 0.36f, 0}, {0.25f, 0.72f, 0.25f});
-    return parts;
+    return boxes({{wood, {0, 0.75f, 0}, {1.6f, 0.06f, 0.9f}}, {wood, {0, 0.36f, 0}, {0.25f, 0.72f, 0.25f}}});
 }
 
 MeshParts cupboard(uint32_t wood, uint32_t other) {
-    MeshParts parts;
-    addBox(parts, wood, {0, 0.9f, 0}, {1.2f, 1.8f, 0.5f});
-    addBox(parts, other, {0, 1.9f, 0}, {0.4f, 0.2f, 0.3f});
-    return parts;
+    return boxes({{wood, {0, 0.9f, 0}, {1.2f, 1.8f, 0.5f}}, {other, {0, 1.9f, 0}, {0.4f, 0.2f, 0.3f}}});
 }
 
 MeshParts walker(uint32_t cloth, uint32_t skin) {
-    MeshParts parts;
-    addBox(parts, cloth, {0, 0.75f, 0}, {0.42f, 1.4f, 0.28f});
-    addBox(parts, skin, {0, 1.6f, 0}, {0.22f, 0.26f, 0.24f});
-    return parts;
+    return boxes({{cloth, {0, 0.75f, 0}, {0.42f, 1.4f, 0.28f}}, {skin, {0, 1.6f, 0}, {0.22f, 0.26f, 0.24f}}});
 }
 
 MeshParts cart(uint32_t wood, uint32_t load) {
-    MeshParts parts;
-    addBox(parts, wood, {0, 0.55f, 0}, {1.2f, 0.3f, 2.2f});
-    addBox(parts, load, {0, 0.95f, 0.1f}, {1.0f, 0.5f, 1.7f});
-    return parts;
+    return boxes({{wood, {0, 0.55f, 0}, {1.2f, 0.3f, 2.2f}}, {load, {0, 0.95f, 0.1f}, {1.0f, 0.5f, 1.7f}}});
 }
 
 class TownBuilder {
