@@ -58,6 +58,16 @@ void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const
     gather("later_bounces.near", io::kNearList, shading.shape)
         .constant("kAdd", true)
         .readWrite("irradiance", emitters.irradiance.current);
+    scope.compute("later_bounces.conserve", "later_bounces/conserve.comp")
+        .read("texels", emitters.texels)
+        .read("vals", vals.vals)
+        .read("sky", straight.sky ? straight.sky : vals.vals)
+        .constant("kSky", bool(straight.sky))
+        .read("straight", straight.lights ? straight.lights : vals.vals)
+        .constant("kStraight", bool(straight.lights))
+        .readWrite("irradiance", emitters.irradiance.current)
+        .push(push)
+        .dispatchGroups(1);
     scope.output(emitters.irradiance.current);
 }
 

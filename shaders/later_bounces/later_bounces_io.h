@@ -47,6 +47,8 @@ struct PointLightsPush {
 
 const uint kRunPoints = 64;  // one after another, which share lists of near and far lights
 
+const uint kConserveLanes = 256;
+
 struct GatherPush {
     uint count;
     uint valCount;

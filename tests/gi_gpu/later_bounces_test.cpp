@@ -81,6 +81,30 @@ TEST(LaterBounces, FurnaceConvergesToTheGeometricSeries) {
     }
 }
 
+// Without shadow maps walls hide nothing: what each side of them gets would add up to more than was sent, and
+// the loop of bounces would never end.
+TEST(LaterBounces, WallsThatHideNothingMakeNoLight) {
+    Bench b(*scenegen::buildScene("gallery", 0), {32, 18});
+    b.settings.bounce.laterBounces.enabled = true;
+    b.settings.bounce.ismAtlas.enabled = b.settings.bounce.texelRays.enabled = false;
+    b.output = [](GraphScope scope, const RenderFrame& f) {
+        scope.output(f.bounce.irradiance.image);
+        scope.output(f.bounce.vals.vals);
+    };
+    for (int i = 0; i < 12; ++i)
+        b.frame();
+    const auto points = b.read<io::RsmTexel>(b.last.bounce.emitters.texels);
+    const auto light = b.read<glm::vec4>(b.last.bounce.emitters.irradiance.current);
+    double sent = 0, arrived = 0;
+    for (const io::Val& val : b.read<io::Val>(b.last.bounce.vals.vals))
+        sent += double(val.flux.x);
+    for (size_t i = 0; i < light.size(); ++i)
+        arrived += double(points[i].area * light[i].x);
+    std::printf("%.1f W sent, %.1f W arrived\n", sent, arrived);
+    EXPECT_GT(arrived, 0.5 * sent);
+    EXPECT_LT(arrived, 1.001 * sent);
+}
+
 // Lobes reflect as much as they should, if not where to; of the Lambert part alone metal would reflect
 // nothing.
 TEST(LaterBounces, MetalPassesLightOn) {
