@@ -103,7 +103,7 @@ class WindowedRun {
     }
     void handleKeys() {
         obey(std::exchange(chosen_, MenuEvent::kNone));
-        for (const int key : window_.takePressedKeys()) {
+        for (const auto [key, control] : window_.takePressedKeys()) {
             if (menu_.open) {
                 // The mouse chooses by clicking; as a key it only counts where one is asked for.
                 if (key < kMouseCode || menu_.waitsForKey) {
@@ -324,14 +324,15 @@ class WindowedRun {
         const RenderScene& scene = demo_.game->scene();
         const std::string captured = capture_.message();
         const Menu before = menu_;
-        ui_.build(panels_, demo_.settings, renderer_.graph(), demo_.game->world(), statusLine(), [&] {
-            drawMessage(captured);
-            if (!menu_.open)
-                drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
-                        glm::vec2(window_.framebufferSize()),
-                        {scene.camera.clipFromWorld, scene.originWorld});
-            if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, kGoal, keysLine());
-        });
+        ui_.build(panels_, window_.pointer(), demo_.settings, renderer_.graph(), demo_.game->world(),
+                  statusLine(), [&] {
+                      drawMessage(captured);
+                      if (!menu_.open)
+                          drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
+                                  glm::vec2(window_.framebufferSize()),
+                                  {scene.camera.clipFromWorld, scene.originWorld});
+                      if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, kGoal, keysLine());
+                  });
         clickIfAnswered(before, event);
         chosen_ = event;  // obeyed before the next frame: this one is under way
     }

@@ -4,6 +4,8 @@
 #include <imgui/backends/imgui_impl_glfw.h>
 
 #include <algorithm>
+#include <cfloat>
+#include <iterator>
 
 namespace ag {
 namespace {
@@ -90,6 +92,15 @@ void statusPanel(const std::string& status) {
     ImGui::End();
 }
 
+// GLFW's backend reads the mouse as it is when the frame begins, whatever was clicked before, and elsewhere.
+void usePointer(const Pointer& pointer) {
+    ImGuiIO& io = ImGui::GetIO();
+    const bool inWindow = io.MousePos.x != -FLT_MAX;
+    if (inWindow) io.MousePos = {pointer.place.x, pointer.place.y};
+    for (uint32_t i = 0; i < std::size(io.MouseDown); ++i)
+        io.MouseDown[i] = (pointer.buttons >> i & 1) != 0;
+}
+
 }  // namespace
 
 DebugUi::DebugUi(GLFWwindow* window) {
@@ -120,10 +131,11 @@ DebugUi::~DebugUi() {
     ImGui::DestroyContext();
 }
 
-void DebugUi::build(DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
-                    const std::string& status, FunctionRef<void()> game) {
+void DebugUi::build(DebugUiState& state, const Pointer& pointer, Settings& settings, const FrameGraph& graph,
+                    const World& world, const std::string& status, FunctionRef<void()> game) {
     history_.add(graph.spans(), double(state.profilerBudgetMs));
     ImGui_ImplGlfw_NewFrame();
+    usePointer(pointer);
     useScale(panelScale(ImGui::GetIO().DisplaySize.y));
     ImGui::NewFrame();
     game();

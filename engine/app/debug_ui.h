@@ -2,6 +2,7 @@
 // world's entities.
 #pragma once
 
+#include "engine/app/input_events.h"
 #include "engine/app/inspector.h"
 #include "engine/app/panel_layout.h"
 #include "engine/app/profiler_overlay.h"
@@ -34,8 +35,8 @@ class DebugUi {
     DebugUi& operator=(const DebugUi&) = delete;
 
     // Builds this frame's panels and what `game` adds; their draw data is ready when it returns.
-    void build(DebugUiState& state, Settings& settings, const FrameGraph& graph, const World& world,
-               const std::string& status, FunctionRef<void()> game);
+    void build(DebugUiState& state, const Pointer& pointer, Settings& settings, const FrameGraph& graph,
+               const World& world, const std::string& status, FunctionRef<void()> game);
     bool holdsMouse() const;  // a button is down: what is dragged is still being dragged
     bool takesText() const;   // a field is being typed into: keys are not for the program
 

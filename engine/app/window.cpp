@@ -79,20 +79,23 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, glm::uvec
 }
 
 void Window::installCallbacks() {
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
-        if (action == GLFW_PRESS) self(w).pressed_.push_back(key);
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int held) {
+        if (action == GLFW_PRESS) self(w).events_.key({key, (held & GLFW_MOD_CONTROL) != 0});
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-        if (action == GLFW_PRESS) self(w).pressed_.push_back(kMouseCode + button);
+        self(w).events_.button(button, action == GLFW_PRESS);
     });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
         if (!focused) self(w).focusLost_ = true;
     });
+    glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
+    events_.move(cursor_);
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
         Window& window = self(w);
         if (window.captured_)
             window.moved_ += glm::vec2(float(x - window.cursor_.x), float(y - window.cursor_.y));
         window.cursor_ = {x, y};
+        window.events_.move(window.cursor_);
     });
 }
 
@@ -143,6 +146,7 @@ void Window::setFullscreen(bool fullscreen) {
 void Window::poll() {
     glfwPollEvents();
     notePadPresses();
+    events_.beginFrame();
 }
 
 Input Window::takeInput(const Bindings& bindings, double seconds) {
@@ -178,12 +182,8 @@ void Window::notePadPresses() {
         for (size_t i = 0; i < std::size(kKeys); ++i)
             if (pad.buttons[kKeys[i].first]) now |= 1u << i;
     for (size_t i = 0; i < std::size(kKeys); ++i)
-        if ((now & ~padBefore_) >> i & 1) pressed_.push_back(kKeys[i].second);
+        if ((now & ~padBefore_) >> i & 1) events_.key({kKeys[i].second});
     padBefore_ = now;
-}
-
-std::vector<int> Window::takePressedKeys() {
-    return std::exchange(pressed_, {});
 }
 
 void Window::captureCursor(bool captured) {
@@ -191,6 +191,7 @@ void Window::captureCursor(bool captured) {
     glfwSetInputMode(window_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
     if (glfwRawMouseMotionSupported()) glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, captured);
     glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);  // movement counts from here
+    events_.move(cursor_);
 }
 
 }  // namespace ag

@@ -11,6 +11,7 @@
 
 #include "engine/app/bindings.h"
 #include "engine/app/input.h"
+#include "engine/app/input_events.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/swapchain.h"
 
@@ -35,13 +36,15 @@ class Window {
     // The whole of the monitor it is mostly on, or as it was before.
     void setFullscreen(bool fullscreen);
 
+    // Events in; the frame that begins sees of them what InputEvents says.
     void poll();
     // What is held down and mouse movement since the last call, and the first gamepad; `seconds` since then
     // turn its stick into movement. Nothing while the cursor is free.
     Input takeInput(const Bindings& bindings, double seconds);
-    // Keys and mouse buttons pressed since the last call, as codes of Bindings; a gamepad's start, cross and
-    // south buttons count as escape, arrows and enter.
-    std::vector<int> takePressedKeys();
+    // Keys and mouse buttons pressed since the last call; a gamepad's start, cross and south buttons count as
+    // escape, arrows and enter.
+    std::vector<KeyPress> takePressedKeys() { return events_.takeKeys(); }
+    const Pointer& pointer() const { return events_.pointer(); }
     // Whether the window was left for another since the last call.
     bool takeFocusLost() { return std::exchange(focusLost_, false); }
     void captureCursor(bool captured);
@@ -57,7 +60,7 @@ class Window {
     glm::ivec4 windowed_{0};  // place and size before it filled the monitor
     glm::dvec2 cursor_{0};
     glm::vec2 moved_{0};
-    std::vector<int> pressed_;
+    InputEvents events_;
     bool focusLost_ = false;
     uint32_t padBefore_ = 0;  // bits of the gamepad's buttons at the last look
 };

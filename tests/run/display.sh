@@ -23,7 +23,7 @@ trap finish EXIT
 await_window() {
   window=
   for _ in $(seq 100); do
-    window=$(xdotool search --name Afterglow 2>/dev/null | head -1)
+    window=$(xdotool search --onlyvisible --name Afterglow 2>/dev/null | head -1)
     [[ -n $window ]] && return 0
     sleep 0.2
   done

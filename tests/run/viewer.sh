@@ -13,10 +13,9 @@ fail() {
 press_when_open() {  # KEYS...
   await_window || fail "no window"
   xdotool mousemove --window "$window" 150 80
-  sleep 3
   for key in "$@"; do
     xdotool key "$key"
-    sleep 0.7
+    sleep 0.2
   done
 }
 
@@ -63,14 +62,16 @@ run "the dark file's session" 0 render --session dark.json --size 160x90 --frame
 grep -q "is added" "$work/log" && fail "the session does not keep the light that was added"
 
 # A script ends where it was recorded to: someone flies.
-"$bin/afterglow" view cornell --size 160x90 --frames 420 --record flight.replay --screenshot flown.png --validate >"$work/log" 2>&1 &
+"$bin/afterglow" view cornell --size 160x90 --record flight.replay --screenshot flown.png --validate >"$work/log" 2>&1 &
 viewer=$!
 press_when_open Tab
 xdotool keydown w
 sleep 0.3
 xdotool keyup w
+xdotool key Escape Escape  # the camera lets go of the mouse, then the window closes
 wait "$viewer" || fail "the recording viewer ended with $?"
-run "a script" 0 view cornell --size 160x90 --frames 420 --script flight.replay --screenshot played.png --validate
+frames=$(sed -n 's/^end //p' flight.replay)
+run "a script" 0 view cornell --size 160x90 --frames "$frames" --script flight.replay --screenshot played.png --validate
 run "no script" 0 view cornell --size 160x90 --frames 20 --screenshot still.png
 cmp -s flown.png still.png && fail "W did not move the camera"
 cmp -s flown.png played.png || fail "a script ends elsewhere than it was recorded to"
@@ -122,21 +123,15 @@ saved_number() {  # saves the session as FILE; what EXPRESSION of it, `d`, is
   python3 -c "import json; d = json.load(open('$1')); print($2)"
 }
 drag() {  # by 4 x PIXELS along x, undone, done again; READ says where it is: dragged, undone, again
-  sleep 0.5
   xdotool mousedown 1
-  sleep 0.5
   for _ in 1 2 3 4; do
     xdotool mousemove_relative -- "$1" 0
-    sleep 0.2
   done
   xdotool mouseup 1
-  sleep 0.5
   dragged=$("$2")
   xdotool key ctrl+z
-  sleep 0.5
   undone=$("$2")
   xdotool key ctrl+y
-  sleep 0.5
   again=$("$2")
 }
 
@@ -145,13 +140,11 @@ drag() {  # by 4 x PIXELS along x, undone, done again; READ says where it is: dr
   --preset afterglow --validate >"$work/log" 2>&1 &
 viewer=$!
 await_window || fail "no window to drag in"
-sleep 3
 lamp_at() {  # its x
   saved_number drag.json 'd["lights"][0]["position"][0] if "lights" in d else d["points"][0].split(",")[0]'
 }
 pixel=512  # 1.5 m to the right at 3.4 m: 320 + 1.5 * 180 / (3.4 * tan 22.5)
 xdotool mousemove --window "$window" $pixel 180
-lamp_at >/dev/null  # by now frames are shown
 drag -10 lamp_at
 xdotool key Escape
 wait "$viewer" || fail "the viewer ended with $?"
@@ -182,18 +175,14 @@ PYTHON
 "$bin/afterglow" view --session thing.json --size 640x360 --validate >"$work/log" 2>&1 &
 viewer=$!
 await_window || fail "no window to move a thing in"
-sleep 3
 moved_by() {  # how far along x
   saved_number thing.json 'sum(m["offset"][0] for m in d.get("moves", []))'
 }
 xdotool mousemove --window "$window" 320 180
-[[ $(moved_by) == 0 ]] || fail "the thing does not stand still"  # by now frames are shown
-sleep 0.5
+[[ $(moved_by) == 0 ]] || fail "the thing does not stand still"
 xdotool click 1
 drag 10 moved_by
-xdotool key F6
-sleep 1
-xdotool key Escape
+xdotool key F6 Escape
 wait "$viewer" || fail "the viewer ended with $?"
 awk "BEGIN {exit !(($dragged - 0.313) ^ 2 < 0.0004 && $undone == 0 && $again == $dragged)}" ||
   fail "the thing was dragged by $dragged, undone to $undone, done again to $again"

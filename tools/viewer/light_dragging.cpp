@@ -52,13 +52,13 @@ bool dragLights(LightDragging& state, Viewing& v, const ViewCamera& camera, glm:
     const float reach = camera.focusDistance / 4;
     std::vector<LightHandle> handles = lightHandles(v.scene.lights, v.scene.originWorld, focus, reach);
     if (const auto sky = skyHandle(v.scene, focus, kSkyReach * reach)) handles.push_back(*sky);
-    takeHandle(state, screen, handles);
     if (state.held && *state.held >= handles.size()) state.held.reset();
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
     if (state.held && (moved.x != 0 || moved.y != 0)) {
         const LightHandle& handle = handles[*state.held];
         dragHandle(v, handle, draggedPlace(screen, handle.place, {moved.x, moved.y}));
     }
+    takeHandle(state, screen, handles);  // after the movement, which is before the click
     for (size_t i = 0; i < handles.size(); ++i)
         drawHandle(screen, handles[i],
                    handles[i].light == kSkySun ? kSky : colorOf(v.scene.lights[handles[i].light]),

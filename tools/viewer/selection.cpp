@@ -64,19 +64,19 @@ MaterialLook& lookOf(AssetEdits& edits, const GeometryArrays& geometry, uint32_t
 }
 
 void dragThing(Selection& selection, Viewing& v, const EditedScene& edited, const Screen& screen) {
-    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) selection.held = false;
-    const bool clicked = ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse;
     const Bounds box = selection.thing ? edited.boundsOf(*selection.thing) : Bounds{};
     const glm::dvec3 middle = middleOf(box, v.scene.originWorld);
     const auto at = box.empty() ? std::nullopt : projected(screen, middle);
-    if (clicked && at && glm::distance(*at, mousePlace()) < kReach * uiScale())
-        selection.held = true;
-    else if (clicked)
-        return select(selection, v, edited, screen);
-    if (!at) return;
+    // A frame's movement is before its click.
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    if (selection.held && (moved.x != 0 || moved.y != 0))
+    if (at && selection.held && (moved.x != 0 || moved.y != 0))
         moveOf(v.edits, *selection.thing).offset += draggedPlace(screen, middle, {moved.x, moved.y}) - middle;
+    const bool clicked = ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse;
+    const bool onHandle = at && glm::distance(*at, mousePlace()) < kReach * uiScale();
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) selection.held = false;
+    if (clicked && !onHandle) return select(selection, v, edited, screen);
+    selection.held |= clicked;
+    if (!at) return;
     drawBox(screen, box, v.scene.originWorld);
     drawHandle(*at, selection.held);
 }

@@ -82,12 +82,12 @@ class ViewerRun {
 
   private:
     void handleKeys() {
-        for (const int key : window_.takePressedKeys()) {
+        for (const auto [key, control] : window_.takePressedKeys()) {
             if (ui_.takesText()) continue;  // it is typed into a field
             if (key == GLFW_KEY_TAB) window_.captureCursor(!window_.cursorCaptured());
             if (key == GLFW_KEY_ESCAPE) leaveOrClose();
-            if (key == GLFW_KEY_Z && controlHeld()) stepThroughEdits(&EditHistory::undo);
-            if (key == GLFW_KEY_Y && controlHeld()) stepThroughEdits(&EditHistory::redo);
+            if (key == GLFW_KEY_Z && control) stepThroughEdits(&EditHistory::undo);
+            if (key == GLFW_KEY_Y && control) stepThroughEdits(&EditHistory::redo);
             if (key == GLFW_KEY_T) turnTruth();
             if (key == GLFW_KEY_B)
                 panel_.beside = panel_.beside == Beside::kPreset ? Beside::kNothing : Beside::kPreset;
@@ -106,10 +106,6 @@ class ViewerRun {
             if (key == GLFW_KEY_F12) obey(PanelEvent::kScreenshot);
             if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) panel_.layer = render::layerOfKey(key - GLFW_KEY_0);
         }
-    }
-    bool controlHeld() const {
-        return glfwGetKey(window_.handle(), GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
-               glfwGetKey(window_.handle(), GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
     }
     EditState editState() const { return {viewing_.scene.lights, viewing_.scene.sky, viewing_.edits}; }
     void stepThroughEdits(bool (EditHistory::*way)(EditState&)) {
@@ -261,12 +257,13 @@ class ViewerRun {
     }
     void drawUi(glm::uvec2 size) {
         capturing_ = capture_.message();
-        ui_.build(panels_, viewing_.settings, renderer_.graph(), world_, statusLine(size), [&] {
-            overlay_.draw({poseOf(camera_), glm::vec2(size)});
-            if (!panel_.open) return;
-            chosen_ = drawPanel(panel_, panelLayout(panels_), viewing_, camera_, edited_);
-            if (!window_.cursorCaptured()) dragHandles(glm::vec2(size));
-        });
+        ui_.build(panels_, window_.pointer(), viewing_.settings, renderer_.graph(), world_, statusLine(size),
+                  [&] {
+                      overlay_.draw({poseOf(camera_), glm::vec2(size)});
+                      if (!panel_.open) return;
+                      chosen_ = drawPanel(panel_, panelLayout(panels_), viewing_, camera_, edited_);
+                      if (!window_.cursorCaptured()) dragHandles(glm::vec2(size));
+                  });
     }
     void dragHandles(glm::vec2 size) {
         if (!dragLights(dragging_, viewing_, camera_, size))
