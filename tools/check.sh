@@ -17,7 +17,7 @@ git ls-files -co --exclude-standard | grep -E '\.(h|cpp)$' | xargs clang-format 
 cmake -G Ninja -S . -B build-asan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DAFTERGLOW_ASAN=ON
 cmake --build build-asan
 export ASAN_OPTIONS=quarantine_size_mb=16  # what is freed shall not look like growth to the long runs
-ctest --test-dir build-asan --output-on-failure -j "$(nproc)" -LE fuzz
+ctest --test-dir build-asan --output-on-failure -j "$(nproc)"
 
 cmake -G Ninja -S . -B build-tsan -DCMAKE_BUILD_TYPE=RelWithDebInfo -DAFTERGLOW_TSAN=ON
 threaded=(test_ecs test_game test_sound test_viewer test_reference test_gi test_capture)

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 # Debian's default, clang 14, cannot compile the ECS with libstdc++ 12.
-command -v clang++-16 >/dev/null || { echo "afterglow: fuzzing needs clang++-16 (Debian package clang-16)" >&2; exit 77; }
+command -v clang++-16 >/dev/null || { echo "afterglow: fuzzing needs clang++-16 (Debian packages clang-16 and libclang-rt-16-dev)" >&2; exit 2; }
 targets=(gltf image replay row save settings table user world)
 share=$((${1:-600} / ${#targets[@]}))
 ((share > 0)) || share=1  # none would be for ever
