@@ -70,6 +70,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     settings.gi.bounce.denoiser.enabled = settings.gi.bounce.denoiser.motion = true;
     settings.gi.bounce.stochasticRsm.interpolate = c.preset == "rsm-400";
     settings.gi.bounce.valClustering.count = 64;
+    settings.gi.bounce.rsm.resolution = 128;
     if (c.waits) {
         settings.gi.bounce.valClustering.settleFrames = 0;
         settings.gi.bounce.refresh.small = 1;

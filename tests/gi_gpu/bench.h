@@ -21,6 +21,12 @@ constexpr double kPi = std::numbers::pi;
 // Of rays to texels, so that still frames soon rest. So few change nothing yet.
 constexpr uint32_t kRayFrames = 2;
 
+// Of tests in which they do not matter: a fifth of the time.
+inline void useSmallMaps(RenderSettings& s) {
+    s.bounce.rsm.resolution = 128;
+    s.bounce.valClustering.settleFrames = 8;
+}
+
 // A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the
 // passes and synchronization validation proves them.
 struct Bench {
@@ -29,6 +35,7 @@ struct Bench {
         setCamera(scene, cameraOf(asset, 0), size);
         renderer.load(asset.geometry);
         options.timing = TimingMode::kOff;
+        useSmallMaps(settings);
         settings.bounce.texelRays.settleFrames = kRayFrames;
     }
     void frame() {
@@ -116,6 +123,7 @@ inline void expectRestAndNoBitSkipped(const SceneAsset& asset, glm::uvec2 size,
     for (const bool skip : {true, false}) {
         Bench b(asset, size);
         b.settings = settings;
+        useSmallMaps(b.settings);
         b.settings.bounce.texelRays.settleFrames = kRayFrames;
         b.options.skip = skip;
         for (int i = 0; i < frames; ++i)

@@ -63,7 +63,7 @@ TEST(BlendedLayers, CoverAndTintAsTheirMaterialsSay) {
 
 TEST(BlendedLayers, AStillFrameComesToRestAndSkippingChangesNoBit) {
     RenderSettings settings;
-    settings.bounce.sky.settleFrames = settings.bounce.valClustering.settleFrames = 6;
+    settings.bounce.sky.settleFrames = 6;
     expectRestAndNoBitSkipped(*scenegen::buildScene("panes", 0), {96, 54}, settings, 30);
 }
 

@@ -843,6 +843,7 @@ TEST(Frame, AFlickeringLightLeavesTheOthersClustersAlone) {
     const auto oldClusters = [](bool flickers) {  // of the other light, after two dozen frames
         Bench b(*scenegen::buildScene("hall", 0), {64, 40});
         b.settings.bounce.valClustering.adaptive = false;
+        b.settings.bounce.valClustering.settleFrames = 32;
         const glm::vec3 bright = b.scene.lights[0].intensity;
         for (int i = 0; i < 24; ++i) {
             const float flame = i % 5 == 3 ? 0.0f : i % 2 ? 0.8f : 1.2f;

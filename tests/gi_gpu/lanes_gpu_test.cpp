@@ -21,8 +21,9 @@ struct Outcome {
 };
 
 Outcome renderOn(gpu::Device& device, const char* preset) {
-    Bench b(*scenegen::buildScene("corridor", 0), {96, 54}, device);
+    Bench b(*scenegen::buildScene("corridor", 0), {48, 27}, device);
     EXPECT_TRUE(applyPreset(preset, b.settings));
+    useSmallMaps(b.settings);
     b.frame();
     Outcome o;
     const Clusters& c = b.last.bounce.clusters;

@@ -99,6 +99,7 @@ TEST(Probes, MeasureWhatThePathTracerMeasures) {
                           Case{"cornell", {-0.8f, 0.3f, 0.75f}, {0.8f, 0.5f, 0.9f}, {0, 0, -1}},
                           Case{"occluder", {-1.7f, 0.6f, -1}, {-0.9f, 1.6f, 1}, {-1, 0, 0}}}) {
         Bench b(*scenegen::buildScene(c.scene, 0));
+        b.settings.bounce.rsm.resolution = 0;  // as the light says: direct light goes by it
         const std::vector<RenderProbe> probes = grid(c.from, c.to, c.normal);
         const auto truth = reference(b.scene, probes, 4096);
         measure(b, probes, 40);                          // settled

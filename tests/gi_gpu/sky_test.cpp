@@ -147,7 +147,6 @@ TEST(SkyLight, AStillFrameComesToRestAndSkippingChangesNoBit) {
     RenderSettings settings;
     settings.bounce.sky.settleFrames = 6;
     settings.bounce.laterBounces = {.enabled = true, .settleFrames = 6};
-    settings.bounce.valClustering.settleFrames = 6;
     expectRestAndNoBitSkipped(*scenegen::buildScene("courtyard", 0), {64, 36}, settings, 40);
 }
 

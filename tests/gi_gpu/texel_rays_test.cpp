@@ -46,7 +46,7 @@ TEST(TexelRays, WhatMovedStandsInTheWayWhereItIs) {
     const SceneAsset asset = *scenegen::buildScene("occluder", 0);
     Bench moved(asset, {96, 54}), fresh(asset, {96, 54}), before(asset, {96, 54});
     for (Bench* b : {&moved, &fresh, &before})
-        b->settings = withRays(true);
+        b->settings = withRays(true), useSmallMaps(b->settings);
     pushAside(moved, 0), pushAside(before, 0), pushAside(fresh, 0.5f);
     bounce1After(moved, 8);
     pushAside(moved, 0.5f);
@@ -97,8 +97,8 @@ TEST(TexelRays, AStillFrameComesToRestAndSkippingChangesNoBit) {
     for (const bool skip : {true, false}) {
         Bench b(*scenegen::buildScene("ledges", 0), {96, 54});
         b.settings = withRays(true);
-        b.settings.bounce.texelRays.settleFrames = 40;
-        b.settings.bounce.valClustering.settleFrames = 20;
+        useSmallMaps(b.settings);
+        b.settings.bounce.texelRays.settleFrames = 16;
         b.options.skip = skip;
         images[skip] = bounce1After(b, int(framesToRest(b.settings.bounce)) + 8);
         if (skip) {
@@ -114,6 +114,7 @@ TEST(TexelRays, PixelsLeftOutGetLightOfTheirOwn) {
         each(all.asset, {96, 54});
     for (Bench* b : {&all, &some, &each}) {
         b->settings = withRays(true);
+        useSmallMaps(b->settings);
         b->settings.bounce.texelRays.settleFrames = 64;
         b->settings.bounce.valClustering.settleFrames = 20;
     }

@@ -39,7 +39,7 @@ class FaultyHost {
             step([&] { return agiCreateScene(context_, &scene_); }) &&
             step([&] { return room_.fill(scene_); }) &&
             step([&] { return agiCreateView(context_, &viewInfo, &view_); }))
-            for (int i = 0; i < 4 && step([&] { return drawFrame(); }); ++i) {
+            for (int i = 0; i < 3 && step([&] { return drawFrame(); }); ++i) {
             }
         disarm_();
         if (!lost_) {
@@ -129,7 +129,7 @@ void failEverywhere(VkResult failure, AgiResult expected, int places) {
 }
 
 TEST(GuestFaults, OutOfDeviceMemoryIsACodeAndTriedAgain) {
-    failEverywhere(VK_ERROR_OUT_OF_DEVICE_MEMORY, AGI_ERROR_DEVICE_MEMORY, 24);
+    failEverywhere(VK_ERROR_OUT_OF_DEVICE_MEMORY, AGI_ERROR_DEVICE_MEMORY, 16);
 }
 
 TEST(GuestFaults, OutOfHostMemoryInVulkanIsACodeAndTriedAgain) {
@@ -146,7 +146,7 @@ TEST(GuestFaults, OutOfHostMemoryOfOurOwnIsACodeAndTriedAgain) {
     startCounting();
     FaultyHost(AGI_OK, [] {}).live([] {});
     const auto allocations = int(stopCounting());
-    for (const int place : placesAmong(allocations, 24)) {
+    for (const int place : placesAmong(allocations, 16)) {
         SCOPED_TRACE(place);
         FaultyHost host(AGI_ERROR_HOST_MEMORY, never);
         EXPECT_LE(host.live([&] { failAllocationAfter(size_t(place)); }), 1);

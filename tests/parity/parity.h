@@ -14,9 +14,10 @@ namespace ag::gi {
 using namespace render;
 
 struct Parity {
-    explicit Parity(const char* name, uint32_t param = 0) : Parity(*scenegen::buildScene(name, param)) {}
-    explicit Parity(SceneAsset built)
-        : asset(std::move(built)), scene(staticScene(asset)), renderer(test::device()) {
+    explicit Parity(const char* name, uint32_t param = 0, glm::uvec2 pixels = {112, 63})
+        : Parity(*scenegen::buildScene(name, param), pixels) {}
+    explicit Parity(SceneAsset built, glm::uvec2 pixels = {112, 63})
+        : size(pixels), asset(std::move(built)), scene(staticScene(asset)), renderer(test::device()) {
         setCamera(scene, cameraOf(asset, 0), size);
         renderer.load(asset.geometry);
     }
@@ -30,7 +31,7 @@ struct Parity {
         return reference::makeReference(rays, size, settings, runner, silent);
     }
 
-    glm::uvec2 size{160, 90};
+    glm::uvec2 size;
     SceneAsset asset;
     RenderScene scene;
     Renderer renderer;

@@ -177,7 +177,7 @@ struct GlossErrors {
 
 // Where surfaces are glossy, with their gloss and without.
 GlossErrors glossErrors(uint32_t percent, bool visibility) {
-    Parity p("glossy", percent);
+    Parity p("glossy", percent, {160, 90});
     Image truth =
         p.trace({.paths = {.bounces = 1, .glossy = true, .unshadowed = !visibility}, .samplesPerPixel = 512})
             .radiance;
@@ -210,7 +210,7 @@ TEST(Parity, GlossyReceivers) {
 
 TEST(Parity, FirstBounceThroughImperfectShadowMaps) {
     for (const char* name : {"cornell", "occluder"}) {
-        Parity p(name);
+        Parity p(name, 0, {160, 90});
         const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512}).bounces[1];
         for (const uint32_t spacing : {1u, 2u}) {
             RenderSettings settings;

@@ -28,13 +28,13 @@ CameraPose randomPose(std::mt19937& random) {
 
 // Something changes in every frame, then nothing for as long as a still image takes: it must become that
 // image.
-void settles(const Bench& bench, const std::string& name, double limit,
+void settles(const Bench& bench, std::optional<Still>& truth, const std::string& name, double limit,
              FunctionRef<void(Stage&, uint32_t, bool)> change) {
     if (!bench.wants(name)) return;
     constexpr uint32_t kChanges = 24;
-    const Still truth = renderStill(bench, hall());
-    Stage stage(bench.device, hall(), kSize);
-    std::optional<std::string> fault = truth.fault;
+    if (!truth) truth = renderStill(bench, hall());
+    Stage stage(bench.device, hall(), kSize, bench.options.mapResolution);
+    std::optional<std::string> fault = truth->fault;
     for (uint32_t i = 0; i < kChanges; ++i) {
         change(stage, i, i + 1 == kChanges);
         stage.frame();
@@ -43,7 +43,7 @@ void settles(const Bench& bench, const std::string& name, double limit,
     stage.frames(std::max(bench.options.frames, stage.settings.bounce.valClustering.settleFrames + 8));
     if (!fault) fault = stage.fault();
     bench.report(
-        {name, "relative RMSE once it rests", relativeRmse(truth.image, stage.radiance()), limit, fault});
+        {name, "relative RMSE once it rests", relativeRmse(truth->image, stage.radiance()), limit, fault});
 }
 
 // One step of everything that may move.
@@ -79,7 +79,7 @@ struct Motion {
 };
 
 Motion moveAtRandom(const Bench& bench, uint32_t frames, bool skip) {
-    Stage stage(bench.device, hall(), kSize);
+    Stage stage(bench.device, hall(), kSize, bench.options.mapResolution);
     stage.options.skip = skip;
     std::mt19937 random(20);
     Motion m;
@@ -109,16 +109,17 @@ Motion moveAtRandom(const Bench& bench, uint32_t frames, bool skip) {
 
 void runChanges(const Bench& bench) {
     std::mt19937 random(4);
-    settles(bench, "resized every frame", 0.03, [&](Stage& s, uint32_t i, bool last) {
+    std::optional<Still> truth;
+    settles(bench, truth, "resized every frame", 0.03, [&](Stage& s, uint32_t i, bool last) {
         s.size = last ? kSize : glm::uvec2(1 + (37 * i) % 300, 1 + (53 * i) % 200);
         setCamera(s.scene, cameraOf(s.asset, 0), s.size);
     });
     const glm::vec3 on = hall().lights[0].intensity;
-    settles(bench, "light toggled every frame", 0.03, [&](Stage& s, uint32_t i, bool last) {
+    settles(bench, truth, "light toggled every frame", 0.03, [&](Stage& s, uint32_t i, bool last) {
         s.scene.lights[0].intensity = last || i % 2 ? on : glm::vec3(0);
         ++s.scene.lightsVersion;
     });
-    settles(bench, "camera cut every frame", 0.03, [&](Stage& s, uint32_t, bool last) {
+    settles(bench, truth, "camera cut every frame", 0.03, [&](Stage& s, uint32_t, bool last) {
         setCamera(s.scene, last ? cameraOf(s.asset, 0) : randomPose(random), s.size);
     });
 }

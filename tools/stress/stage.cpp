@@ -29,10 +29,11 @@ bool finiteFloats(const std::vector<T>& rows, size_t floats) {
 
 }  // namespace
 
-Stage::Stage(gpu::Device& device, SceneAsset built, glm::uvec2 pixels)
+Stage::Stage(gpu::Device& device, SceneAsset built, glm::uvec2 pixels, uint32_t mapResolution)
     : asset(std::move(built)), scene(staticScene(asset, likelyView(asset))), size(pixels), renderer(device) {
     setCamera(scene, cameraOf(asset, 0), size);
     renderer.load(asset.geometry);
+    settings.bounce.rsm.resolution = mapResolution;
 }
 
 void Stage::frame() {

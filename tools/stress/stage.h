@@ -11,7 +11,7 @@ namespace ag::stress {
 
 class Stage {
   public:
-    Stage(gpu::Device& device, SceneAsset asset, glm::uvec2 size);
+    Stage(gpu::Device& device, SceneAsset asset, glm::uvec2 size, uint32_t mapResolution);
 
     void frame();
     void frames(uint32_t count);

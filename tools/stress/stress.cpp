@@ -7,7 +7,7 @@ namespace ag::stress {
 
 Still renderStill(const Bench& bench, const SceneAsset& asset, Prepare prepare) {
     const auto render = [&] {
-        Stage stage(bench.device, asset, kSize);
+        Stage stage(bench.device, asset, kSize, bench.options.mapResolution);
         prepare(stage);
         stage.frames(bench.options.frames);
         return Still{stage.radiance(), stage.fault()};

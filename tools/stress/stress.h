@@ -28,8 +28,9 @@ struct StressOptions {
     std::vector<std::string> scenes = {"cornell", "corridor", "lamps"};  // that are moved and scaled
     uint32_t frames = 32;                                                // of cases that stand still
     uint32_t movingFrames = 10'000;
-    double mostGrowth = 8;  // MiB, in the second half of them
-    bool twice = true;      // render cases that stand still again: the bits must be the same
+    uint32_t mapResolution = 0;  // of RSMs; 0: as the lights say
+    double mostGrowth = 8;       // MiB, in the second half of them
+    bool twice = true;           // render cases that stand still again: the bits must be the same
 };
 
 // Rows in a fixed order, each as soon as it is known.

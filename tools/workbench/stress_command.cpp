@@ -25,7 +25,8 @@ int runStress(Options options) {
     if (options.quick) {
         options.stress.scenes = {"cornell"};
         options.stress.frames = 12;
-        options.stress.movingFrames = 256;
+        options.stress.movingFrames = 96;
+        options.stress.mapResolution = 128;
         options.stress.twice = false;
     }
     if (options.validate) options.stress.mostGrowth = 64;  // the layers' own records grow for long
