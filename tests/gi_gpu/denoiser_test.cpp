@@ -159,20 +159,20 @@ TEST(StochasticRsm, MeanIsThatOfAllTexelsInTheDisk) {
         for (const uint32_t samples : {1u, 8u}) {
             b->settings.bounce.stochasticRsm = {
                 .samples = samples, .radius = radius, .random = true, .settleFrames = 1'000'000};
-            const double mean = meanOverFrames(*b, 1024);
-            std::printf("radius %.2f, %u samples: mean over 1,024 frames / integral over the disk %.4f\n",
+            const double mean = meanOverFrames(*b, 512);
+            std::printf("radius %.2f, %u samples: mean over 512 frames / integral over the disk %.4f\n",
                         double(radius), samples, mean / integral);
-            EXPECT_NEAR(mean / integral, 1, 0.005);
+            EXPECT_NEAR(mean / integral, 1, 0.008);
         }
     }
     b->settings.bounce.stochasticRsm = {
         .samples = 8, .random = true, .whole = true, .settleFrames = 1'000'000};
-    const double whole = meanOverFrames(*b, 1024);
+    const double whole = meanOverFrames(*b, 512);
     b->settings.technique = Technique::kRsmBrute;
     const double brute = meanOf(bounceImage(*b));
-    std::printf("half of 8 samples from all of the map: mean over 1,024 frames / every texel %.4f\n",
+    std::printf("half of 8 samples from all of the map: mean over 512 frames / every texel %.4f\n",
                 whole / brute);
-    EXPECT_NEAR(whole / brute, 1, 0.005);
+    EXPECT_NEAR(whole / brute, 1, 0.008);
 }
 
 // What stands between, by the clusters' shadow maps: about as much light as the area lights' shadows leave.
@@ -297,7 +297,7 @@ struct MovingBox {
         };
         row = uint32_t(b->scene.instances.size()) - 1;
         b->scene.instances[row].movable = true;
-        for (int i = 0; i < 48; ++i)
+        for (int i = 0; i < 36; ++i)
             b->frame();
     }
     void place(glm::vec3 center, float yaw) {
@@ -317,7 +317,7 @@ struct MovingBox {
             place(glm::vec3(0, 0.4f, 0) + step * float(i - 12), turn * float(i));
             pair.moving = bounceImage(*b);
         }
-        for (int i = 0; i < 96; ++i)
+        for (int i = 0; i < 64; ++i)
             b->frame();
         pair.standing = bounceImage(*b);
         pair.albedo = readImage(b->renderer, albedo);

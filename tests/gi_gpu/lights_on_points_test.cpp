@@ -37,7 +37,7 @@ double rmse(const Image& image, const Image& truth) {
 }
 
 TEST(LightsOnPoints, BounceAsThoseWithAMap) {
-    const Image mapped = Bounced(true).after(60), points = Bounced(false).after(60);
+    const Image mapped = Bounced(true).after(44), points = Bounced(false).after(44);
     std::printf("mean ratio %.3f, RMSE of the mean %.3f\n", meanOf(points) / meanOf(mapped),
                 rmse(points, mapped));
     EXPECT_NEAR(meanOf(points) / meanOf(mapped), 1, 0.05);
@@ -45,7 +45,7 @@ TEST(LightsOnPoints, BounceAsThoseWithAMap) {
 }
 
 TEST(LightsOnPoints, ManyAreAsBrightAsOne) {
-    const Image one = Bounced(false).after(60);
+    const Image one = Bounced(false).after(44);
     Bounced b(false);
     const RenderLight whole = b.scene.lights[0];
     b.scene.lights.clear();
@@ -56,7 +56,7 @@ TEST(LightsOnPoints, ManyAreAsBrightAsOne) {
         b.scene.lights.back().id = i + 1;
     }
     ++b.scene.lightsVersion;
-    const Image many = b.after(60);
+    const Image many = b.after(44);
     EXPECT_NEAR(meanOf(many) / meanOf(one), 1, 0.03) << "some of the faint ones stand for the others";
 }
 

@@ -32,7 +32,7 @@ struct Climbed {
     ImageDifference differ(Stage truth, Stage test) const {
         return *compareImages(images.of(truth), images.of(test));
     }
-    glm::uvec2 size{96, 54};
+    glm::uvec2 size{64, 36};
     SceneAsset asset;
     RenderScene scene;
     reference::FirstHits hits;

@@ -30,7 +30,7 @@ TEST(Parity, DirectLight) {
 // Skinned meshes bent as their animation says: both see the same pose.
 TEST(Parity, PosedSkinnedMeshes) {
     Parity p("figures", 9);
-    const reference::Reference truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512});
+    const reference::Reference truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 192});
     const ImageDifference direct = differ(truth.bounces[0], p.render(Layer::kDirect, {}, 2));
     const ImageDifference bounce = differ(truth.bounces[1], p.render(Layer::kBounce1, {}, 60));
     std::printf("figures: direct %.4f, bounce %.4f of the truth (relative RMSE %.3f, %.3f)\n",
@@ -131,7 +131,7 @@ TEST(Parity, FirstBounceWithoutVisibility) {
     for (const char* name : {"cornell", "corner", "corridor"}) {
         Parity p(name);
         const Image truth =
-            p.trace({.paths = {.bounces = 1, .unshadowed = true}, .samplesPerPixel = 512}).bounces[1];
+            p.trace({.paths = {.bounces = 1, .unshadowed = true}, .samplesPerPixel = 192}).bounces[1];
         RenderSettings brute;
         applyPreset("rsm-brute", brute);
         brute.bounce.rsm.resolution = 256;
@@ -157,7 +157,7 @@ TEST(Parity, FirstBounceWithoutVisibility) {
 TEST(Parity, SecondBounce) {
     for (const char* name : {"cornell", "corridor"}) {
         Parity p(name);
-        const Image truth = p.trace({.paths = {.bounces = 2}, .samplesPerPixel = 512}).bounces[2];
+        const Image truth = p.trace({.paths = {.bounces = 2}, .samplesPerPixel = 192}).bounces[2];
         RenderSettings settings;
         settings.bounce.laterBounces.enabled = true;
         settings.bounce.laterBounces.feedback = false;
@@ -179,7 +179,7 @@ struct GlossErrors {
 GlossErrors glossErrors(uint32_t percent, bool visibility) {
     Parity p("glossy", percent, {160, 90});
     Image truth =
-        p.trace({.paths = {.bounces = 1, .glossy = true, .unshadowed = !visibility}, .samplesPerPixel = 512})
+        p.trace({.paths = {.bounces = 1, .glossy = true, .unshadowed = !visibility}, .samplesPerPixel = 192})
             .radiance;
     RenderSettings settings;
     settings.bounce.ismAtlas.enabled = visibility;
@@ -211,7 +211,7 @@ TEST(Parity, GlossyReceivers) {
 TEST(Parity, FirstBounceThroughImperfectShadowMaps) {
     for (const char* name : {"cornell", "occluder"}) {
         Parity p(name, 0, {160, 90});
-        const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512}).bounces[1];
+        const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 192}).bounces[1];
         for (const uint32_t spacing : {1u, 2u}) {
             RenderSettings settings;
             settings.bounce.spacing = spacing;
@@ -251,7 +251,7 @@ TEST(Parity, FarLightsAreAllMetOnNarrowSurfaces) {
 // Clusters split and dropped by the error they make in the view are nearer to the truth there.
 TEST(Parity, ErrorsInTheViewPutClustersWhereTheyAreSeen) {
     Parity p("corridor");
-    const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512}).bounces[1];
+    const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 192}).bounces[1];
     RenderSettings byView, byFlux;
     byView.bounce.texelRays.enabled = byFlux.bounce.texelRays.enabled =
         false;  // they mend what clusters lack
@@ -357,7 +357,7 @@ TEST(Parity, ShadowMapsSeeWhatRaysSee) {
 // through.
 TEST(Parity, HolesBetweenDisksAreClosed) {
     Parity p("occluder");
-    const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 512}).bounces[1];
+    const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 192}).bounces[1];
     const auto leak = [&](const RenderSettings& settings) {
         const Image image = p.render(Layer::kBounce1, settings, 34);
         double dark = 0, all = 0;

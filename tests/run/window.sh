@@ -9,7 +9,7 @@ start_demo() {
   demo=$!
   await_window || { echo "FAILED: no window: $(cat "$work/log")"; exit 1; }
   xdotool mousemove --window "$window" 300 170  # keys go to the window under the pointer; off the menu's lines
-  sleep 2
+  sleep 0.3
 }
 
 turn() {  # COUNT DX DY
@@ -22,7 +22,7 @@ turn() {  # COUNT DX DY
 keys() {
   for key in "$@"; do
     xdotool key "$key"
-    sleep 0.4
+    sleep 0.25
   done
 }
 
@@ -42,6 +42,7 @@ await_end() {  # WHAT [CODE]
 }
 
 start_demo --record "$work/run.replay" --capture-frames 2
+sleep 2  # what follows is played in real time: shaders are compiled in the first frames
 keys Return  # New game
 turn 5 -52 0
 turn 5 0 50
@@ -116,9 +117,8 @@ for fault in out_of_date:3 surface_lost:3; do
   [[ -s $work/$fault.png ]] || { echo "FAILED: $fault left no picture"; exit 1; }
 done
 cp "$work/kept.txt" "$work/user/save.txt"
-start_demo --fault submit:300
-keys Down  # past Continue
-keys Return  # New game
+start_demo --fault submit:150
+xdotool key Down Return  # past Continue, New game
 await_end "a lost device" 3
 grep -q "the graphics device was lost" "$work/log" || { echo "FAILED: a lost device said nothing: $(cat "$work/log")"; exit 1; }
 [[ $(tail -n 1 "$work/user/save.txt") == end ]] || { echo "FAILED: a lost device lost the game"; exit 1; }

@@ -72,13 +72,14 @@ void dragThing(Selection& selection, Viewing& v, const EditedScene& edited, cons
     if (at && selection.held && (moved.x != 0 || moved.y != 0))
         moveOf(v.edits, *selection.thing).offset += draggedPlace(screen, middle, {moved.x, moved.y}) - middle;
     const bool clicked = ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse;
-    const bool onHandle = at && glm::distance(*at, mousePlace()) < kReach * uiScale();
+    const glm::vec2 handle = at.value_or(glm::vec2(-1e9f));
+    const bool onHandle = glm::distance(handle, mousePlace()) < kReach * uiScale();
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) selection.held = false;
     if (clicked && !onHandle) return select(selection, v, edited, screen);
     selection.held |= clicked;
     if (!at) return;
     drawBox(screen, box, v.scene.originWorld);
-    drawHandle(*at, selection.held);
+    drawHandle(handle, selection.held);
 }
 
 }  // namespace ag::viewer
