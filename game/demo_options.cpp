@@ -5,6 +5,7 @@
 
 #include "engine/core/log.h"
 #include "game/dress_level.h"
+#include "game/replay_notes.h"
 
 namespace ag::game {
 namespace {
@@ -56,14 +57,16 @@ render::RenderSettings shownSettings(const Demo& demo) {
 }
 
 Input nextInput(Demo& demo, uint64_t tick, const Input& given) {
-    const Input input = tick < demo.replay.size() ? demo.replay[tick] : demo.replay.empty() ? given : Input{};
+    const Input input = tick < demo.replay.ticks.size() ? demo.replay.ticks[tick]
+                        : demo.replay.ticks.empty()     ? given
+                                                        : Input{};
     if (!demo.options.record.empty()) demo.recorded.push_back(input);
     return input;
 }
 
 Status finishRecording(const Demo& demo) {
     if (demo.options.record.empty()) return Ok{};
-    return saveReplay(demo.recorded, demo.options.record);
+    return saveReplay({demo.recorded, replayNotes(demo)}, demo.options.record);
 }
 
 }  // namespace ag::game

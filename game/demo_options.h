@@ -46,7 +46,8 @@ struct Demo {
     UserFiles files;
     UserSettings user;
     Bindings keys;
-    std::vector<Input> replay;  // empty: none
+    Replay replay;       // without ticks: none
+    std::string device;  // its name, once it is open
     std::vector<Input> recorded;
     gpu::FaultPlan fault;
     std::optional<render::Layer> layer;  // shown instead of the final image

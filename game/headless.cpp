@@ -12,6 +12,7 @@
 #include "game/demo_options.h"
 #include "game/pass_log.h"
 #include "game/picture_check.h"
+#include "game/replay_notes.h"
 
 namespace ag::game {
 namespace {
@@ -32,7 +33,7 @@ class HeadlessRun {
           device_(device),
           budget_(demo.options.budgetMs, render::firstFullSizeStep()) {
         renderer_.load(demo.game->level().geometry);
-        const uint32_t replay = uint32_t(demo.replay.size()), per = demo.options.ticksPerFrame;
+        const uint32_t replay = uint32_t(demo.replay.ticks.size()), per = demo.options.ticksPerFrame;
         frames_ = demo.options.frames ? demo.options.frames : std::max((replay + per - 1) / per, 1u);
         sheet_ = ContactSheet(demo.options.moments.empty() ? 0 : kMoments, frames_);
     }
@@ -111,9 +112,17 @@ class HeadlessRun {
                    demo_.game->player().carried ? ", carrying a crate" : "", p.flowersOpen, p.flowers,
                    p.roomsSolved, p.rooms, p.won ? ", finished" : "", demo_.game->stateHash(),
                    double(renderer_.deviceBytes()) / 1048576.0, residentBefore_, residentMib()) +
-               budgetLine() + momentLines() + passes_.text();
+               verdict() + budgetLine() + momentLines() + passes_.text();
     }
 
+    // Of a replay that was played to its end and not beyond.
+    std::string verdict() const {
+        const uint64_t played = uint64_t(frames_) * demo_.options.ticksPerFrame;
+        const size_t ticks = demo_.replay.ticks.size();
+        const bool whole = played >= ticks && played < ticks + demo_.options.ticksPerFrame;
+        const std::string text = whole ? replayVerdict(demo_) : "";
+        return text.empty() ? "" : text + "\n";
+    }
     // Of each moment: what is nearly black, and what is burnt out.
     std::string momentLines() const {
         std::string text;
@@ -172,6 +181,7 @@ class HeadlessRun {
 int runHeadless(Demo& demo) {
     auto device = gpu::Device::create(deviceOptions(demo));
     if (!device) return refuse(device.error().message);
+    demo.device = (*device)->info().name;
     return HeadlessRun(demo, **device).run();
 }
 

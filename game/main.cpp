@@ -11,6 +11,7 @@
 #include "engine/core/safe_file.h"
 #include "engine/core/spread_sets.h"
 #include "game/demo_options.h"
+#include "game/replay_notes.h"
 #include "game/save_game.h"
 
 namespace ag::game {
@@ -94,9 +95,9 @@ Status readReplay(Demo& demo) {
                                : o.headless && o.scene.empty() && !o.resume && !o.chapter ? kWalkthrough
                                                                                           : "";
     if (replay.empty()) return Ok{};
-    auto ticks = loadReplay(replay);
-    if (!ticks) return ticks.error();
-    demo.replay = std::move(*ticks);
+    auto loaded = loadReplay(replay);
+    if (!loaded) return loaded.error();
+    demo.replay = std::move(*loaded);
     return Ok{};
 }
 
@@ -128,6 +129,7 @@ Status prepare(Demo& demo) {
     if (o.budgetMs > 0) demo.user.quality = Quality::kAutomatic;
     useQuality(demo, demo.user.quality, render::qualitySteps()[render::firstFullSizeStep()]);
     if (Status s = loadLevel(demo); !s) return s;
+    if (Status s = checkReplay(demo); !s) return s;
     if (o.chapter > 0 && !o.record.empty())
         return Error{"a recording starts with the level, not with --chapter"};
     if (o.chapter > 0 && !startAtRoom(*demo.game, int32_t(o.chapter) - 1))

@@ -13,15 +13,15 @@
 #include "game/save_format.h"
 
 namespace ag::game {
-namespace {
 
-// The level it was saved in: things are known by their place in its list.
 uint64_t levelHash(const SceneAsset& level) {
     uint64_t hash = hashBytes(std::as_bytes(std::span(level.name)));
     for (const SceneNode& node : level.nodes)
         hash = combineHash(hash, hashBytes(std::as_bytes(std::span(node.name))));
     return hash;
 }
+
+namespace {
 
 constexpr double kMarginOfLevel = 50;  // m about it where things may have come to lie
 

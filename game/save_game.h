@@ -9,6 +9,8 @@
 
 namespace ag::game {
 
+// Of its things' names in their order: saves and replays are of a level with the same ones.
+uint64_t levelHash(const SceneAsset& level);
 std::string saveText(Game& game);
 Status saveGame(Game& game, const std::string& path);
 // Whether the text is a whole save of the game's level.

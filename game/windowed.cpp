@@ -54,7 +54,7 @@ class WindowedRun {
         renderer_.load(demo.game->level().geometry);
         describeSceneComponents();
         menu_.hasSave = fileExists(demo.files.save());
-        if (!demo.replay.empty() || demo.options.resume) play();
+        if (!demo.replay.ticks.empty() || demo.options.resume) play();
         usePlayerSettings();
         onProgramEnd([this] {
             autosave();
@@ -218,7 +218,7 @@ class WindowedRun {
     }
     void autosave() {
         sinceSave_ = 0;
-        if (!menu_.started || !demo_.options.scene.empty() || !demo_.replay.empty()) return;
+        if (!menu_.started || !demo_.options.scene.empty() || !demo_.replay.ticks.empty()) return;
         if (!keepBrokenSave()) return;
         const Status saved = saveGame(*demo_.game, demo_.files.save());
         if (!saved) spdlog::warn("{}", saved.error().message);
@@ -256,7 +256,7 @@ class WindowedRun {
     // Rooms one has been in can be started from the menu.
     void noteRoomsReached() {
         const float reached = float(demo_.game->progress().room + 1);
-        if (reached <= demo_.user.roomsReached || !demo_.options.scene.empty() || !demo_.replay.empty())
+        if (reached <= demo_.user.roomsReached || !demo_.options.scene.empty() || !demo_.replay.ticks.empty())
             return;
         demo_.user.roomsReached = reached;
         report(saveUserSettings(demo_.user, demo_.files.settings()));
@@ -397,6 +397,7 @@ int runWindowed(Demo& demo) {
     if (!surface) return refuse(surface.error().message);
     auto device = gpu::Device::create(deviceOptions(demo, *std::move(surface)));
     if (!device) return refuse(device.error().message);
+    demo.device = (*device)->info().name;
     int exitCode = WindowedRun(demo, **window, **device, *renderDoc).loop();
     const int messages = (*device)->validationMessageCount();
     device->reset();  // before the window whose surface it holds

@@ -24,9 +24,21 @@ struct Input {
     uint32_t buttons = 0;          // held down
 };
 
-// One line a tick after a header; equal ticks are one line with their number. A broken file is refused with a
-// sentence.
-Status saveReplay(const std::vector<Input>& ticks, const std::string& path);
-Result<std::vector<Input>> loadReplay(const std::string& path);
+// Of what a replay was recorded with: a word of small letters, and what it says, on one line.
+struct ReplayNote {
+    std::string name, text;
+    bool operator==(const ReplayNote&) const = default;
+};
+using ReplayNotes = std::vector<ReplayNote>;
+
+struct Replay {
+    std::vector<Input> ticks;
+    ReplayNotes notes;
+};
+
+// A header, a line a note, a line a tick; equal ticks are one line with their number. A broken file is
+// refused with a sentence.
+Status saveReplay(const Replay& replay, const std::string& path);
+Result<Replay> loadReplay(const std::string& path);
 
 }  // namespace ag

@@ -129,20 +129,23 @@ TEST(Replay, SurvivesAFileAndRefusesABrokenOne) {
     std::vector<Input> ticks;
     for (int i = 0; i < 50; ++i)
         ticks.push_back(scripted(i));
-    ASSERT_TRUE(saveReplay(ticks, path));
+    const ReplayNotes notes = {{"device", "a card\nof two lines"}, {"quality", ""}};
+    ASSERT_TRUE(saveReplay({ticks, notes}, path));
     const auto back = loadReplay(path);
     ASSERT_TRUE(back) << back.error().message;
-    ASSERT_EQ(back->size(), ticks.size());
+    ASSERT_EQ(back->ticks.size(), ticks.size());
     for (size_t i = 0; i < ticks.size(); ++i) {
-        EXPECT_EQ((*back)[i].look, ticks[i].look);
-        EXPECT_EQ((*back)[i].forward, ticks[i].forward);
+        EXPECT_EQ(back->ticks[i].look, ticks[i].look);
+        EXPECT_EQ(back->ticks[i].forward, ticks[i].forward);
     }
-    const std::string head = "afterglow replay 2\n";
+    EXPECT_EQ(back->notes, (ReplayNotes{{"device", "a card of two lines"}, {"quality", ""}}));
+    const std::string head = "afterglow replay 3\n";
     for (const std::string& text :
          {std::string(), std::string("hello\n"), head, head + "1 1 0 0 0\nend 1\n",
           head + "1 9 0 0 0 0\nend 1\n", head + "1 0 0 nan 0 0\nend 1\n", head + "1 0 0 0 0 0\nend 2\n",
           head + "0 0 0 0 0 0\nend 0\n", head + "99999999 0 0 0 0 0\nend 99999999\n",
-          head + "1 0 0 0 0 99\nend 1\n", head + "1 0 0 0 0 0\n"}) {
+          head + "1 0 0 0 0 99\nend 1\n", head + "1 0 0 0 0 0\n", head + "note\nend 0\n",
+          head + "note No text\nend 0\n", head + "1 0 0 0 0 0\nnote late text\nend 1\n"}) {
         ASSERT_TRUE(writeFileSafely(path, text));
         const auto broken = loadReplay(path);
         ASSERT_FALSE(broken) << text;

@@ -18,7 +18,7 @@ std::unique_ptr<Stage> playRecording(const std::string& path) {
     auto stage = std::make_unique<Stage>(test::device(), shippedLevel(), kTicksPerFrame);
     const auto inputs = loadReplay(path);
     EXPECT_TRUE(inputs) << inputs.error().message;
-    for (const Input& input : *inputs)
+    for (const Input& input : inputs->ticks)
         stage->tick(input);
     return stage;
 }
@@ -38,7 +38,7 @@ class Walkthrough : public testing::Test {
         stage_ = std::make_unique<Stage>(test::device(), shippedLevel(), kTicksPerFrame);
         const auto inputs = loadReplay(kRecording);
         ASSERT_TRUE(inputs) << inputs.error().message;
-        lit_ = litFlowers(*stage_, *inputs);
+        lit_ = litFlowers(*stage_, inputs->ticks);
     }
     static void TearDownTestSuite() {
         lit_.clear();

@@ -44,6 +44,16 @@ expect 2 "not a replay" "$bin/afterglow-demo" --headless --replay "$0"
 head -n 50 "$(dirname "$0")/../../game/level/walkthrough.replay" >"$work/cut.replay"
 expect 2 "cut.replay: the replay ends before its last line" "$bin/afterglow-demo" --headless --replay "$work/cut.replay"
 rm "$work/cut.replay"
+# A recording says what it was made with; played, whether it leads where it led.
+"$bin/afterglow-demo" --headless --frames 4 --size 32x18 --record "$work/own.replay" >/dev/null 2>&1
+replay() { "$bin/afterglow-demo" --headless --size 32x18 --replay "$work/own.replay" "$@"; }
+expect 0 "the world is the recording's" replay
+sed -i 's/^note world .*/note world 0/' "$work/own.replay"
+expect 0 "the world is not the recording's; it was made with frame 1 ticks, here 2 ticks" replay --ticks-per-frame 2
+expect 0 "perhaps with another version" replay
+sed -i 's/^note level .*/note level 0/' "$work/own.replay"
+expect 2 "own.replay: it was recorded in another level" replay
+rm "$work/own.replay"
 expect 2 "a quality is low, medium, high, ultra or auto, not 'best'" "$bin/afterglow-demo" --headless --quality best
 expect 2 "save.txt: the file does not exist" "$bin/afterglow-demo" --headless --continue --user "$work"
 expect 2 "a recording starts with the level" "$bin/afterglow-demo" --headless --continue --record "$work/r.replay"

@@ -283,7 +283,7 @@ class ViewerRun {
     int finish() {
         if (remembers()) remember();
         if (!options_.record.empty())
-            if (const Status kept = saveReplay(recorded_, options_.record); !kept) return refuse(kept);
+            if (const Status kept = saveReplay({recorded_, {}}, options_.record); !kept) return refuse(kept);
         if (!options_.truthStem.empty() && truth_.picture()) {
             const auto said = truth_.save(renderer_, options_.truthStem);
             if (!said) return refuse(said.error());

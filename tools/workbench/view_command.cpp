@@ -81,7 +81,7 @@ int runView(ViewOptions& o) {
     if (!o.script.empty()) {
         auto script = loadReplay(o.script);
         if (!script) return refuse(script.error().message);
-        o.viewer.script = std::move(*script);
+        o.viewer.script = std::move(script->ticks);
     }
     auto loaded = loadScene(session->scene, MissingLight::kSunAndSky);
     if (!loaded) return refuse(loaded.error().message);

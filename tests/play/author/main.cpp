@@ -35,7 +35,7 @@ int author(const Script& script, const char* path, uint32_t ticksPerFrame, int r
     std::cout << bot.inputs().size() << " ticks, " << p.flowersOpen << " of " << p.flowers
               << " flowers open, " << p.roomsSolved << " of " << p.rooms << " rooms solved"
               << (p.won ? ", finished" : "") << '\n';
-    if (const ag::Status saved = ag::saveReplay(bot.inputs(), path); !saved) {
+    if (const ag::Status saved = ag::saveReplay({bot.inputs(), {}}, path); !saved) {
         std::cerr << saved.error().message << '\n';
         return 2;
     }
