@@ -33,11 +33,10 @@ std::string frameOf(const Demo& demo) {
 }  // namespace
 
 ReplayNotes replayNotes(const Demo& demo) {
-    return {{kLevelNote, fmt::format("{:016x}", levelHash(demo.game->level()))},
-            {"device", demo.device},
-            {"quality", qualityOf(demo)},
-            {"frame", frameOf(demo)},
-            {kWorldNote, fmt::format("{:016x}", demo.game->stateHash())}};
+    return {
+        {"version", AFTERGLOW_VERSION}, {kLevelNote, fmt::format("{:016x}", levelHash(demo.game->level()))},
+        {"device", demo.device},        {"quality", qualityOf(demo)},
+        {"frame", frameOf(demo)},       {kWorldNote, fmt::format("{:016x}", demo.game->stateHash())}};
 }
 
 Status checkReplay(const Demo& demo) {
@@ -58,7 +57,8 @@ std::string replayVerdict(const Demo& demo) {
             there && *there != here.text && here.name != kWorldNote)
             differences.push_back(fmt::format("{} {}, here {}", here.name, *there, here.text));
     return fmt::format("the world is not the recording's; it was made with {}\n",
-                       differences.empty() ? "all that is noted of it the same: perhaps with another version"
+                       differences.empty() ? "all that is noted of it the same; a quality chosen "
+                                             "as it goes, or a later program of this version, may be why"
                                            : fmt::format("{}", fmt::join(differences, "; ")));
 }
 

@@ -22,6 +22,7 @@
 #include "game/hud.h"
 #include "game/menu.h"
 #include "game/save_game.h"
+#include "game/save_slot.h"
 #include "game/speaker.h"
 
 namespace ag::game {
@@ -50,10 +51,11 @@ class WindowedRun {
                   : device.info().isCpu     ? kCpuBudgetMs
                                             : kGpuBudgetMs,
                   0),
-          capture_(renderer_, renderDoc) {
+          capture_(renderer_, renderDoc),
+          save_(demo.files.save()) {
         renderer_.load(demo.game->level().geometry);
         describeSceneComponents();
-        menu_.hasSave = fileExists(demo.files.save());
+        menu_.hasSave = save_.exists();
         if (!demo.replay.ticks.empty() || demo.options.resume) play();
         usePlayerSettings();
         onProgramEnd([this] {
@@ -189,48 +191,38 @@ class WindowedRun {
     }
     void startAnew() {
         if ((menu_.started || ticks_ > 0) && !reload()) return;
-        if (keepBrokenSave() && fileExists(demo_.files.save()))
-            report(putSaveAside(demo_.files.save(), ".before"));  // a new game takes nothing that was won
+        report(save_.makeRoomForNewGame(*demo_.game));
         play();
     }
     void startRoom() {
-        if (!reload() || !startAtRoom(*demo_.game, menu_.room)) return;
         endRecording();
+        if (!reload() || !startAtRoom(*demo_.game, menu_.room)) return;
         solved_ = demo_.game->progress().roomsSolved;
         play();
     }
-    // What starts elsewhere than the level does is no recording.
+    // What starts elsewhere than the level does is no recording; what was recorded before it is kept.
     void endRecording() {
         if (demo_.options.record.empty()) return;
+        report(finishRecording(demo_));
         spdlog::warn("a recording starts with the level: this one ends here");
         demo_.options.record.clear();
     }
     // A save that cannot be read stays where it is, and so does the game under way.
     void continueSaved() {
-        const auto text = readFile(demo_.files.save());
+        const auto text = readFile(save_.path());
         if (!text) return report(text.error());
-        const Status good = checkSave(*demo_.game, *text, demo_.files.save());
-        if (!good || !reload()) return report(good);
-        report(restoreGame(*demo_.game, *text, demo_.files.save()));
+        const Status good = checkSave(*demo_.game, *text, save_.path());
+        if (!good) return report(good);
         endRecording();
+        if (!reload()) return;
+        report(restoreGame(*demo_.game, *text, save_.path()));
         solved_ = demo_.game->progress().roomsSolved;
         play();
     }
     void autosave() {
         sinceSave_ = 0;
         if (!menu_.started || !demo_.options.scene.empty() || !demo_.replay.ticks.empty()) return;
-        if (!keepBrokenSave()) return;
-        const Status saved = saveGame(*demo_.game, demo_.files.save());
-        if (!saved) spdlog::warn("{}", saved.error().message);
-        menu_.hasSave = menu_.hasSave || saved;
-    }
-    // What is there and no save of this level is put aside, not written over.
-    bool keepBrokenSave() {
-        if (checkedSave_ || !fileExists(demo_.files.save())) return true;
-        checkedSave_ = true;
-        const Status moved = putBrokenSaveAside(*demo_.game, demo_.files.save());
-        if (!moved) spdlog::warn("{}", moved.error().message);
-        return bool(moved);
+        menu_.hasSave |= save_.save(*demo_.game);
     }
     void advance(double elapsed) {
         const Input held = takeInput(elapsed);
@@ -377,11 +369,12 @@ class WindowedRun {
     DebugUiState panels_;
     Menu menu_;
     MenuEvent chosen_ = MenuEvent::kNone;
+    SaveSlot save_;
     ImageHandle shown_;
     glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels
     double behind_ = 0, frameMs_ = 16, sinceSave_ = 0;
     uint32_t solved_ = 0;
-    bool fullscreen_ = false, quit_ = false, checkedSave_ = false;
+    bool fullscreen_ = false, quit_ = false;
     uint64_t ticks_ = 0, drawn_ = 0;
 };
 

@@ -21,7 +21,8 @@ constexpr double kPi = std::numbers::pi;
 // Of rays to texels, so that still frames soon rest. So few change nothing yet.
 constexpr uint32_t kRayFrames = 2;
 
-// Of tests in which they do not matter: a fifth of the time.
+// For tests that do not depend on the size of the maps or on how long clusters take to settle: half of the
+// time.
 inline void useSmallMaps(RenderSettings& s) {
     s.bounce.rsm.resolution = 128;
     s.bounce.valClustering.settleFrames = 8;

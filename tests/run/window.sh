@@ -103,6 +103,14 @@ start_demo --continue --frames 12 --screenshot "$work/on.png" --set sound.volume
 await_end "--frames"
 grep -qi sound "$work/log" && { echo "FAILED: a volume of 0 looked for a sound device"; exit 1; }
 [[ -s $work/on.png ]] || { echo "FAILED: going on left no picture"; exit 1; }
+# Where one goes on with a saved game a recording ends, and is kept.
+start_demo --record "$work/ended.replay"
+keys Down Return  # a new game
+sleep 2           # that is seen
+keys Escape Down Return Escape Up Return  # the saved one; Quit
+await_end "Quit"
+[[ -s $work/ended.replay && $(tail -n 1 "$work/ended.replay") != "end 0" ]] ||
+  { echo "FAILED: going on with the saved game lost the recording: $(cat "$work/log")"; exit 1; }
 cp "$work/user/save.txt" "$work/kept.txt"
 head -c 100 "$work/kept.txt" >"$work/user/save.txt"
 "$bin/afterglow-demo" --headless --continue --frames 1 --size 32x18 --user "$work/user" >/dev/null 2>"$work/err"

@@ -9,7 +9,8 @@
 namespace ag::viewer {
 namespace {
 
-constexpr float kReach = 12;  // pixels at scale 1, from which the mouse takes the handle
+constexpr glm::vec2 kNowhere{-1e9f};  // pixels, of a handle that is not in sight
+constexpr float kReach = 12;          // pixels at scale 1, from which the mouse takes the handle
 constexpr ImU32 kBox = IM_COL32(255, 190, 60, 160), kFill = IM_COL32(255, 190, 60, 255);
 
 glm::vec2 mousePlace() {
@@ -72,7 +73,7 @@ void dragThing(Selection& selection, Viewing& v, const EditedScene& edited, cons
     if (at && selection.held && (moved.x != 0 || moved.y != 0))
         moveOf(v.edits, *selection.thing).offset += draggedPlace(screen, middle, {moved.x, moved.y}) - middle;
     const bool clicked = ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::GetIO().WantCaptureMouse;
-    const glm::vec2 handle = at.value_or(glm::vec2(-1e9f));
+    const glm::vec2 handle = at.value_or(kNowhere);
     const bool onHandle = glm::distance(handle, mousePlace()) < kReach * uiScale();
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) selection.held = false;
     if (clicked && !onHandle) return select(selection, v, edited, screen);
