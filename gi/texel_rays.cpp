@@ -59,23 +59,27 @@ Members addMembers(GraphScope scope, const RsmSet& rsm, const Clusters& c) {
 
 // How likely pixels of a block are to draw each light.
 struct Choice {
-    BufferHandle upTo, likely;
+    BufferHandle upTo, likely, found;
     uint32_t blocks;
 };
 
 // `ray`: how many were cast before, and this one.
-Choice addChoice(const ValTiles& t, uint32_t ray) {
+Choice addChoice(const ValTiles& t, uint32_t ray, const Settling& settling) {
     const glm::uvec2 along = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
     const uint32_t blocks = along.x * along.y;
     const BufferInfo info{.sizeBytes = uint64_t(blocks) * t.push.valCount * 4,
                           .texelFormat = VK_FORMAT_R32_SFLOAT};
+    const HistoryBuffer found = t.scope.historyBuffer(
+        "texel_rays.found", {.sizeBytes = uint64_t(blocks) * t.push.valCount * sizeof(io::RaysFound)});
     const Choice choice{t.scope.buffer("texel_rays.up_to", info), t.scope.buffer("texel_rays.likely", info),
-                        blocks};
+                        found.current, blocks};
     t.scope.fill("texel_rays.none_likely", choice.likely, 0);
     gatherPass(t, "texel_rays.choose", "texel_rays/choose_lights.comp", ValShape::kVectorDisk, 1)
         .readWrite("likely", choice.likely)
         .readWrite("upTo", choice.upTo)
-        .push(io::ChoosePush{t.push, ray})
+        .readPrevious("foundBefore", found)
+        .write("found", found.current)
+        .push(io::ChoosePush{t.push, ray, found.valid && settling.sinceChange > 1})
         .dispatchGroups(choice.blocks);
     return choice;
 }
@@ -104,6 +108,7 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
         .read("candidates", in.clusters.candidates)
         .read("noise", noise)
         .write("sent", sent)
+        .readWrite("found", choice.found)
         .push(io::CastPush{.tiles = t.push,
                            .atlasWidth = in.rsm.atlas.size.x,
                            .mapCount = in.rsm.lightRsmCount,
@@ -302,7 +307,7 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, dimming, step);
     // Counted from the last change on, so that a still picture does not depend on what was before.
     const uint32_t ray = std::min(history.settling.sinceChange, in.frames) + in.turn * kMostRaysOfTurn;
-    const Choice choice = addChoice(t, ray);
+    const Choice choice = addChoice(t, ray, history.settling);
     const ImageHandle sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent, shading);
     const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling);

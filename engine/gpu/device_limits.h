@@ -39,6 +39,6 @@ bool hasLargeTexelBuffers(const VkPhysicalDeviceLimits& limits);
 
 // maxPerStageDescriptorStorageBuffers that rays to texels want where they read storage buffers instead; the
 // least limit is for all else.
-constexpr uint32_t kStorageBuffersOfRays = 15;
+constexpr uint32_t kStorageBuffersOfRays = 16;
 
 }  // namespace ag::gpu

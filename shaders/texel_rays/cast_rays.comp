@@ -5,6 +5,7 @@
 // into the hemisphere, not far, for light so near that no draw of a texel is even. Each counts by how likely either was to
 // find that light (balance heuristic, Veach & Guibas 1995). Texels by resampling (Talbot et al. 2005).
 #include "common/form_factors.h"
+#include "common/pixel_rays.h"
 #include "common/sampling.h"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
@@ -13,7 +14,8 @@
 #include "val_clustering/val_clustering_io.h"
 #include "val_shading/light_lists.glsl"
 
-layout(local_size_x = 64) in;
+const uint kBlockPixels = kDrawBlock * kDrawBlock, kNoLight = ~0u;
+layout(local_size_x = kBlockPixels) in;
 layout(push_constant, scalar) uniform Push { CastPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
@@ -36,6 +38,7 @@ layout(set = 0, binding = 16) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
 layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;  // W/m²; a: 1 + the entry of the light drawn, 0: none
+layout(set = 0, binding = 20, scalar) buffer Found { RaysFound items[]; } found;  // of each block, by light
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
@@ -68,18 +71,16 @@ struct Drawn {
 };
 
 Drawn drawLight(uint tile, uint block, float xi) {
-    uint valCount = push.p.tiles.valCount, first = block * valCount;
-    uvec2 count = counts.items[tile];
-    uint low = 0, high = max(count.x + count.y, 1) - 1;
+    uint valCount = push.p.tiles.valCount, first = block * valCount, entries = valCount - push.p.tiles.firstVal;
+    uint low = 0, high = max(entries, 1) - 1;
     while (low < high) {
         uint middle = (low + high) / 2;
         bool after = xi >= fetchTexel(upTo, int(first + middle)).x;
         low = after ? middle + 1 : low;
         high = after ? high : middle;
     }
-    bool any = count.x + count.y > 0;
-    uint light = any ? fetchTexel(lists, int(listEntry(tile, low, count.x, valCount))).x : 0;
-    return Drawn(low, light, any ? fetchTexel(likely, int(first + light)).x : 0.0);
+    uint light = entries > 0 ? fetchTexel(lists, int(listEntry(tile, low, counts.items[tile], valCount))).x : 0;
+    return Drawn(low, light, entries > 0 ? fetchTexel(likely, int(first + light)).x : 0.0);
 }
 
 // Mean of the channels of what a texel sends to the receiver if nothing stands between, times its weight against the
@@ -152,6 +153,24 @@ vec2 noiseAt(uvec2 pixel, uint aside) {
 // Of a block: four by two for each eight invocations in a row.
 uvec2 placeInBlock(uint i) { return uvec2((i & 3u) | (i >> 1 & 4u), (i >> 2 & 1u) | (i >> 3 & 6u)); }
 
+// What each pixel of the block drew and found.
+shared uint drawnOf[kBlockPixels];  // kNoLight: nothing
+shared float squareOf[kBlockPixels];
+
+// By one invocation in the order of pixels, so that sums are the same in every run.
+void noteFound(uint block, Drawn d, float sends) {
+    drawnOf[gl_LocalInvocationID.x] = d.likely > 0.0 ? d.light : kNoLight;
+    squareOf[gl_LocalInvocationID.x] = sends * sends;
+    barrier();
+    if (gl_LocalInvocationID.x > 0) return;
+    for (uint i = 0; i < kBlockPixels; ++i) {
+        if (drawnOf[i] == kNoLight) continue;
+        uint at = block * push.p.tiles.valCount + drawnOf[i];
+        found.items[at].count += 1.0;
+        found.items[at].squares += squareOf[i];
+    }
+}
+
 // A block a workgroup.
 void main() {
     uvec2 size = camera.camera.size;
@@ -173,6 +192,9 @@ void main() {
     vec3 toTexel, e = sentByDrawn(r, d, random, toTexel);
     float opaqueFrom = float(random >> 8) / 16777216.0;
     if (e.x + e.y + e.z > 0.0 && !isSeen(r, toTexel, opaqueFrom)) e = vec3(0.0);
+    float sends = luminance(e) * d.likely;
     if (depth > 0.0) e += sentByNear(r, xi.xy, opaqueFrom);
+    d.likely = there ? d.likely : 0.0;
     if (there) imageStore(sent, pixel, vec4(e, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
+    noteFound(block, d, sends);
 }

@@ -20,7 +20,7 @@ layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
 layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
 
-const float kDoubt = 16.0;  // neighbours' errors are correlated: more noise is left than the filtered variance says
+const float kDoubt = 8.0;  // neighbours' errors are correlated: more noise is left than the filtered variance says
 const int kStride = 4;      // pixels
 
 vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(shareOf, at, 0).x - 1.0) * lights; }

@@ -23,8 +23,8 @@ void main() {
     uvec2 tile = uvec2(pixel) / push.p.tileSize, block = uvec2(pixel) / kDrawBlock;
     uint inBlocks = block.y * ((size.x + kDrawBlock - 1) / kDrawBlock) + block.x;
     uint inTiles = tile.y * push.p.tiles.x + tile.x, nearCount = counts.items[inTiles].x;
-    bool near = drawn <= nearCount;
-    if (drawn == 0 || near != (kList == kNearList)) {
+    bool near = drawn <= nearCount, met = drawn > 0 && drawn <= nearCount + counts.items[inTiles].y;
+    if (!met || near != (kList == kNearList)) {
         if (kList == kFarList) imageStore(control, pixel, vec4(0.0));
         return;
     }

@@ -15,6 +15,12 @@ const uint kDrawBlock = 8;  // pixels along the side of a block whose pixels dra
 // be met.
 const float kRayOffset = 2e-5f;
 
+// What a block's rays to texels of a light brought.
+struct RaysFound {
+    float count;    // of rays
+    float squares;  // sum of the squared irradiance, luminance, that the light would send if each ray found this
+};
+
 struct CastPush {
     ValShadingPush tiles;
     uint atlasWidth;  // texels, of the maps
@@ -30,7 +36,8 @@ struct CastPush {
 
 struct ChoosePush {
     ValShadingPush tiles;
-    uint ray;  // number of the frame's rays
+    uint ray;    // number of the frame's rays
+    uint known;  // 0: there are no rays before
 };
 
 struct RayAccumulatePush {

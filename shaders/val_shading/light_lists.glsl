@@ -24,9 +24,10 @@
 
 uint listStart(uint tile, uint list, uint valCount) { return (tile * kLightLists + list) * valCount; }
 
-// Of both lists together, near lights first.
-uint listEntry(uint tile, uint entry, uint nearCount, uint valCount) {
-    return entry < nearCount ? listStart(tile, kNearList, valCount) + entry
-                             : listStart(tile, kFarList, valCount) + entry - nearCount;
+// Of all lights: the near ones, the far ones, then the rest (sort_lights.glsl).
+uint listEntry(uint tile, uint entry, uvec2 count, uint valCount) {
+    uint near = listStart(tile, kNearList, valCount), far = listStart(tile, kFarList, valCount);
+    uint ofRest = near + valCount - 1 - (entry - count.x - count.y);
+    return entry < count.x ? near + entry : entry < count.x + count.y ? far + entry - count.x : ofRest;
 }
 #endif

@@ -1,5 +1,5 @@
-// Which lights are near to a tile of receivers and which far; those that are black or that face away from the box round
-// the receivers are neither. In ascending order, by one group of lanes a tile. Needs buffers `vals`, `shapes`, `lists`.
+// Which lights are near to a tile of receivers and which far; those that are black or whose plane faces away from the box
+// round the receivers are the rest (some of their texels may face it). Near and far ones in ascending order, by one group of lanes a tile. Needs buffers `vals`, `shapes`, `lists`.
 #ifndef AG_SORT_LIGHTS_GLSL
 #define AG_SORT_LIGHTS_GLSL
 
@@ -28,11 +28,19 @@ void appendLight(uint start, bool mine, uint light, inout uint count) {
     count += vote.count;
 }
 
+// Behind the near ones, from the end on.
+void appendToRest(uint start, bool mine, uint light, uint valCount, inout uint count) {
+    LaneVote vote = laneVote(mine);
+    if (mine) lists.items[start + valCount - 1 - count - vote.before] = light;
+    count += vote.count;
+}
+
 // How many from firstVal to valCount are near and far. nearReach: lights nearer than this many of their half lengths are near.
 uvec2 sortLights(uint tile, Box box, uint firstVal, uint valCount, float nearReach) {
     vec3 middle = 0.5 * (box.least + box.most), half_ = 0.5 * (box.most - box.least);
     bool any = box.least.x <= box.most.x;
     uvec2 count = uvec2(0);
+    uint rest = 0;
     for (uint base = firstVal; base < valCount; base += kLanes) {
         uint light = base + laneIndex();
         int at = int(min(light, valCount - 1));
@@ -47,6 +55,7 @@ uvec2 sortLights(uint tile, Box box, uint firstVal, uint valCount, float nearRea
         bool near = reaches && dot(apart, apart) < reach * reach;
         appendLight(listStart(tile, kNearList, valCount), near, light, count.x);
         appendLight(listStart(tile, kFarList, valCount), reaches && !near, light, count.y);
+        appendToRest(listStart(tile, kNearList, valCount), !reaches && light < valCount, light, valCount, rest);
     }
     return count;
 }

@@ -1,6 +1,9 @@
 // The first bounce corrected by rays: walls that maps leak through are dark, and what moves is where it moved
 // to.
+#include <algorithm>
+
 #include "engine/core/image_difference.h"
+#include "shaders/texel_rays/texel_rays_io.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/reference/reference.h"
 #include "tools/scenegen/scenes.h"
@@ -170,6 +173,64 @@ TEST(TexelRays, LaterBouncesAloneComeToRest) {
         b.frame();
     EXPECT_EQ(b.passesRun(), 0);
     EXPECT_GT(meanOf(readImage(b.renderer, b.last.bounce.irradiance.image)), 0);
+}
+
+// How likely each block draws each light, and what its rays to it found.
+struct Draws {
+    std::vector<float> likely;
+    std::vector<io::RaysFound> found;
+};
+Draws drawsAfter(Bench& b, int frames) {
+    BufferHandle likely, found;
+    b.output = [&](GraphScope scope, const RenderFrame&) {
+        likely = b.renderer.graph().findBuffer("texel_rays.likely");
+        found = b.renderer.graph().findBuffer("texel_rays.found");
+        for (const BufferHandle buffer : {likely, found})
+            if (buffer) scope.output(buffer);
+    };
+    bounce1After(b, frames);
+    return {b.read<float>(likely), b.read<io::RaysFound>(found)};
+}
+
+// A light's texels may face what its plane looks away from: no tile leaves it out.
+TEST(TexelRays, AnyLightMayBeDrawnFromAnywhere) {
+    Bench b(*scenegen::buildScene("nave", 0), {96, 54});
+    b.settings = withRays(true);
+    useSmallMaps(b.settings);
+    const Draws draws = drawsAfter(b, 12);
+    const uint32_t lights = b.settings.bounce.valClustering.count;
+    ASSERT_EQ(draws.likely.size() % lights, 0u);
+    std::vector<bool> lit(lights);
+    for (size_t i = 0; i < draws.likely.size(); ++i)
+        if (draws.likely[i] > 0) lit[i % lights] = true;
+    EXPECT_GT(std::ranges::count(lit, true), lights / 2);
+    for (size_t block = 0; block < draws.likely.size(); block += lights) {
+        double sum = 0;
+        for (uint32_t light = 0; light < lights; ++light) {
+            sum += double(draws.likely[block + light]);
+            EXPECT_EQ(draws.likely[block + light] > 0, lit[light]) << block / lights << ' ' << light;
+        }
+        EXPECT_NEAR(sum, 1, 1e-4);
+    }
+}
+
+// Fewer and fewer draws go to lights that no ray of the block has seen.
+TEST(TexelRays, DrawsLearnWhichLightsAreSeen) {
+    std::array<double, 2> unseen{};
+    for (const bool late : {false, true}) {
+        Bench b(*scenegen::buildScene("nave", 0), {96, 54});
+        b.settings = withRays(true);
+        useSmallMaps(b.settings);
+        const Draws draws = drawsAfter(b, late ? 128 : 4);
+        double all = 0;
+        for (size_t i = 0; i < draws.likely.size(); ++i) {
+            all += double(draws.likely[i]);
+            if (draws.found[i].squares == 0) unseen[late] += double(draws.likely[i]);
+        }
+        unseen[late] /= all;
+    }
+    std::printf("draws of lights that no ray saw: %.3f, then %.3f\n", unseen[0], unseen[1]);
+    EXPECT_LT(unseen[1], 0.8 * unseen[0]);
 }
 
 // Sills light the wall above them: the lights' shape is wrong there, rays find it.

@@ -33,6 +33,17 @@ glm::vec3 nearPoint(const RenderCamera& camera, glm::vec3 direction) {
     return camera.position + direction * (camera.near / glm::dot(direction, camera.forward));
 }
 
+// Of the pixel whose centre's ray met the surface (ray differentials; Igehy 1999).
+Footprint footprintOf(const RenderCamera& camera, glm::uvec2 size, glm::vec2 center, const Surface& s) {
+    const glm::vec3 direction = cameraDirection(camera, size, center);
+    const float slant = glm::dot(direction, s.geometricNormal);
+    const auto toward = [&](glm::vec2 neighbour) {
+        const glm::vec3 turned = cameraDirection(camera, size, center + neighbour) - direction;
+        return s.distance * (turned - direction * (glm::dot(turned, s.geometricNormal) / slant));
+    };
+    return slant == 0 ? Footprint{} : Footprint{toward({1, 0}), toward({0, 1})};
+}
+
 // The first surfaces along rays from a camera, passing single-sided ones from behind; bits of the lanes that
 // see one.
 uint32_t seeSurfaces(const RayScene& scene, const RayLanes& rays, Surface* surfaces, uint64_t& rayCount) {
@@ -48,7 +59,6 @@ uint32_t seeSurfaces(const RayScene& scene, const RayLanes& rays, Surface* surfa
                 return onward.set(i, s.position + rays.direction[i] * scene.offset(), rays.direction[i],
                                   INFINITY);
             s.distance = glm::distance(scene.scene().camera.position, s.position);
-            scene.resolve(s);
             seen |= 1u << i;
         });
     }
@@ -222,6 +232,7 @@ class PixelTracer {
             toViewer[s] = -direction;
         }
         uint32_t seen = seeSurfaces(scene_, rays, seen_, rays_);
+        forEachLane(seen, [&](uint32_t s) { scene_.resolve(seen_[s]); });
         std::fill_n(seenAs, count, glm::vec3(1));
         for (uint32_t s = 0; s < count && settings_.blended; ++s) {
             const Random random{uint64_t(shift.x) << 32 | io::hashUint(shift.y ^ io::hashUint(first + s))};
@@ -303,6 +314,7 @@ void traceFirstHits(const RayScene& scene, const PathSettings& settings, const L
                 surface.distance = 0;
                 continue;
             }
+            scene.resolve(surface, footprintOf(camera, size, glm::vec2(x, y) + 0.5f, surface));
             const glm::vec3 toViewer = -hits.directions[i];
             Lit lit;
             directLight(scene, {.active = 1, .surfaces = &surface, .toViewer = &toViewer, .lit = &lit},

@@ -39,6 +39,12 @@ struct Veil {
     float coverage = 0;        // of the surface's own
 };
 
+// What a pixel covers of the surface at its centre: how far its neighbours' rays land to the right and below,
+// m. Zero: a point.
+struct Footprint {
+    glm::vec3 right{0}, down{0};
+};
+
 // A light with what every ray to it would work out again.
 struct PreparedLight {
     RenderLight light;
@@ -73,7 +79,8 @@ class RayScene {
     // The nearest surface along a unit direction, its material not yet looked up; false if there is none.
     bool intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface) const;
     // Looks up shading normal and material: most surfaces on a path are in the dark and never need them.
-    void resolve(Surface& surface) const;
+    // Textures are averaged over the footprint.
+    void resolve(Surface& surface, const Footprint& over = {}) const;
     // Whether nothing stands between origin and origin + direction x distance.
     bool visible(glm::vec3 origin, glm::vec3 direction, float distance) const;
     // The same for many at once; bits of the lanes that met a surface, or nothing.
@@ -119,9 +126,10 @@ class RayScene {
                  Surface& s) const;
     std::array<glm::vec3, 3> cornersOf(const Part& part, uint32_t triangle) const;
     glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
+    struct UvArea;
+    UvArea uvOver(const Part& part, const Surface& s, const Footprint& over) const;
     glm::vec3 colorAt(const Part& part, uint32_t triangle, float u, float v) const;
-    glm::vec3 shadingNormal(const Part& part, uint32_t triangle, float u, float v,
-                            glm::vec3 geometricNormal) const;
+    glm::vec3 shadingNormal(const Part& part, const Surface& s, const UvArea& uv) const;
     float alphaAt(const Part& part, uint32_t triangle, float u, float v) const;
     bool masked(const Part& part, uint32_t triangle, float u, float v) const;
     static void filterMasked(const RTCFilterFunctionNArguments* arguments);

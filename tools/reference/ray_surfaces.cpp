@@ -36,15 +36,56 @@ glm::vec4 sampleLayer(const std::vector<uint8_t>& texels, uint32_t size, glm::ve
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
 }
 
-glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t layer, glm::vec2 uv, bool srgb) {
+constexpr float kMostSteps = 32;  // along a side of a footprint
+
+}  // namespace
+
+// A parallelogram about a place: its sides.
+struct RayScene::UvArea {
+    glm::vec2 at{0}, right{0}, down{0};
+};
+
+namespace {
+
+// Means of places as far apart as texels, or as `kMostSteps` allow.
+template <class Area>
+glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t layer, const Area& uv,
+                        bool srgb) {
     if (layer < 0) return glm::vec4(1);
     const TextureLayers& layers = g.textures[size_t(m.textureClass)];
-    const glm::vec2 at = m.uvTransform * glm::vec3(uv, 1);
-    return sampleLayer((srgb ? layers.srgb : layers.linear)[size_t(layer)], textureClassSize(m.textureClass),
-                       at, srgb);
+    const std::vector<uint8_t>& texels = (srgb ? layers.srgb : layers.linear)[size_t(layer)];
+    const uint32_t size = textureClassSize(m.textureClass);
+    const glm::vec2 at = m.uvTransform * glm::vec3(uv.at, 1), right = m.uvTransform * glm::vec3(uv.right, 0),
+                    down = m.uvTransform * glm::vec3(uv.down, 0);
+    const glm::vec2 texelsAlong = glm::vec2(glm::length(right), glm::length(down)) * float(size);
+    const glm::vec2 steps = glm::clamp(glm::ceil(texelsAlong), 1.0f, kMostSteps);
+    glm::vec4 sum(0);
+    for (float y = 0.5f; y < steps.y; ++y)
+        for (float x = 0.5f; x < steps.x; ++x)
+            sum += sampleLayer(texels, size, at + right * (x / steps.x - 0.5f) + down * (y / steps.y - 0.5f),
+                               srgb);
+    return sum / (steps.x * steps.y);
 }
 
 }  // namespace
+
+RayScene::UvArea RayScene::uvOver(const Part& part, const Surface& s, const Footprint& over) const {
+    UvArea area{.at = uvAt(part, s.triangle, s.u, s.v)};
+    if (over.right == glm::vec3(0) && over.down == glm::vec3(0)) return area;
+    const auto c = cornersOf(part, s.triangle);
+    const glm::vec3 e1 = c[1] - c[0], e2 = c[2] - c[0];
+    const float d11 = glm::dot(e1, e1), d12 = glm::dot(e1, e2), d22 = glm::dot(e2, e2);
+    const float determinant = d11 * d22 - d12 * d12;
+    if (!(determinant > 1e-12f * d11 * d22)) return area;
+    const glm::vec2 uv0 = uvAt(part, s.triangle, 0, 0), uv1 = uvAt(part, s.triangle, 1, 0) - uv0,
+                    uv2 = uvAt(part, s.triangle, 0, 1) - uv0;
+    const auto along = [&](glm::vec3 d) {
+        const float a = glm::dot(d, e1), b = glm::dot(d, e2);
+        return (uv1 * (a * d22 - b * d12) + uv2 * (b * d11 - a * d12)) / determinant;
+    };
+    area.right = along(over.right), area.down = along(over.down);
+    return area;
+}
 
 glm::vec2 RayScene::uvAt(const Part& part, uint32_t triangle, float u, float v) const {
     const GeometryArrays& g = *scene_.geometry;
@@ -89,7 +130,7 @@ float RayScene::triangleArea(uint32_t part, uint32_t triangle) const {
 glm::vec3 RayScene::emissionAt(uint32_t part, uint32_t triangle, float u, float v) const {
     const Material& m = materialOf(part);
     if (m.textureClass == TextureClass::kNone || m.emissiveLayer < 0) return m.emissive;
-    const glm::vec2 uv = uvAt(*parts_[part], triangle, u, v);
+    const UvArea uv{.at = uvAt(*parts_[part], triangle, u, v)};
     return m.emissive * glm::vec3(sampleTexture(*scene_.geometry, m, m.emissiveLayer, uv, true));
 }
 
@@ -107,20 +148,22 @@ Surface RayScene::placeOn(uint32_t part, uint32_t triangle, float u, float v, gl
 float RayScene::alphaAt(const Part& part, uint32_t triangle, float u, float v) const {
     const GeometryArrays& g = *scene_.geometry;
     const Material& m = g.materials[part.primitive->material];
-    return m.baseColor.w * sampleTexture(g, m, m.baseColorLayer, uvAt(part, triangle, u, v), true).w;
+    const UvArea uv{.at = uvAt(part, triangle, u, v)};
+    return m.baseColor.w * sampleTexture(g, m, m.baseColorLayer, uv, true).w;
 }
 
 bool RayScene::masked(const Part& part, uint32_t triangle, float u, float v) const {
     return alphaAt(part, triangle, u, v) < scene_.geometry->materials[part.primitive->material].alphaCutoff;
 }
 
-void RayScene::resolve(Surface& s) const {
+void RayScene::resolve(Surface& s, const Footprint& over) const {
     if (s.resolved) return;
     s.resolved = true;
     const Part& part = *parts_[s.part];
     const GeometryArrays& g = *scene_.geometry;
     const Material& m = g.materials[part.primitive->material];
-    s.normal = shadingNormal(part, s.triangle, s.u, s.v, s.geometricNormal);
+    const UvArea uv = uvOver(part, s, over);
+    s.normal = shadingNormal(part, s, uv);
     if (s.hidden) {
         s.albedo = s.baseColor = s.emissive = glm::vec3(0);
         s.metallic = s.specular = 0;
@@ -132,7 +175,6 @@ void RayScene::resolve(Surface& s) const {
     s.specular = m.specular;
     s.emissive = m.emissive;
     if (m.textureClass != TextureClass::kNone) {
-        const glm::vec2 uv = uvAt(part, s.triangle, s.u, s.v);
         s.baseColor *= glm::vec3(sampleTexture(g, m, m.baseColorLayer, uv, true));
         const glm::vec4 mr = sampleTexture(g, m, m.metallicRoughnessLayer, uv, false);
         s.metallic *= mr.z;
@@ -162,16 +204,15 @@ Veil RayScene::veilOf(Surface& s, glm::vec3 direction, bool glossy) const {
 }
 
 // The interpolated normal on the ray's side, bent by the normal map as the G-buffer does it.
-glm::vec3 RayScene::shadingNormal(const Part& part, uint32_t triangle, float u, float v,
-                                  glm::vec3 geometricNormal) const {
+glm::vec3 RayScene::shadingNormal(const Part& part, const Surface& s, const UvArea& uv) const {
     const GeometryArrays& g = *scene_.geometry;
     const Material& m = g.materials[part.primitive->material];
-    const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * triangle];
+    const uint32_t* i = &g.indices[part.primitive->firstIndex + 3 * s.triangle];
     const VertexAttributes* a = part.vertices.attributes;
-    const float w = 1 - u - v;
+    const float u = s.u, v = s.v, w = 1 - u - v;
     glm::vec3 n =
         glm::normalize(part.normalFromLocal * (a[i[0]].normal * w + a[i[1]].normal * u + a[i[2]].normal * v));
-    if (glm::dot(n, geometricNormal) < 0) n = -n;
+    if (glm::dot(n, s.geometricNormal) < 0) n = -n;
     if (m.normalLayer < 0) return n;
 
     const glm::vec4 tangent = a[i[0]].tangent * w + a[i[1]].tangent * u + a[i[2]].tangent * v;
@@ -192,8 +233,7 @@ glm::vec3 RayScene::shadingNormal(const Part& part, uint32_t triangle, float u, 
         t /= scale;
         b /= scale;
     }
-    glm::vec3 mapped =
-        glm::vec3(sampleTexture(g, m, m.normalLayer, uvAt(part, triangle, u, v), false)) * 2.0f - 1.0f;
+    glm::vec3 mapped = glm::vec3(sampleTexture(g, m, m.normalLayer, uv, false)) * 2.0f - 1.0f;
     mapped.x *= m.normalScale;
     mapped.y *= m.normalScale;
     const glm::vec3 bent = t * mapped.x + b * mapped.y + n * mapped.z;
