@@ -2,8 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // Light that reaches a pixel, by two rays: one to a texel of one area light, drawn by what these are likely to send; one
-// into the hemisphere, not far, for light so near that no draw of a texel is even. Each counts by how likely either was to
-// find that light (balance heuristic, Veach & Guibas 1995). Texels by resampling (Talbot et al. 2005).
+// into the hemisphere, not far, for light so near that no draw of a texel is even, and from where it ends one to the light.
+// Each of both ways counts by how likely either was to find that light (balance heuristic, Veach & Guibas 1995). Texels by
+// resampling (Talbot et al. 2005).
 #include "common/form_factors.h"
 #include "common/pixel_rays.h"
 #include "common/sampling.h"
@@ -126,6 +127,14 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
     return t * (radius * cos(angle)) + b * (radius * sin(angle)) + n * sqrt(max(1.0 - xi.x, 0.0));
 }
 
+// Whether a map's light reaches a place: a texel says it only about its middle.
+bool isLit(RsmMap map, vec3 place, vec3 normal, float offset, float opaqueFrom) {
+    vec3 start = place + normal * offset;
+    bool sun = map.kind == kLightDirectional;
+    BvhRay ray = BvhRay(start, sun ? -map.direction : map.position - start, sun ? 1e20 : 1.0, opaqueFrom, true, 0);
+    return !traceOccluders(ray);
+}
+
 vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
     vec3 direction = cosineDirection(r.normal, xi);
     BvhRay ray = BvhRay(r.position + r.normal * r.offset, direction, push.p.reach, opaqueFrom, false, 0);
@@ -141,7 +150,8 @@ vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
         float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
         vec3 toPlace = s.position - r.position;
         float draw = densityOfDraw(ofLight, memberCount, s, toPlace), own = densityOfHemisphere(r.normal, toPlace);
-        if (dot(s.normal, direction) < 0.0) e += s.flux / s.area * (own / max(draw + own, 1e-20));
+        if (dot(s.normal, direction) >= 0.0 || !isLit(maps.items[map], place, s.normal, r.offset, opaqueFrom)) continue;
+        e += s.flux / s.area * (own / max(draw + own, 1e-20));
     }
     return e;
 }

@@ -34,8 +34,8 @@ layout(set = 0, binding = 11, scalar) writeonly buffer Found { RaysFound items[]
 const uint kPlaces = 4;       // 2 x 2
 const float kUnseen = 0.1;    // share of its light that counts where its map says it is not seen
 const float kAnywhere = 0.05; // and of what it would send if surface and light faced each other
-const float kExpected = 0.25;  // rays that what is expected counts for
-const float kMostRays = 4096.0;  // remembered of a light
+const float kExpected = 0.25;  // rays that what is expected counts for: little, maps are most wrong where light is rare
+const float kMostRays = 4096.0;  // remembered of a light, for clusters settle
 const float kEvenly = 0.1;    // of draws, whatever lights send: pixels about may be very different
 shared vec4 places[kPlaces], normals[kPlaces];  // w: 0: no surface
 

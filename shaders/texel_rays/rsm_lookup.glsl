@@ -11,7 +11,7 @@ const float kTexelDepth = 0.25;  // and before or behind its plane
 
 // Whether a texel stands for a place, and how near it is.
 struct TexelMatch {
-    bool near, same;
+    bool same;
     float squared;  // of the distance, m²
 };
 
@@ -19,11 +19,11 @@ TexelMatch matchTexel(RsmSurface s, vec3 place) {
     vec3 apart = place - s.position;
     float plane = dot(apart, s.normal), squared = dot(apart, apart);
     bool near = s.weight > 0.0 && squared < kTexelReach * kTexelReach * s.area;
-    return TexelMatch(near, near && plane * plane < kTexelDepth * kTexelDepth * s.area, squared);
+    return TexelMatch(near && plane * plane < kTexelDepth * kTexelDepth * s.area, squared);
 }
 
-// The one that the map's light sees there, lit and on the same surface; else none. In a crease it may stand for the other
-// side: then one of those about it that does not.
+// The one that the map's light sees there, lit and on the same surface; else none. In a crease or beside a shadow's edge it may
+// stand for another surface: then one of those about it that does not.
 uint texelAt(uint mapIndex, uint atlasWidth, vec3 place) {
     RsmMap map = maps.items[mapIndex];
     vec3 d = place - map.position;
@@ -33,11 +33,10 @@ uint texelAt(uint mapIndex, uint atlasWidth, vec3 place) {
     bool inside = clip.w > 0.0 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(face.size)));
     if (!inside) return kNoTexel;
     uint texel = rsmIndexOfCoord(face.origin + uvec2(at), atlasWidth);
-    TexelMatch match = matchTexel(AG_RSM_FETCH(texels, texel), place);
-    if (match.same) return texel;
+    if (matchTexel(AG_RSM_FETCH(texels, texel), place).same) return texel;
     uint found = kNoTexel;
     float nearest = 1e30;
-    for (int i = 0; i < 4 && match.near; ++i) {
+    for (int i = 0; i < 4; ++i) {
         vec2 corner = clamp(floor(at - 0.5) + vec2(i & 1, i >> 1), vec2(0.0), vec2(face.size - 1));
         texel = rsmIndexOfCoord(face.origin + uvec2(corner), atlasWidth);
         TexelMatch other = matchTexel(AG_RSM_FETCH(texels, texel), place);

@@ -18,7 +18,7 @@ const float kRayOffset = 2e-5f;
 // What a block's rays to texels of a light brought.
 struct RaysFound {
     float count;    // of rays
-    float squares;  // sum of the squared irradiance, luminance, that the light would send if each ray found this
+    float squares;  // sum of the squares of the luminance that the light would send if all rays found this
 };
 
 struct CastPush {

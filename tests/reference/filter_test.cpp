@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
+#include "common/sampling.h"
 #include "engine/scene/static_scene.h"
 #include "tests/reference/mean.h"
 #include "tools/reference/reference.h"
@@ -65,6 +67,43 @@ TEST(PixelFilters, KeepTheMeanOfALitRoom) {
     const double centers = mean(PixelFilter::kCenter), box = mean(PixelFilter::kBox);
     EXPECT_NEAR(box / centers, 1, 0.02);
     EXPECT_NEAR(mean(PixelFilter::kBlackmanHarris) / box, 1, 0.02);
+}
+
+// A wall whose texels are black or white, and lean to one side or the other, at random.
+SceneAsset speckledWall() {
+    scenegen::SceneBuilder b("wall");
+    b.quad("wall", {-5, -5, 0}, {10, 0, 0}, {0, 10, 0}, b.material("speckled", glm::vec3(1)));
+    b.camera("camera", {2, 1.5f, 4}, {0, 0, 0}, 30);
+    SceneAsset asset = b.finish();
+    const uint32_t side = textureClassSize(TextureClass::k256);
+    std::vector<uint8_t> colors, normals;
+    for (uint32_t i = 0; i < side * side; ++i) {
+        const bool white = io::hashUint(i) & 1, left = io::hashUint(i) & 2;
+        for (const uint8_t value : {255, 255, 255})
+            colors.push_back(white ? value : 0);
+        for (const int value : {left ? 64 : 191, 128, 238})
+            normals.push_back(uint8_t(value));
+        for (auto* texels : {&colors, &normals})
+            texels->push_back(255);
+    }
+    GeometryArrays& g = asset.geometry;
+    g.textures[size_t(TextureClass::k256)] = {.srgb = {colors}, .linear = {normals}};
+    g.materials[0].textureClass = TextureClass::k256;
+    g.materials[0].baseColorLayer = g.materials[0].normalLayer = 0;
+    return asset;
+}
+
+TEST(PixelFilters, TexturesAreAveragedOverThePixel) {
+    const Reference r = trace(speckledWall(), {8, 5}, {.paths = {.bounces = 0}});
+    double worstColor = 0, worstNormal = 0;
+    for (size_t i = 0; i < r.albedo.pixels.size(); ++i) {
+        ASSERT_GT(r.depth.pixels[i].x, 0);
+        worstColor = std::max(worstColor, std::abs(double(r.albedo.pixels[i].x) - 0.5));
+        worstNormal = std::max(worstNormal, double(glm::distance(r.normal.pixels[i], {0, 0, 1})));
+    }
+    std::printf("off the means of all texels: colour %.3f, normal %.3f\n", worstColor, worstNormal);
+    EXPECT_LT(worstColor, 0.15);  // of single texels 0.5
+    EXPECT_LT(worstNormal, 0.15);
 }
 
 // A closed room, dark but for the sun through a window of 40 cm.
