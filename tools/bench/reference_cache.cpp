@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised when the tracer's results change.
-constexpr uint64_t kTracerVersion = 5;
+constexpr uint64_t kTracerVersion = 6;
 
 template <class T>
 uint64_t hashArray(const std::vector<T>& items, uint64_t seed) {

@@ -45,6 +45,8 @@ struct Footprint {
     glm::vec3 right{0}, down{0};
 };
 
+struct UvArea;  // ray_surfaces.cpp
+
 // A light with what every ray to it would work out again.
 struct PreparedLight {
     RenderLight light;
@@ -79,7 +81,7 @@ class RayScene {
     // The nearest surface along a unit direction, its material not yet looked up; false if there is none.
     bool intersect(glm::vec3 origin, glm::vec3 direction, Surface& surface) const;
     // Looks up shading normal and material: most surfaces on a path are in the dark and never need them.
-    // Textures are averaged over the footprint.
+    // Textures are averaged over the footprint, without one read at a point.
     void resolve(Surface& surface, const Footprint& over = {}) const;
     // Whether nothing stands between origin and origin + direction x distance.
     bool visible(glm::vec3 origin, glm::vec3 direction, float distance) const;
@@ -126,7 +128,6 @@ class RayScene {
                  Surface& s) const;
     std::array<glm::vec3, 3> cornersOf(const Part& part, uint32_t triangle) const;
     glm::vec2 uvAt(const Part& part, uint32_t triangle, float u, float v) const;
-    struct UvArea;
     UvArea uvOver(const Part& part, const Surface& s, const Footprint& over) const;
     glm::vec3 colorAt(const Part& part, uint32_t triangle, float u, float v) const;
     glm::vec3 shadingNormal(const Part& part, const Surface& s, const UvArea& uv) const;

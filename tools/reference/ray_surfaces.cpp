@@ -8,6 +8,12 @@
 #include "tools/reference/ray_scene.h"
 
 namespace ag::reference {
+
+// A place of a texture, and the sides of a parallelogram about it; none: a point.
+struct UvArea {
+    glm::vec2 at{0}, right{0}, down{0};
+};
+
 namespace {
 
 // Linear values of the 256 sRGB codes.
@@ -38,18 +44,8 @@ glm::vec4 sampleLayer(const std::vector<uint8_t>& texels, uint32_t size, glm::ve
 
 constexpr float kMostSteps = 32;  // along a side of a footprint
 
-}  // namespace
-
-// A parallelogram about a place: its sides.
-struct RayScene::UvArea {
-    glm::vec2 at{0}, right{0}, down{0};
-};
-
-namespace {
-
-// Means of places as far apart as texels, or as `kMostSteps` allow.
-template <class Area>
-glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t layer, const Area& uv,
+// The mean over the area, by lookups a texel apart or as close as kMostSteps allows.
+glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t layer, const UvArea& uv,
                         bool srgb) {
     if (layer < 0) return glm::vec4(1);
     const TextureLayers& layers = g.textures[size_t(m.textureClass)];
@@ -69,7 +65,7 @@ glm::vec4 sampleTexture(const GeometryArrays& g, const Material& m, int32_t laye
 
 }  // namespace
 
-RayScene::UvArea RayScene::uvOver(const Part& part, const Surface& s, const Footprint& over) const {
+UvArea RayScene::uvOver(const Part& part, const Surface& s, const Footprint& over) const {
     UvArea area{.at = uvAt(part, s.triangle, s.u, s.v)};
     if (over.right == glm::vec3(0) && over.down == glm::vec3(0)) return area;
     const auto c = cornersOf(part, s.triangle);
@@ -162,7 +158,7 @@ void RayScene::resolve(Surface& s, const Footprint& over) const {
     const Part& part = *parts_[s.part];
     const GeometryArrays& g = *scene_.geometry;
     const Material& m = g.materials[part.primitive->material];
-    const UvArea uv = uvOver(part, s, over);
+    const UvArea uv = m.textureClass == TextureClass::kNone ? UvArea{} : uvOver(part, s, over);
     s.normal = shadingNormal(part, s, uv);
     if (s.hidden) {
         s.albedo = s.baseColor = s.emissive = glm::vec3(0);
