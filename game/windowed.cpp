@@ -46,7 +46,7 @@ class WindowedRun {
           swapchain_(device, window.framebufferSize()),
           renderer_(device, demo.options.serial ? 1 : 0),
           ui_(window.handle()),
-          imgui_(device, renderer_.pipelines()),
+          imgui_(device),
           budget_(demo.options.budgetMs > 0 ? demo.options.budgetMs
                   : device.info().isCpu     ? kCpuBudgetMs
                                             : kGpuBudgetMs,

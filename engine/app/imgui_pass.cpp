@@ -39,8 +39,7 @@ VkRect2D clipped(const ImVec4& clip, glm::uvec2 size) {
 
 }  // namespace
 
-ImGuiPass::ImGuiPass(gpu::Device& device, gpu::PipelineLibrary& pipelines)
-    : device_(device), pipelines_(pipelines) {
+ImGuiPass::ImGuiPass(gpu::Device& device) : device_(device) {
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&texels, &width, &height);
@@ -143,7 +142,7 @@ void ImGuiPass::draw(VkCommandBuffer commands, VkImageView target, VkFormat form
     if (!data || data->TotalVtxCount == 0) return;
     Buffers& buffers = buffers_[slot % buffers_.size()];
     upload(buffers);
-    const gpu::Pipeline& pipeline = pipelines_.get(panelPipeline(format));
+    const gpu::Pipeline& pipeline = device_.pipelines().get(panelPipeline(format));
     if (!set_) makeFontSet(pipeline.setLayout);
     const VkRenderingAttachmentInfo color{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                           .imageView = target,

@@ -13,7 +13,7 @@ namespace ag {
 class ImGuiPass {
   public:
     // An ImGui context must exist; its font atlas is uploaded now.
-    ImGuiPass(gpu::Device& device, gpu::PipelineLibrary& pipelines);
+    explicit ImGuiPass(gpu::Device& device);
     ~ImGuiPass();
     ImGuiPass(const ImGuiPass&) = delete;
     ImGuiPass& operator=(const ImGuiPass&) = delete;
@@ -31,7 +31,6 @@ class ImGuiPass {
     void drawLists(VkCommandBuffer commands, glm::uvec2 size);
 
     gpu::Device& device_;
-    gpu::PipelineLibrary& pipelines_;
     std::unique_ptr<gpu::Image> font_;
     VkSampler sampler_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;

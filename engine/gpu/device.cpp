@@ -12,6 +12,8 @@
 #include "engine/core/program.h"
 #include "engine/core/safe_file.h"
 #include "engine/gpu/device_choice.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/shader_files.h"
 
 namespace ag::gpu {
 namespace {
@@ -106,6 +108,7 @@ struct Device::Impl {
     VkCommandPool oncePool = VK_NULL_HANDLE;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     std::unique_ptr<Context> context;
+    std::unique_ptr<PipelineLibrary> pipelines;
     int messagesBefore;
     std::optional<WindowSurface> window;
 
@@ -179,6 +182,7 @@ Status Device::Impl::createDevice(const DeviceOptions& options) {
                                                        .asyncFamily = choice.asyncFamily,
                                                        .pipelineCache = pipelineCache},
                                         choice.info, MemorySource{}, options.fault);
+    pipelines = std::make_unique<PipelineLibrary>(*context, loadShader);
     const VkSemaphoreTypeCreateInfo type{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
                                          .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
     const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &type};
@@ -231,6 +235,7 @@ Device::~Device() {
     Impl& d = *impl_;
     if (d.context) {
         waitIdle();
+        d.pipelines.reset();
         d.savePipelineCache();
         d.vk.DestroyPipelineCache(d.device, d.pipelineCache, nullptr);
         d.vk.DestroyCommandPool(d.device, d.oncePool, nullptr);
@@ -249,6 +254,9 @@ Context& Device::context() {
 }
 const Context& Device::asContext() const {
     return *impl_->context;
+}
+PipelineLibrary& Device::pipelines() {
+    return *impl_->pipelines;
 }
 VkQueue Device::queue() const {
     return impl_->queues[0];

@@ -16,6 +16,8 @@
 
 namespace ag::gpu {
 
+class PipelineLibrary;
+
 // What a window needs of Vulkan.
 struct WindowSurface {
     std::vector<const char*> instanceExtensions;
@@ -68,6 +70,8 @@ class Device {
     const DeviceInfo& info() const { return asContext().info(); }
     uint32_t queueFamily() const { return asContext().queueFamily(); }
     MemoryAllocator& memory() { return context().memory(); }
+    // Of the build's shaders, shared by all that works on the device: making one takes milliseconds.
+    PipelineLibrary& pipelines();
 
     VkQueue queue() const;
     VkSurfaceKHR surface() const;  // null when headless

@@ -309,34 +309,4 @@ const Pipeline& PipelineLibrary::get(const PipelineRequest& request) {
     return *row;
 }
 
-int PipelineLibrary::reloadChanged(std::vector<std::string>* errors) {
-    Context& context = impl_->context;
-    int changed = 0;
-    for (auto& [path, shader] : impl_->shaders) {
-        Impl::Shader fresh;
-        std::string error;
-        if (!impl_->open(path, fresh, &error)) {
-            if (errors) errors->push_back(error);
-            continue;
-        }
-        const bool same = fresh.hash == shader.hash;
-        context.vk().DestroyShaderModule(context.handle(), same ? fresh.handle : shader.handle,
-                                         context.hostAllocation());
-        if (same) continue;
-        shader = std::move(fresh);
-        ++changed;
-    }
-    if (changed == 0) return 0;
-    for (auto& [hash, pipeline] : impl_->pipelines)
-        context.retire([&context, handle = pipeline->handle] {
-            context.vk().DestroyPipeline(context.handle(), handle, context.hostAllocation());
-        });
-    impl_->pipelines.clear();  // layouts stay: descriptor sets made from them live on
-    return changed;
-}
-
-size_t PipelineLibrary::size() const {
-    return impl_->pipelines.size();
-}
-
 }  // namespace ag::gpu

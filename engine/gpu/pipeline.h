@@ -37,7 +37,9 @@ struct SpecConstant {
     ScalarKind kind = ScalarKind::kUint;
     uint32_t value = 0;  // bit pattern
 
-    uint64_t hash(uint64_t seed) const { return combineHash(combineHash(seed, name.hash), value); }
+    uint64_t hash(uint64_t seed) const {
+        return combineHash(combineHash(seed, name.hash), uint64_t(kind) << 32 | value);
+    }
 };
 inline SpecConstant specConstant(ConstantName name, bool value) {
     return {name, ScalarKind::kBool, value};
@@ -124,10 +126,6 @@ class PipelineLibrary {
     // No allocation when the pipeline already exists. Fails (failure.h) with the shader's name if it cannot
     // be made.
     const Pipeline& get(const PipelineRequest& request);
-    // Drops pipelines whose SPIR-V changed on disk since they were made; returns how many. A shader that
-    // no longer loads keeps its old pipeline and is reported through `errors`.
-    int reloadChanged(std::vector<std::string>* errors);
-    size_t size() const;
 
   private:
     struct Impl;

@@ -6,7 +6,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/gpu/device_limits.h"
-#include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
 #include "shaders/exposure/exposure_io.h"
 
@@ -29,11 +28,7 @@ bool canCastTexelRays(const gpu::DeviceInfo& info, const RenderSettings& s, cons
 }  // namespace
 
 Renderer::Renderer(gpu::Device& device, uint32_t threads)
-    : device_(device),
-      jobs_(threads),
-      pipelines_(device, gpu::loadShader),
-      scene_(device),
-      graph_(&device.context(), &pipelines_) {
+    : device_(device), jobs_(threads), scene_(device), graph_(&device.context(), &device.pipelines()) {
     const uint32_t families[] = {device.queueFamily(),
                                  device.context().asyncFamily().value_or(device.queueFamily())};
     for (Slot& slot : slots_)

@@ -53,7 +53,6 @@ class Renderer {
     FrameGraph& graph() { return graph_; }
     SceneGpu& scene() { return scene_; }
     gpu::Device& device() { return device_; }
-    gpu::PipelineLibrary& pipelines() { return pipelines_; }
     // Of everything in the frame; the layers of debug_view and the probes' readings are in metres and watts.
     RenderUnits units() const { return units_; }
     // Of the times that the graph reports now: what may be late was (see refresh.h).
@@ -81,7 +80,6 @@ class Renderer {
     void submitBatches(Slot& slot, const Presentation& presentation);
     gpu::Device& device_;
     JobRunner jobs_;
-    gpu::PipelineLibrary pipelines_;
     SceneGpu scene_;
     FrameGraph graph_;
     RenderHistory history_;

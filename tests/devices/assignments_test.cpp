@@ -8,7 +8,6 @@
 
 #include "common/clustering_metric.h"
 #include "engine/frame/frame_graph.h"
-#include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
 #include "shaders/rsm/rsm_io.h"
 #include "shaders/val_clustering/val_clustering_io.h"
@@ -113,8 +112,7 @@ struct Output {
 
 Output runOnDevice(const Input& in) {
     gpu::Device& device = test::device();
-    gpu::PipelineLibrary pipelines(device, gpu::loadShader);
-    FrameGraph graph(&device.context(), &pipelines);
+    FrameGraph graph(&device.context(), &device.pipelines());
     const auto texels = gpu::loadBuffer(device, {.name = "texels", .texelFormat = kVec4}, in.texels);
     const auto seeds = gpu::loadBuffer(device, {.name = "seeds", .texelFormat = kVec4}, in.seeds);
     const auto maps = gpu::loadBuffer(device, {.name = "maps"}, in.maps);

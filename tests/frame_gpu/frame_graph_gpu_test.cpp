@@ -7,7 +7,6 @@
 
 #include "engine/frame/frame_graph.h"
 #include "engine/frame/frame_timer.h"
-#include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
 #include "tests/frame_gpu/random_web.h"
 

@@ -4,7 +4,6 @@
 #include "engine/core/failure.h"
 #include "engine/frame/frame_graph.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/gpu/shader_files.h"
 #include "tests/support/device_environment.h"
 
 namespace ag {
@@ -12,13 +11,12 @@ namespace {
 
 // Of a shader with `const bool kSquare`; why it could not be made, or nothing.
 std::string madeWith(const gpu::SpecConstant& constant) {
-    gpu::PipelineLibrary pipelines(test::device(), gpu::loadShader);
     gpu::PipelineRequest request{
         .computeShader = "denoiser/filter.comp", .spec = {constant}, .specCount = 1, .neededCount = 1};
     onFailure([](FailureKind kind, const std::string& sentence) { throw Failure(kind, sentence); });
     std::string why;
     try {
-        EXPECT_NE(pipelines.get(request).handle, VK_NULL_HANDLE);
+        EXPECT_NE(test::device().pipelines().get(request).handle, VK_NULL_HANDLE);
     } catch (const Failure& failure) {
         why = failure.what();
     }
@@ -37,8 +35,7 @@ TEST(Pipeline, ConstantsHaveTheShadersNamesAndTypes) {
 TEST(Pipeline, DispatchesBeyondTheDevicesLimitAreSaid) {
     const uint32_t most = test::device().info().limits.maxComputeWorkGroupCount[1];
     if (most == UINT32_MAX) GTEST_SKIP() << "the device takes any";
-    gpu::PipelineLibrary pipelines(test::device(), gpu::loadShader);
-    FrameGraph graph(&test::device().context(), &pipelines);
+    FrameGraph graph(&test::device().context(), &test::device().pipelines());
     graph.beginFrame({.timing = TimingMode::kOff});
     const BufferHandle from = graph.buffer("from", {.sizeBytes = 256}),
                        to = graph.buffer("to", {.sizeBytes = 256});

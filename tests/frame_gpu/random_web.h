@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/frame/frame_graph.h"
-#include "engine/gpu/shader_files.h"
 #include "engine/gpu/transfer.h"
 #include "tests/support/device_environment.h"
 
@@ -13,8 +12,7 @@ namespace ag::test {
 
 struct DeviceGraph {
     gpu::Device& device = test::device();
-    gpu::PipelineLibrary pipelines{device, gpu::loadShader};
-    FrameGraph graph{&device.context(), &pipelines};
+    FrameGraph graph{&device.context(), &device.pipelines()};
     FrameGraphOptions options{.timing = TimingMode::kOff};
 
     void execute() {

@@ -26,6 +26,7 @@ constexpr uint32_t kRayFrames = 2;
 inline void useSmallMaps(RenderSettings& s) {
     s.bounce.rsm.resolution = 128;
     s.bounce.valClustering.settleFrames = 8;
+    s.bounce.ismAtlas.tileSize = 16;
 }
 
 // A scene, its renderer and the last frame's handles. Timing is off, so that only derived barriers order the

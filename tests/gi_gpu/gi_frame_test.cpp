@@ -457,6 +457,7 @@ std::unique_ptr<Bench> boxAboveALamp(bool traced, bool keep) {
     room.spot("lamp", {0, 1, 0}, {0, -1, 0}, glm::vec3(10), {40, 60});
     room.camera("camera", {-0.9f, 1.5f, 0.9f}, {0, 0.8f, 0}, 70);
     auto b = std::make_unique<Bench>(room.finish());
+    b->settings.bounce.ismAtlas = {};
     b->settings.bounce.ismAtlas.traced = traced;
     b->settings.bounce.ismAtlas.keepMaps = keep;
     b->settings.bounce.importance.viewWeight = 0;

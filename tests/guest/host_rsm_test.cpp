@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/gpu/pipeline.h"
-#include "engine/gpu/shader_files.h"
 #include "tests/guest/guest_host.h"
 
 namespace ag::test {
@@ -24,10 +23,7 @@ gpu::PipelineRequest requestOf() {
 class RsmPainter {
   public:
     RsmPainter(const HostRoom& room, glm::dvec3 place)
-        : room_(room),
-          place_(place),
-          pipelines_(device(), gpu::loadShader),
-          pipeline_(pipelines_.get(requestOf())) {}
+        : room_(room), place_(place), pipeline_(device().pipelines().get(requestOf())) {}
 
     // From now on it draws in the library's place.
     void join(Guest& guest) {
@@ -85,7 +81,6 @@ class RsmPainter {
 
     const HostRoom& room_;
     glm::dvec3 place_;
-    gpu::PipelineLibrary pipelines_;
     const gpu::Pipeline& pipeline_;
 };
 

@@ -183,19 +183,21 @@ class HostScene {
     std::vector<std::unique_ptr<gpu::Image>> maps_;
 };
 
+constexpr glm::uvec2 kSize{112, 63};
+
 struct Compared {
     double meanRatio, relativeError;
 };
 
 // The library's light over the renderer's, as the camera sees both.
-Compared compare(const RenderScene& scene, glm::uvec2 size) {
+Compared compare(const RenderScene& scene) {
     constexpr int kFrames = 32;
     render::Renderer renderer(device());
     renderer.load(*scene.geometry);
     render::RenderSettings settings;
     settings.bounce.laterBounces.enabled = true;
     const auto layer = [&](render::Layer of, uint32_t frames) {
-        return render::renderLayer(renderer, scene, size, render::settingsOf(of, settings), of, frames);
+        return render::renderLayer(renderer, scene, kSize, render::settingsOf(of, settings), of, frames);
     };
     const Image expected = layer(render::Layer::kIndirect, kFrames);
     const HostCamera camera(scene.camera, scene.originWorld, layer(render::Layer::kDepth, 1),
@@ -212,9 +214,8 @@ TEST(SceneGuest, TheLibrarysLightIsTheRenderers) {
     for (const char* name : {"corridor", "hall"}) {
         const SceneAsset asset = *scenegen::buildScene(name, 0);
         RenderScene scene = staticScene(asset);
-        const glm::uvec2 size(160, 90);
-        setCamera(scene, cameraOf(asset, 0), size);
-        const Compared c = compare(scene, size);
+        setCamera(scene, cameraOf(asset, 0), kSize);
+        const Compared c = compare(scene);
         std::printf("%s: mean ratio %.4f, relative RMSE %.3f\n", name, c.meanRatio, c.relativeError);
         EXPECT_NEAR(c.meanRatio, 1, 0.05) << name;
         EXPECT_LT(c.relativeError, 0.2) << name;
@@ -243,11 +244,10 @@ TEST(SceneGuest, AlsoInSharedScenes) {
                                 .intensity = glm::vec3(10),
                                 .bounces = true,
                                 .id = 1});
-        const glm::uvec2 size(160, 90);
         const glm::vec3 from = vec3Of(entry.at("views").at(0).at("position"));
         const glm::vec3 to = vec3Of(entry.at("views").at(0).at("target"));
-        setCamera(scene, {.position = from, .forward = glm::normalize(to - from)}, size);
-        const Compared c = compare(scene, size);
+        setCamera(scene, {.position = from, .forward = glm::normalize(to - from)}, kSize);
+        const Compared c = compare(scene);
         std::printf("%s: mean ratio %.4f, relative RMSE %.3f\n", file.c_str(), c.meanRatio, c.relativeError);
         EXPECT_NEAR(c.meanRatio, 1, 0.1) << file;
         ++compared;

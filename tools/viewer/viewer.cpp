@@ -46,7 +46,7 @@ class ViewerRun {
           swapchain_(device, window.framebufferSize()),
           renderer_(device),
           ui_(window.handle()),
-          imgui_(device, renderer_.pipelines()),
+          imgui_(device),
           camera_(startAt(viewing.pose, viewing.scene.bounds)),
           edited_(viewing.asset, viewing.scene, viewing.edits),
           capture_(renderer_, {}) {
