@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
 #include "common/sampling.h"
 #include "gi/bvh.h"
@@ -15,7 +16,9 @@ constexpr size_t kMostSorted = 512;  // movers whose tree is worth building well
 
 struct Triangle {
     std::array<glm::vec3, 3> corners;
-    float opacity;
+    float opacity = 0;         // share that an alpha mask leaves
+    glm::vec3 reflectance{0};  // mean
+    float front = 0;           // as io::BvhTriangle's
 };
 
 Bounds boundsOf(const Triangle& t) {
@@ -76,36 +79,49 @@ TreeRange append(OccluderTrees& trees, const std::vector<Triangle>& triangles) {
         trees.triangles.push_back({.corner = corner,
                                    .opacity = t.opacity,
                                    .edge1 = grid(t.corners[1]) - corner,
-                                   .edge2 = grid(t.corners[2]) - corner});
+                                   .reflects = io::packReflectance(t.reflectance),
+                                   .edge2 = grid(t.corners[2]) - corner,
+                                   .front = t.front});
     }
     return {firstNode, uint32_t(trees.nodes.size()), bvh.nodes[0].bounds};
 }
 
-// Share of a triangle that its alpha mask leaves.
-float opacityOf(const SampledScene& scene, uint32_t mesh, const std::array<glm::vec2, 3>& uvs) {
+// Takes what depends on textures from some places on the triangle.
+void lookUp(const SampledScene& scene, uint32_t mesh, const std::array<glm::vec2, 3>& uvs,
+            ReflectanceAt reflectance, Triangle& t) {
     constexpr uint32_t kPlaces = 16;
     uint32_t left = 0;
+    glm::vec3 sum(0);
     for (uint32_t i = 0; i < kPlaces; ++i) {
         const glm::vec2 xi = io::hammersley(i, kPlaces);
         const float root = std::sqrt(xi.x);
         const glm::vec2 uv = (1 - root) * uvs[0] + root * (1 - xi.y) * uvs[1] + root * xi.y * uvs[2];
-        left += !scene.isCutOut(mesh, uv);
+        if (scene.isCutOut(mesh, uv)) continue;
+        left += 1;
+        sum += reflectance(mesh, uv);
     }
-    return float(left) / kPlaces;
+    t.opacity = float(left) / kPlaces;
+    t.reflectance = sum / float(std::max(left, 1u));
 }
 
 void appendTriangles(const SampledScene& scene, uint32_t meshIndex, const Strided<glm::vec3>& positions,
-                     const glm::mat4x3& transform, std::vector<Triangle>& triangles) {
+                     const glm::mat4x3& transform, ReflectanceAt reflectance,
+                     std::vector<Triangle>& triangles) {
     const SampledMesh& mesh = scene.meshes[meshIndex];
     if (!mesh.blocksLight) return;
+    const float outside = glm::determinant(glm::mat3(transform)) < 0 ? -1.0f : 1.0f;
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        Triangle t;
+        Triangle t{.front = mesh.doubleSided ? 0 : outside};
         std::array<glm::vec2, 3> uvs{};
+        glm::vec3 tint(mesh.colors ? 0 : 1);
         for (size_t k = 0; k < 3; ++k) {
             t.corners[k] = transform * glm::vec4(positions[mesh.indices[i + k]], 1);
             if (mesh.uvs) uvs[k] = mesh.uvs[mesh.indices[i + k]];
+            if (mesh.colors)
+                tint += glm::vec3(glm::unpackUnorm3x10_1x2(mesh.colors[mesh.indices[i + k]])) / 3.0f;
         }
-        t.opacity = opacityOf(scene, meshIndex, uvs);
+        lookUp(scene, meshIndex, uvs, reflectance, t);
+        t.reflectance *= tint;
         if (t.opacity > 0) triangles.push_back(t);
     }
 }
@@ -142,21 +158,21 @@ io::BvhPlace placeOf(const TreeRange& tree, const glm::mat4x3& treeFromWorld) {
     return place;
 }
 
-OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of) {
+OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of, ReflectanceAt reflectance) {
     OccluderTrees trees;
     trees.ofMesh.resize(scene.meshes.size());
     std::vector<Triangle> triangles;
     for (const SampledInstance& instance : scene.instances)
         if (instance.isPresent && !instance.movable)
             appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions,
-                            instance.worldFromLocal, triangles);
+                            instance.worldFromLocal, reflectance, triangles);
     trees.everythingStatic = append(trees, triangles);
     if (of == TreesOf::kStatic) return trees;
     for (const SampledInstance& instance : scene.instances) {
         if (!instance.isPresent || !instance.movable || !trees.ofMesh[instance.mesh].empty()) continue;
         triangles.clear();
         appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions, glm::mat4x3(1),
-                        triangles);
+                        reflectance, triangles);
         trees.ofMesh[instance.mesh] = append(trees, triangles);
     }
     return trees;

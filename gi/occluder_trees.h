@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "engine/core/function_ref.h"
 #include "gi/bvh.h"
 #include "gi/inputs.h"
 #include "gi/surface_sampling.h"
@@ -32,9 +33,14 @@ struct TracedBy {
     bool atRest = false;
 };
 
+// What a mesh reflects of light that bounces, at a place of its texture and without its vertices' colours.
+using ReflectanceAt = FunctionRef<glm::vec3(uint32_t mesh, glm::vec2 uv)>;
+constexpr auto kReflectsNothing = [](uint32_t, glm::vec2) { return glm::vec3(0); };
+
 // Of all surfaces that block light, or of static ones alone. The cost is that of sorting all triangles some
-// 18 times: half a second for 250,000 on one core.
-OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of = TreesOf::kAll);
+// 18 times: half a second for 250,000 on one core; and 16 calls of `reflectance` for each.
+OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of = TreesOf::kAll,
+                                 ReflectanceAt reflectance = kReflectsNothing);
 
 // When trees are built: at once for what is new, else when what is static has not changed for some frames, as
 // long as it moves there are none.

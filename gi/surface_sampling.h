@@ -18,6 +18,7 @@ struct SampledMesh {
     Strided<uint32_t> colors;           // A2B10G10R10, linear; none: white
     std::span<const uint32_t> indices;  // three a triangle
     bool blocksLight = true;            // others have no points
+    bool doubleSided = false;           // else its back reflects nothing
 };
 
 struct SampledInstance {

@@ -70,7 +70,8 @@ class Device {
     const DeviceInfo& info() const { return asContext().info(); }
     uint32_t queueFamily() const { return asContext().queueFamily(); }
     MemoryAllocator& memory() { return context().memory(); }
-    // Of the build's shaders, shared by all that works on the device: making one takes milliseconds.
+    // Of the build's shaders, shared by all that works on the device: making one takes milliseconds. For one
+    // thread at a time.
     PipelineLibrary& pipelines();
 
     VkQueue queue() const;

@@ -27,7 +27,7 @@ uint64_t requestHash(const PipelineRequest& r) {
         hash = combineHash(hash, uint64_t(s.colorFormats[i]));
     for (uint32_t i = 0; i < r.specCount; ++i)
         hash = r.spec[i].hash(hash);
-    return hash;
+    return combineHash(hash, r.neededCount);
 }
 
 }  // namespace

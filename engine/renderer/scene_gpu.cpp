@@ -179,8 +179,8 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
     view.staticVersion =
         combineHash(combineHash(points_.staticVersion(), staticVersion_), scene.originVersion);
     if (traced)
-        view.trees =
-            trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion), *traced);
+        view.trees = trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion),
+                                   *traced, wholeMaterials);
     view.sky = sky_.import(scope, scene.sky, lightUnit_, view.skyPicture);
     view.camera = gi::addCamera(scope, "scene.camera", view.eye, grid.size);
     return view;

@@ -11,14 +11,19 @@
 namespace ag::render {
 namespace {
 
+// In [0, 1)², whatever a file says.
+glm::vec2 textureUv(const Material& m, glm::vec2 vertexUv) {
+    const glm::vec2 uv = glm::fract(m.uvTransform * glm::vec3(vertexUv, 1));
+    return uv.x >= 0 && uv.x < 1 && uv.y >= 0 && uv.y < 1 ? uv : glm::vec2(0);
+}
+
 // Whether an alpha-masked surface is cut out at a place of its texture.
 bool isCutOut(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv) {
     if (m.alphaMode != AlphaMode::kMask) return false;
     float alpha = m.baseColor.w;
     if (m.baseColorLayer >= 0) {
-        const glm::vec2 uv = m.uvTransform * glm::vec3(vertexUv, 1);
         const uint32_t side = textureClassSize(m.textureClass);
-        const glm::uvec2 texel(glm::fract(uv) * (float(side) - 0.5f));
+        const glm::uvec2 texel(textureUv(m, vertexUv) * (float(side) - 0.5f));
         const auto& layer = g.textures[size_t(m.textureClass)].srgb[size_t(m.baseColorLayer)];
         alpha *= float(layer[(size_t(texel.y) * side + texel.x) * 4 + 3]) / 255;
     }
@@ -38,11 +43,11 @@ glm::vec2 roughnessAndMetallicAt(const GeometryArrays& g, const Material& m, siz
 }
 
 // The mean over a window of the material's textures of what `at` has in a texel: a point stands for more than
-// one. `windows`: such windows along a texture's side.
+// one. `uv` in [0, 1)²; `windows`: such windows along a texture's side.
 template <class F>
-glm::vec3 meanAbout(const Material& m, glm::vec2 vertexUv, int windows, F&& at) {
+glm::vec3 meanAbout(const Material& m, glm::vec2 uv, int windows, F&& at) {
     const int side = int(textureClassSize(m.textureClass)), step = std::max(side / (8 * windows), 1);
-    const glm::ivec2 middle(glm::fract(m.uvTransform * glm::vec3(vertexUv, 1)) * float(side));
+    const glm::ivec2 middle(uv * float(side));
     glm::vec3 sum(0);
     for (int y = -4; y < 4; ++y)
         for (int x = -4; x < 4; ++x) {
@@ -57,7 +62,9 @@ glm::vec3 colorOf(const GeometryArrays& g, const Material& m, int32_t layer, siz
                      : linearOf(&g.textures[size_t(m.textureClass)].srgb[size_t(layer)][texel * 4]);
 }
 
-glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv, bool whole) {
+constexpr int kAlbedoWindows = 8;
+
+glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 uv, bool whole) {
     const auto reflects = [&](glm::vec3 base, glm::vec2 roughnessAndMetallic) {
         const float rough = m.roughness * roughnessAndMetallic.x,
                     metallic = m.metallic * roughnessAndMetallic.y;
@@ -66,16 +73,37 @@ glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 vert
     };
     const glm::vec3 base(m.baseColor);
     if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0) return reflects(base, glm::vec2(1));
-    return meanAbout(m, vertexUv, 8, [&](size_t texel) {
+    return meanAbout(m, uv, kAlbedoWindows, [&](size_t texel) {
         return reflects(base * colorOf(g, m, m.baseColorLayer, texel), roughnessAndMetallicAt(g, m, texel));
     });
 }
 
+// The same, worked out once for each window: triangles are many.
+class AlbedoWindows {
+  public:
+    AlbedoWindows(const GeometryArrays& g, bool whole) : g_(g) {
+        for (const Material& m : g.materials)
+            for (int i = 0; i < kAlbedoWindows * kAlbedoWindows; ++i) {
+                const glm::vec2 window(i % kAlbedoWindows, i / kAlbedoWindows);
+                windows_.push_back(albedoAbout(g, m, (window + 0.5f) / float(kAlbedoWindows), whole));
+            }
+    }
+    glm::vec3 operator()(uint32_t primitive, glm::vec2 vertexUv) const {
+        const uint32_t material = g_.primitives[primitive].material;
+        const glm::uvec2 window(textureUv(g_.materials[material], vertexUv) * float(kAlbedoWindows));
+        return windows_[(material * kAlbedoWindows + window.y) * kAlbedoWindows + window.x];
+    }
+
+  private:
+    const GeometryArrays& g_;
+    std::vector<glm::vec3> windows_;
+};
+
 // Signs have finer texture than what reflects.
 glm::vec3 emissionAbout(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv) {
     if (m.emissiveLayer < 0) return m.emissive;
-    return m.emissive *
-           meanAbout(m, vertexUv, 32, [&](size_t texel) { return colorOf(g, m, m.emissiveLayer, texel); });
+    return m.emissive * meanAbout(m, textureUv(m, vertexUv), 32,
+                                  [&](size_t texel) { return colorOf(g, m, m.emissiveLayer, texel); });
 }
 
 const Material& materialOf(const RenderScene& scene, uint32_t instance) {
@@ -96,7 +124,8 @@ std::vector<gi::SampledMesh> meshesOf(const GeometryArrays& g) {
                                                    sizeof *attributes}
                            : gi::Strided<uint32_t>{},
              .indices = std::span(g.indices).subspan(p.firstIndex, p.indexCount),
-             .blocksLight = g.materials[p.material].alphaMode != AlphaMode::kBlend});
+             .blocksLight = g.materials[p.material].alphaMode != AlphaMode::kBlend,
+             .doubleSided = g.materials[p.material].doubleSided});
     }
     return meshes;
 }
@@ -169,11 +198,14 @@ std::vector<MeshPoints> sampleMeshes(const GeometryArrays& g) {
 }
 
 glm::vec3 albedoOf(const RenderScene& scene, uint32_t instance, glm::vec2 uv, bool whole) {
-    return albedoAbout(*scene.geometry, materialOf(scene, instance), uv, whole);
+    const Material& m = materialOf(scene, instance);
+    return albedoAbout(*scene.geometry, m, textureUv(m, uv), whole);
 }
 
-gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of) {
-    return withSampledScene(scene, [of](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of); });
+gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of, bool whole) {
+    const AlbedoWindows albedo(*scene.geometry, whole);
+    return withSampledScene(scene,
+                            [&](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of, albedo); });
 }
 
 void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers,
@@ -187,11 +219,8 @@ void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool m
 
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,
                                                 uint32_t count, bool whole) {
-    const GeometryArrays& g = *scene.geometry;
     const DeformedVertices deformed = deformSkinnedMeshes(scene);
-    const auto albedo = [&](uint32_t instance, glm::vec2 uv) {
-        return albedoAbout(g, materialOf(scene, instance), uv, whole);
-    };
+    const auto albedo = [&](uint32_t instance, glm::vec2 uv) { return albedoOf(scene, instance, uv, whole); };
     return chooseBouncePoints(instancesOf(scene, deformed), samples, albedo, count);
 }
 

@@ -15,7 +15,8 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
                                                 uint32_t count, bool whole);
 // On emissive surfaces; their radiance is over `lightUnit`. Empty: nothing shines.
 std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint32_t count, float lightUnit);
-gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of = gi::TreesOf::kAll);
+gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of = gi::TreesOf::kAll,
+                             bool whole = false);
 void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers, gi::MoverTree& result);
 
 }  // namespace ag::render

@@ -25,9 +25,9 @@ struct BvhTriangle {  // 3 vec4
     vec3 corner;
     float opacity;  // share of it that an alpha mask leaves
     vec3 edge1;
-    float spare1;
+    float reflects;  // packReflectance of its mean
     vec3 edge2;
-    float spare2;
+    float front;  // reflects where edge1 x edge2 points (1), on the other side (-1), on both (0)
 };
 
 // Where rays meet a tree. Read as whole words.
@@ -44,4 +44,19 @@ const uint kBvhStatic = 0u, kBvhMovers = 1u, kBvhFirstMover = 2u;
 #ifdef __cplusplus
 }  // namespace ag::io
 #endif
+
+AG_BEGIN
+
+// Eight bits a channel, by their roots, so that dark surfaces keep their colour; a float holds 24 bits.
+AG_FUNCTION float packReflectance(vec3 r) {
+    vec3 code = floor(sqrt(clamp(r, vec3(0.0f), vec3(1.0f))) * 255.0f + 0.5f);
+    return code.x + code.y * 256.0f + code.z * 65536.0f;
+}
+AG_FUNCTION vec3 unpackReflectance(float code) {
+    vec3 high = floor(code * vec3(1.0f, 1.0f / 256.0f, 1.0f / 65536.0f));
+    vec3 root = (high - 256.0f * floor(high * (1.0f / 256.0f))) / 255.0f;
+    return root * root;
+}
+
+AG_END
 #endif

@@ -14,6 +14,7 @@ struct BvhRay {
     float opaqueFrom;  // the ray's random number in [0, 1); each masked triangle shifts it by one of its own
     bool any;          // the first hit will do
     int triangle;      // that was met
+    uint place;        // of its tree
 };
 
 struct BvhGridRay {
@@ -84,6 +85,7 @@ void traceTree(inout BvhRay ray, uint place) {
             ray.triangle = reach < ray.reach ? first + i : ray.triangle;
             ray.reach = reach;
         }
+        ray.place = ray.reach < before ? place : ray.place;
         if (ray.any && ray.reach < before) return;
     }
 }

@@ -30,7 +30,7 @@ void main() {
     IsmLight light = AG_ISM_LIGHT(vals, map);
     vec3 direction = toWorld(light, ismDirection((vec2(at) + 0.5) / float(size)));
     float extent = 1.0 / push.p.inverseExtent, offset = kBvhOffset * extent;
-    BvhRay ray = BvhRay(light.place + light.normal * offset, direction, 2.0 * extent, hashToUnit(texel), false, -1);
+    BvhRay ray = BvhRay(light.place + light.normal * offset, direction, 2.0 * extent, hashToUnit(texel), false, -1, 0);
     traceTree(ray, kBvhStatic);
     vec4 plane = vec4(0.0);
     if (ray.triangle >= 0) {

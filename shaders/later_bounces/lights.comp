@@ -54,7 +54,7 @@ void main() {
         Arriving a = arrivingFrom(lights.items[k], place, normal);
         float chance = min(most(a.irradiance) / max(kSureShare * all, 1e-30), 1.0);
         if (chance <= 0.0 || hashToUnit(i * 8191u + k) >= chance) continue;
-        BvhRay ray = BvhRay(origin, a.toLight, a.distance, hashToUnit(i + k * 31u), true, 0);
+        BvhRay ray = BvhRay(origin, a.toLight, a.distance, hashToUnit(i + k * 31u), true, 0, 0);
         if (!traceOccluders(ray)) sum += a.irradiance / chance;
     }
     irradiance.items[i] = vec4(sum, 1.0);

@@ -2,6 +2,7 @@
 #ifndef AG_RSM_GLSL
 #define AG_RSM_GLSL
 
+#include "common/lights.h"
 #include "rsm/rsm_io.h"
 #include "scene/scene_io.h"
 
@@ -15,6 +16,15 @@ struct RsmSurface {
 #define AG_RSM_FETCH(texels, index) fetchRsmTexel_(fetchTexel(texels, int(index) * 3), fetchTexel(texels, int(index) * 3 + 1), fetchTexel(texels, int(index) * 3 + 2))
 
 RsmSurface fetchRsmTexel_(vec4 a, vec4 b, vec4 c) { return RsmSurface(a.xyz, b.xyz, c.xyz, a.w, b.w, c.w); }
+
+// Of a map's light on a surface that nothing hides from it, W/m².
+vec3 irradianceOf(RsmMap map, vec3 place, vec3 normal) {
+    if (map.kind == kLightDirectional) return map.intensity * max(-dot(normal, map.direction), 0.0);
+    vec3 d = map.position - place;
+    float distance2 = max(dot(d, d), 1e-12), inverse = inversesqrt(distance2);
+    float cone = map.kind == kLightSpot ? spotFalloff(-dot(d, map.direction) * inverse, map.cosInner, map.cosOuter) : 1.0;
+    return map.intensity * (max(dot(normal, d) * inverse, 0.0) * cone * rangeWindow(1.0 / inverse, map.range) / distance2);
+}
 
 // Texels are stored tile by tile, so that a tile's 256 lie together: index of a texel by its tile and its place.
 uint rsmTexelIndex(uint tile, uint inTile) { return tile * (kRsmTileSize * kRsmTileSize) + inTile; }

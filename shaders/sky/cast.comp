@@ -81,7 +81,7 @@ vec3 drawFromLobe(Lobe c, vec2 xi) {
 }
 
 bool reachesSky(vec3 place, vec3 direction, float opaqueFrom) {
-    BvhRay ray = BvhRay(place, direction, push.p.reach, opaqueFrom, true, 0);
+    BvhRay ray = BvhRay(place, direction, push.p.reach, opaqueFrom, true, 0, 0);
     return !traceOccluders(ray);
 }
 

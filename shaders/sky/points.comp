@@ -37,7 +37,7 @@ void main() {
         SkyDraw d = drawSky(fract(own + vec3(turns >> 8) / 16777216.0));
         float cosine = dot(normal, d.direction);
         if (cosine <= 0.0 || d.density <= 0.0) continue;
-        BvhRay ray = BvhRay(place + normal * push.p.offset, d.direction, push.p.reach, hashToUnit(i + n * 31u), true, 0);
+        BvhRay ray = BvhRay(place + normal * push.p.offset, d.direction, push.p.reach, hashToUnit(i + n * 31u), true, 0, 0);
         if (!traceOccluders(ray)) sum += d.radiance * (cosine / d.density);
     }
     float rays = min(mean.a, push.p.mostLength - float(push.p.rays)) + float(push.p.rays);

@@ -47,6 +47,7 @@ layout(set = 0, binding = 20, scalar) buffer Found { RaysFound items[]; } found;
 #include "texel_rays/rsm_lookup.glsl"
 
 const uint kDraws = 8;        // texels that one is resampled from
+const float kNearSides = 1.0; // of a texel: so near light is found by the hemisphere's ray alone
 const float kResampled = 4.0; // by how much that makes a texel with much to send likelier than drawing one at random
 
 struct Receiver {
@@ -57,13 +58,23 @@ struct Receiver {
 
 // Of a texel, by drawing its light and then one of its members: per steradian at the receiver.
 float densityOfDraw(float ofLight, uint memberCount, RsmSurface s, vec3 toTexel) {
-    float d2 = max(dot(toTexel, toTexel), 1e-12), cosine = max(-dot(s.normal, toTexel) * inversesqrt(d2), 1e-4);
-    return ofLight * kResampled / float(max(memberCount, 1)) * d2 / (cosine * s.area);
+    float d2 = max(dot(toTexel, toTexel), 1e-12), cosine = -dot(s.normal, toTexel) * inversesqrt(d2);
+    return cosine > 0.0 ? ofLight * kResampled / float(max(memberCount, 1)) * d2 / (max(cosine, 1e-4) * s.area) : 0.0;
 }
 
 float densityOfHemisphere(vec3 normal, vec3 toPlace) {
     float d2 = max(dot(toPlace, toPlace), 1e-12), reach = push.p.reach;
     return d2 < reach * reach ? max(dot(normal, toPlace) * inversesqrt(d2), 0.0) * kInvPi : 0.0;
+}
+
+// Of the hemisphere's ray for light of a texel: by the balance heuristic, and all of it so near that the texel's middle no
+// longer says where its light comes from. Both ways weigh it by that middle, so that they make a whole.
+float shareOfHemisphere(Receiver r, RsmSurface s, float ofLight, uint memberCount) {
+    vec3 toTexel = s.position - r.position;
+    float draw = densityOfDraw(ofLight, memberCount, s, toTexel), own = densityOfHemisphere(r.normal, toTexel);
+    if (own <= 0.0) return 0.0;
+    float sides = length(toTexel) * inversesqrt(s.area);
+    return mix(1.0, own / (draw + own), smoothstep(kNearSides, 2.0 * kNearSides, sides));
 }
 
 struct Drawn {
@@ -88,9 +99,7 @@ Drawn drawLight(uint tile, uint block, float xi) {
 // hemisphere's ray.
 float wantOf(Receiver r, RsmSurface s, float ofLight, uint memberCount) {
     float factor = diskVectorFactor(r.position, r.normal, s.position, s.normal, s.area * kInvPi);
-    vec3 toTexel = s.position - r.position;
-    float draw = densityOfDraw(ofLight, memberCount, s, toTexel), other = densityOfHemisphere(r.normal, toTexel);
-    return factor * s.weight / s.area * (draw / (draw + other));
+    return factor * s.weight / s.area * (1.0 - shareOfHemisphere(r, s, ofLight, memberCount));
 }
 
 vec3 sentByDrawn(Receiver r, Drawn d, inout uint random, out vec3 toTexel) {
@@ -116,7 +125,7 @@ vec3 sentByDrawn(Receiver r, Drawn d, inout uint random, out vec3 toTexel) {
 
 bool isSeen(Receiver r, vec3 toTexel, float opaqueFrom) {
     vec3 start = r.normal * r.offset;
-    BvhRay ray = BvhRay(r.position + start, toTexel - start, 1.0, opaqueFrom, true, 0);
+    BvhRay ray = BvhRay(r.position + start, toTexel - start, 1.0, opaqueFrom, true, 0, 0);
     return !traceOccluders(ray);
 }
 
@@ -131,28 +140,52 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 bool isLit(RsmMap map, vec3 place, vec3 normal, float offset, float opaqueFrom) {
     vec3 start = place + normal * offset;
     bool sun = map.kind == kLightDirectional;
-    BvhRay ray = BvhRay(start, sun ? -map.direction : map.position - start, sun ? 1e20 : 1.0, opaqueFrom, true, 0);
+    BvhRay ray = BvhRay(start, sun ? -map.direction : map.position - start, sun ? 1e20 : 1.0, opaqueFrom, true, 0, 0);
     return !traceOccluders(ray);
 }
 
-vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
-    vec3 direction = cosineDirection(r.normal, xi);
-    BvhRay ray = BvhRay(r.position + r.normal * r.offset, direction, push.p.reach, opaqueFrom, false, 0);
-    if (!traceOccluders(ray)) return vec3(0.0);
-    vec3 place = ray.origin + direction * ray.reach, e = vec3(0.0);
-    for (uint map = 0; map < push.p.mapCount; ++map) {
-        uint texel = texelAt(map, push.p.atlasWidth, place);
-        uint slot = texel == kNoTexel ? kNoCluster : fetchTexel(slotOfTexel, int(texel)).x;
-        if (slot == kNoCluster) continue;
+struct Met {
+    vec3 place, normal;  // on the ray's side, unit
+    bool front;          // it reflects light to where the ray came from
+    vec3 reflectance;    // 0 of a masked triangle
+};
+
+Met surfaceMet(BvhRay ray) {
+    vec3 normal = normalize(triangleNormal(ray.triangle, ray.place));
+    float front = treeTriangles.items[ray.triangle * 3 + 2].w;
+    bool behind = dot(normal, ray.direction) > 0.0;
+    bool whole = treeTriangles.items[ray.triangle * 3].w >= 1.0;
+    vec3 reflectance = unpackReflectance(treeTriangles.items[ray.triangle * 3 + 1].w);
+    return Met(ray.origin + ray.direction * ray.reach, behind ? -normal : normal, front == 0.0 || (front < 0.0) == behind,
+               whole ? reflectance : vec3(0.0));
+}
+
+// Of a map's light from what the hemisphere's ray met, W/m². Where no texel stands for the place, as beside a crease or on
+// what is narrower than texels, draws miss it: all of what the triangle reflects. Not of a masked one, whose texels are few
+// because the light passes through.
+vec3 sentFrom(Receiver r, uint map, Met met, float opaqueFrom) {
+    uint texel = texelAt(map, push.p.atlasWidth, met.place, met.normal);
+    uint slot = texel == kNoTexel ? kNoCluster : fetchTexel(slotOfTexel, int(texel)).x;
+    vec3 sends;
+    if (slot == kNoCluster) {
+        sends = irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance;
+    } else {
         RsmSurface s = AG_RSM_FETCH(texels, texel);
         uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
         uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
         float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
-        vec3 toPlace = s.position - r.position;
-        float draw = densityOfDraw(ofLight, memberCount, s, toPlace), own = densityOfHemisphere(r.normal, toPlace);
-        if (dot(s.normal, direction) >= 0.0 || !isLit(maps.items[map], place, s.normal, r.offset, opaqueFrom)) continue;
-        e += s.flux / s.area * (own / max(draw + own, 1e-20));
+        sends = s.flux / s.area * shareOfHemisphere(r, s, ofLight, memberCount);
     }
+    bool some = sends.x + sends.y + sends.z > 0.0;
+    return some && isLit(maps.items[map], met.place, met.normal, r.offset, opaqueFrom) ? sends : vec3(0.0);
+}
+
+vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
+    BvhRay ray = BvhRay(r.position + r.normal * r.offset, cosineDirection(r.normal, xi), push.p.reach, opaqueFrom, false, 0, 0);
+    if (!traceOccluders(ray)) return vec3(0.0);
+    Met met = surfaceMet(ray);
+    vec3 e = vec3(0.0);
+    for (uint map = 0; map < push.p.mapCount && met.front; ++map) e += sentFrom(r, map, met, opaqueFrom);
     return e;
 }
 
@@ -193,8 +226,10 @@ void main() {
     mat4 worldFromClip = camera.camera.worldFromClip;
     vec3 position = worldFromPixel(worldFromClip, size, pixel, depth);
     float wide = distance(position, worldFromPixel(worldFromClip, size, pixel + ivec2(1, 0), depth));
-    Receiver r = Receiver(position, texelFetch(normalMap, pixel, 0).xyz, max(push.p.offset, push.p.pixelOffset * wide),
-                          tile.y * push.p.tiles.tiles.x + tile.x, block);
+    float offset = max(push.p.offset, push.p.pixelOffset * wide);
+    // Nearer to the camera, which sees it: in a crease rounding may put it behind the other surface.
+    position += normalize(camera.camera.position - position) * offset;
+    Receiver r = Receiver(position, texelFetch(normalMap, pixel, 0).xyz, offset, tile.y * push.p.tiles.tiles.x + tile.x, block);
     uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.ray) * 31u);
     vec3 xi = fract(vec3(noiseAt(cell, 0u), noiseAt(cell, 32u).x) + push.p.shift);
     Drawn d = drawLight(r.tile, r.block, xi.z);

@@ -8,6 +8,7 @@
 const uint kNoTexel = 0xffffffffu;
 const float kTexelReach = 2.0;   // of a texel's side: as far as it stands for its surface
 const float kTexelDepth = 0.25;  // and before or behind its plane
+const float kTexelTurn = 0.5;    // cosine to its normal, at least: vertices' normals bend it
 
 // Whether a texel stands for a place, and how near it is.
 struct TexelMatch {
@@ -15,16 +16,16 @@ struct TexelMatch {
     float squared;  // of the distance, m²
 };
 
-TexelMatch matchTexel(RsmSurface s, vec3 place) {
+TexelMatch matchTexel(RsmSurface s, vec3 place, vec3 normal) {
     vec3 apart = place - s.position;
     float plane = dot(apart, s.normal), squared = dot(apart, apart);
-    bool near = s.weight > 0.0 && squared < kTexelReach * kTexelReach * s.area;
+    bool near = s.weight > 0.0 && dot(s.normal, normal) > kTexelTurn && squared < kTexelReach * kTexelReach * s.area;
     return TexelMatch(near && plane * plane < kTexelDepth * kTexelDepth * s.area, squared);
 }
 
 // The one that the map's light sees there, lit and on the same surface; else none. In a crease or beside a shadow's edge it may
-// stand for another surface: then one of those about it that does not.
-uint texelAt(uint mapIndex, uint atlasWidth, vec3 place) {
+// stand for another surface: then one of those about it that does not. `normal`: of the surface, unit.
+uint texelAt(uint mapIndex, uint atlasWidth, vec3 place, vec3 normal) {
     RsmMap map = maps.items[mapIndex];
     vec3 d = place - map.position;
     RsmFace face = faces.items[map.firstFace + (map.kind == kLightPoint ? cubeFace(d) : 0u)];
@@ -33,13 +34,13 @@ uint texelAt(uint mapIndex, uint atlasWidth, vec3 place) {
     bool inside = clip.w > 0.0 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(face.size)));
     if (!inside) return kNoTexel;
     uint texel = rsmIndexOfCoord(face.origin + uvec2(at), atlasWidth);
-    if (matchTexel(AG_RSM_FETCH(texels, texel), place).same) return texel;
+    if (matchTexel(AG_RSM_FETCH(texels, texel), place, normal).same) return texel;
     uint found = kNoTexel;
     float nearest = 1e30;
     for (int i = 0; i < 4; ++i) {
         vec2 corner = clamp(floor(at - 0.5) + vec2(i & 1, i >> 1), vec2(0.0), vec2(face.size - 1));
         texel = rsmIndexOfCoord(face.origin + uvec2(corner), atlasWidth);
-        TexelMatch other = matchTexel(AG_RSM_FETCH(texels, texel), place);
+        TexelMatch other = matchTexel(AG_RSM_FETCH(texels, texel), place, normal);
         if (!other.same || other.squared >= nearest) continue;
         nearest = other.squared;
         found = texel;

@@ -25,7 +25,7 @@ layout(set = 0, binding = 6, scalar) writeonly buffer Sights { uint items[]; } s
 bool sees(uint texel, vec3 place) {
     RsmSurface s = AG_RSM_FETCH(texels, texel);
     vec3 start = s.position + s.normal * push.p.offset;
-    BvhRay ray = BvhRay(start, place - start, 1.0, hashToUnit(texel), true, -1);
+    BvhRay ray = BvhRay(start, place - start, 1.0, hashToUnit(texel), true, -1, 0);
     traceTree(ray, kBvhStatic);
     return ray.triangle < 0;
 }

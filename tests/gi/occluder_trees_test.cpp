@@ -9,6 +9,7 @@
 
 #include "engine/renderer/scene_surfaces.h"
 #include "engine/scene/static_scene.h"
+#include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
@@ -117,6 +118,49 @@ TEST(OccluderTrees, RaysMeetWhatTheyMeetWithoutTrees) {
         instance.worldFromLocal = glm::mat4x3(glm::mat4(instance.worldFromLocal) * turn * stretch);
     }
     expectSameHits(scene);
+}
+
+// Area times reflectance, and the volume that fronts look out of; both in the grid's units.
+struct TreeSums {
+    glm::dvec3 reflected{0};
+    double area = 0, volume = 0;
+};
+
+TreeSums sumsOf(std::span<const io::BvhTriangle> triangles) {
+    TreeSums sums;
+    for (const io::BvhTriangle& t : triangles) {
+        const glm::dvec3 across = 0.5 * glm::dvec3(glm::cross(t.edge1, t.edge2));
+        const glm::dvec3 middle = glm::dvec3(t.corner) + glm::dvec3(t.edge1 + t.edge2) / 3.0;
+        sums.area += glm::length(across);
+        sums.reflected += glm::length(across) * glm::dvec3(io::unpackReflectance(t.reflects));
+        sums.volume += double(t.front) * glm::dot(across, middle) / 3;
+    }
+    return sums;
+}
+
+// Two boxes, one a mirror image of the other: what they reflect is their materials', and their fronts look
+// outwards.
+TEST(OccluderTrees, TrianglesKnowWhatTheyReflectAndToWhichSide) {
+    scenegen::SceneBuilder builder("boxes");
+    const glm::vec3 red(0.6f, 0.1f, 0.05f), dark(0.02f);
+    builder.box("red", {-2, 0, 0}, glm::vec3(1), builder.material("red", red));
+    builder.box("dark", {2, 0, 0}, glm::vec3(1), builder.material("dark", dark));
+    builder.camera("camera", {0, 0, 5}, {0, 0, 0}, 60);
+    const SceneAsset asset = builder.finish();
+    RenderScene scene = staticScene(asset);
+    scene.instances[0].worldFromLocal[0] = -scene.instances[0].worldFromLocal[0];
+    for (const bool movable : {false, true}) {
+        for (RenderInstance& instance : scene.instances)
+            instance.movable = movable;
+        const OccluderTrees trees = render::buildTrees(scene);
+        const TreeSums sums = sumsOf(trees.triangles);
+        const glm::dvec3 mean = sums.reflected / sums.area, truth = 0.5 * glm::dvec3(red + dark);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(mean[c], truth[c], 0.02 * truth[c]) << movable;
+        // Of cubes: a sixth of the area times the side.
+        const double side = std::sqrt(sums.area / double(trees.triangles.size()) * 2);
+        EXPECT_NEAR(sums.volume / (sums.area / 6 * side), 1, 1e-3) << movable;
+    }
 }
 
 TEST(OccluderTrees, NothingIsNoTree) {

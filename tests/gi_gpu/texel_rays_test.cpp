@@ -6,6 +6,7 @@
 #include "shaders/texel_rays/texel_rays_io.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/reference/reference.h"
+#include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
@@ -231,6 +232,49 @@ TEST(TexelRays, DrawsLearnWhichLightsAreSeen) {
     }
     std::printf("draws of lights that no ray saw: %.3f, then %.3f\n", unseen[0], unseen[1]);
     EXPECT_LT(unseen[1], 0.8 * unseen[0]);
+}
+
+// The first bounce at rest beside path tracing.
+double errorAtRest(Bench& b, bool rays) {
+    b.settings = withRays(rays);
+    useSmallMaps(b.settings);
+    const reference::RayScene scene(b.scene);
+    JobRunner runner(2);
+    const auto truth = reference::makeReference(
+        scene, b.size, {.paths = {.bounces = 1}, .samplesPerPixel = 512, .layer = "bounce1"}, runner,
+        [](double) {});
+    const auto found = compareImages(
+        truth.bounces[1], renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, 160));
+    EXPECT_TRUE(found);
+    return found ? found->relativeRmse : 1;
+}
+
+// A wall gets most of its light in a crease from the floor within millimetres, where a texel of the light's
+// map may lie on either.
+TEST(TexelRays, CreasesBesideLitSurfacesAreBright) {
+    Bench b(*scenegen::buildScene("occluder", 0), {160, 90});
+    const double error = errorAtRest(b, true);
+    std::printf("occluder: relative RMSE %.3f\n", error);
+    EXPECT_LT(error, 0.19);
+}
+
+// A slit lets the sun onto a strip of the floor, a fifth as wide as a texel of its map, at the foot of a
+// wall.
+TEST(TexelRays, WhatIsNarrowerThanATexelLightsWhatIsNear) {
+    scenegen::SceneBuilder room("slit");
+    const uint32_t white = room.material("white", glm::vec3(0.7f)),
+                   red = room.material("red", {0.7f, 0.2f, 0.1f});
+    room.quad("floor", {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, red);
+    room.quad("wall", {-2, 0, -1}, {4, 0, 0}, {0, 2, 0}, white);
+    constexpr float kFrom = 0.01f, kWide = 0.008f;  // m, from the wall and across
+    room.box("near lid", {0, 2.5f, -1 + kFrom - 1}, {4, 0.1f, 2}, white);
+    room.box("far lid", {0, 2.5f, -1 + kFrom + kWide + 1}, {4, 0.1f, 2}, white);
+    room.sun("sun", {0, -1, 0}, glm::vec3(100));
+    room.camera("camera", {0, 0.4f, 0.2f}, {0, 0.1f, -1}, 40);
+    Bench with(room.finish(), {96, 54}), without(with.asset, {96, 54});
+    const double found = errorAtRest(with, true), lights = errorAtRest(without, false);
+    std::printf("a strip: relative RMSE %.3f with rays, %.3f without\n", found, lights);
+    EXPECT_LT(found, 0.3 * lights);
 }
 
 // Sills light the wall above them: the lights' shape is wrong there, rays find it.
