@@ -1,9 +1,9 @@
 #include "gi/lights_on_points.h"
 
-#include <cmath>
 #include <vector>
 
 #include "gi/occluder_trees.h"
+#include "gi/rsm_views.h"
 #include "shaders/bvh/bvh_io.h"
 #include "shaders/later_bounces/later_bounces_io.h"
 
@@ -11,18 +11,14 @@ namespace ag::gi {
 namespace {
 
 io::PointLight rowOf(const RsmLight& light) {
-    io::PointLight row{.position = light.position,
-                       .range = light.range,
-                       .intensity = light.intensity,
-                       .directional = light.kind == LightKind::kDirectional,
-                       .direction = light.direction,
-                       .cosInner = -2,
-                       .cosOuter = -3};
-    if (light.kind == LightKind::kSpot) {
-        row.cosInner = std::cos(light.innerConeAngle);
-        row.cosOuter = std::cos(light.outerConeAngle);
-    }
-    return row;
+    const ConeCosines cone = coneCosines(light);
+    return {.position = light.position,
+            .range = light.range,
+            .intensity = light.intensity,
+            .directional = light.kind == LightKind::kDirectional,
+            .direction = light.direction,
+            .cosInner = cone.inner,
+            .cosOuter = cone.outer};
 }
 
 }  // namespace

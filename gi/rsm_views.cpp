@@ -54,13 +54,14 @@ LightView faceView(const RsmLight& light, uint32_t face, const Bounds& bounds, c
 }
 
 io::RsmMap mapOf(const RsmLight& light) {
+    const ConeCosines cone = coneCosines(light);
     return {.position = light.position,
             .kind = uint32_t(light.kind),
             .direction = light.direction,
             .range = light.range,
             .intensity = light.intensity,
-            .cosInner = std::cos(light.innerConeAngle),
-            .cosOuter = std::cos(light.outerConeAngle),
+            .cosInner = cone.inner,
+            .cosOuter = cone.outer,
             .lightIdLow = uint32_t(light.id)};
 }
 
@@ -186,6 +187,11 @@ void addPointMap(RsmLayout& layout, const PointMap& points, uint32_t id, float p
 }
 
 }  // namespace
+
+ConeCosines coneCosines(const RsmLight& light) {
+    if (light.kind != LightKind::kSpot) return {-2, -3};
+    return {std::cos(light.innerConeAngle), std::cos(light.outerConeAngle)};
+}
 
 float emittedFlux(const RsmLight& light, const Bounds& sceneBounds) {
     const float mean = (light.intensity.x + light.intensity.y + light.intensity.z) / 3;

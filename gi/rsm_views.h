@@ -21,6 +21,12 @@ struct RsmLayout {
 RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t clusterBudget,
                     ClusterShares& shares, const SurfaceEmitters& emitters = {});
 
+// Between which a light falls off: a spot's; of others below -1, so that none does.
+struct ConeCosines {
+    float inner, outer;
+};
+ConeCosines coneCosines(const RsmLight& light);
+
 // Emitted flux of a light in W, for sharing budgets (mean of the channels; sun: onto the scene's bounds).
 float emittedFlux(const RsmLight& light, const Bounds& sceneBounds);
 

@@ -3,80 +3,17 @@
 #include <array>
 
 #include <time.h>
-#include <vulkan/vk_enum_string_helper.h>
-
-#include <cstring>
 
 #include "engine/core/driver_cache.h"
-#include "engine/core/log.h"
 #include "engine/core/program.h"
 #include "engine/core/safe_file.h"
 #include "engine/gpu/device_choice.h"
+#include "engine/gpu/instance.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/shader_files.h"
 
 namespace ag::gpu {
 namespace {
-
-std::atomic<int> gValidationMessages{0};  // of the process: messages also arrive while a device is destroyed
-
-// Older layers take no notice of timeline semaphores, by which our queues wait for each other
-// (Vulkan-ValidationLayers, issue 7600): what they say of the work of two queues is not so. From 1.4 on they
-// do.
-constexpr uint32_t kFollowsTimelines = VK_MAKE_API_VERSION(0, 1, 4, 0);
-std::atomic<uint32_t> gLayerVersion = kFollowsTimelines;  // messages arrive on any thread
-
-bool isOfTwoQueues(const VkDebugUtilsMessengerCallbackDataEXT& data) {
-    const std::string_view message = data.pMessage;
-    const size_t prior = message.rfind("queue: VkQueue 0x");
-    if (message.find("SYNC-HAZARD") == message.npos || prior == message.npos || data.objectCount == 0 ||
-        data.pObjects[0].objectType != VK_OBJECT_TYPE_QUEUE)
-        return false;
-    return fmt::format("{:x}", data.pObjects[0].objectHandle) !=
-           message.substr(prior + 17, message.find_first_not_of("0123456789abcdef", prior + 17) - prior - 17);
-}
-
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
-                                         VkDebugUtilsMessageTypeFlagsEXT,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
-    if (severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT &&
-        (gLayerVersion >= kFollowsTimelines || !isOfTwoQueues(*data))) {
-        ++gValidationMessages;
-        spdlog::error("validation: {}", data->pMessage);
-    }
-    return VK_FALSE;
-}
-
-// Of the Vulkan it was written for; 0: there is no such layer.
-uint32_t versionOfLayer(const Functions& vk, const char* name) {
-    uint32_t count = 0;
-    vk.EnumerateInstanceLayerProperties(&count, nullptr);
-    std::vector<VkLayerProperties> layers(count);
-    vk.EnumerateInstanceLayerProperties(&count, layers.data());
-    for (const VkLayerProperties& layer : layers)
-        if (std::strcmp(layer.layerName, name) == 0) return layer.specVersion;
-    return 0;
-}
-
-bool hasInstanceExtension(const Functions& vk, const char* name) {
-    uint32_t count = 0;
-    vk.EnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vk.EnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
-    for (const VkExtensionProperties& extension : extensions)
-        if (std::strcmp(extension.extensionName, name) == 0) return true;
-    return false;
-}
-
-VkDebugUtilsMessengerCreateInfoEXT messengerInfo(const void* next) {
-    return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-            .pNext = next,
-            .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-            .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                           VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
-            .pfnUserCallback = onMessage};
-}
 
 double processCpuMs() {
     timespec t{};
@@ -95,8 +32,7 @@ std::filesystem::path cacheFile() {
 
 struct Device::Impl {
     Functions vk;
-    VkInstance instance = VK_NULL_HANDLE;
-    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    Instance instance;
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     DeviceChoice choice;
     VkDevice device = VK_NULL_HANDLE;
@@ -113,58 +49,17 @@ struct Device::Impl {
     std::optional<WindowSurface> window;
 
     explicit Impl(const DeviceOptions& options)
-        : messagesBefore(gValidationMessages), window(options.window) {}
-    Status createInstance(const DeviceOptions& options);
+        : messagesBefore(totalValidationMessages()), window(options.window) {}
     Status createDevice(const DeviceOptions& options);
     void createPipelineCache();
     void savePipelineCache() const;
     VkCommandBuffer recordOnce(const std::function<void(VkCommandBuffer)>& record);
 };
 
-Status Device::Impl::createInstance(const DeviceOptions& options) {
-    const PFN_vkGetInstanceProcAddr loader = openLoader();
-    if (!loader) return Error{"no Vulkan loader found (Debian package libvulkan1)"};
-    loadGlobalFunctions(vk, loader);
-    static constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-    if (options.validation && (gLayerVersion = versionOfLayer(vk, kLayer)) == 0)
-        return Error{
-            "validation was asked for, but its layer is missing (Debian package vulkan-validationlayers)"};
-    std::vector<const char*> extensions;
-    if (options.window) extensions = options.window->instanceExtensions;
-    if (hasInstanceExtension(vk, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
-        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-
-    const VkValidationFeatureEnableEXT synchronization =
-        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-    const VkValidationFeaturesEXT validation{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
-                                             .enabledValidationFeatureCount = 1,
-                                             .pEnabledValidationFeatures = &synchronization};
-    const VkDebugUtilsMessengerCreateInfoEXT messenging = messengerInfo(&validation);
-    const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                                        .pApplicationName = "Afterglow",
-                                        .pEngineName = "Afterglow",
-                                        .apiVersion = VK_API_VERSION_1_3};
-    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                    .pNext = options.validation ? &messenging : nullptr,
-                                    .pApplicationInfo = &application,
-                                    .enabledLayerCount = options.validation ? 1u : 0u,
-                                    .ppEnabledLayerNames = &kLayer,
-                                    .enabledExtensionCount = uint32_t(extensions.size()),
-                                    .ppEnabledExtensionNames = extensions.data()};
-    if (const VkResult result = vk.CreateInstance(&info, nullptr, &instance); result != VK_SUCCESS)
-        return Error{std::string("cannot create a Vulkan instance: ") + string_VkResult(result)};
-    loadInstanceFunctions(vk, instance);
-    if (options.validation) {
-        const VkDebugUtilsMessengerCreateInfoEXT own = messengerInfo(nullptr);
-        AG_VK(vk.CreateDebugUtilsMessengerEXT(instance, &own, nullptr, &messenger));
-    }
-    return Ok{};
-}
-
 Status Device::Impl::createDevice(const DeviceOptions& options) {
-    if (window && window->make(instance, &surface) != VK_SUCCESS)
+    if (window && window->make(instance.handle, &surface) != VK_SUCCESS)
         return Error{"cannot create a surface for the window"};
-    auto chosen = chooseDevice(vk, instance, surface, options);
+    auto chosen = chooseDevice(vk, instance.handle, surface, options);
     if (!chosen) return chosen.error();
     choice = std::move(*chosen);
     auto opened = openDevice(vk, choice, window.has_value());
@@ -175,7 +70,7 @@ Status Device::Impl::createDevice(const DeviceOptions& options) {
     if (choice.asyncFamily) vk.GetDeviceQueue(device, *choice.asyncFamily, choice.asyncIndex, &queues[1]);
     createPipelineCache();
     context = std::make_unique<Context>(vk,
-                                        ContextHandles{.instance = instance,
+                                        ContextHandles{.instance = instance.handle,
                                                        .physical = choice.physical,
                                                        .device = device,
                                                        .queueFamily = choice.queueFamily,
@@ -226,8 +121,11 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     if (!hasRoom()) endProgram("out of memory: there is no room for a graphics driver");
     separateDriverCaches();
     std::unique_ptr<Device> device(new Device(options));
-    if (Status made = device->impl_->createInstance(options); !made) return made.error();
-    if (Status made = device->impl_->createDevice(options); !made) return made.error();
+    Impl& d = *device->impl_;
+    const std::vector<const char*> windows =
+        d.window ? d.window->instanceExtensions : std::vector<const char*>{};
+    if (Status made = openInstance(d.vk, windows, options.validation, d.instance); !made) return made.error();
+    if (Status made = d.createDevice(options); !made) return made.error();
     return device;
 }
 
@@ -244,9 +142,8 @@ Device::~Device() {
         d.context.reset();
     }
     if (d.device) d.vk.DestroyDevice(d.device, nullptr);
-    if (d.surface) d.vk.DestroySurfaceKHR(d.instance, d.surface, nullptr);
-    if (d.messenger) d.vk.DestroyDebugUtilsMessengerEXT(d.instance, d.messenger, nullptr);
-    if (d.instance) d.vk.DestroyInstance(d.instance, nullptr);
+    if (d.surface) d.vk.DestroySurfaceKHR(d.instance.handle, d.surface, nullptr);
+    closeInstance(d.vk, d.instance);
 }
 
 Context& Device::context() {
@@ -265,9 +162,9 @@ VkSurfaceKHR Device::surface() const {
     return impl_->surface;
 }
 Status Device::renewSurface() {
-    impl_->vk.DestroySurfaceKHR(impl_->instance, impl_->surface, nullptr);
+    impl_->vk.DestroySurfaceKHR(impl_->instance.handle, impl_->surface, nullptr);
     impl_->surface = VK_NULL_HANDLE;
-    if (impl_->window->make(impl_->instance, &impl_->surface) != VK_SUCCESS)
+    if (impl_->window->make(impl_->instance.handle, &impl_->surface) != VK_SUCCESS)
         return Error{"the window's surface was lost, and another one cannot be made"};
     return Ok{};
 }
@@ -394,10 +291,7 @@ std::optional<ClockPair> Device::readClocks() const {
 }
 
 int Device::validationMessageCount() const {
-    return gValidationMessages - impl_->messagesBefore;
-}
-int totalValidationMessages() {
-    return gValidationMessages;
+    return totalValidationMessages() - impl_->messagesBefore;
 }
 
 }  // namespace ag::gpu

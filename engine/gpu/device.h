@@ -109,7 +109,4 @@ class Device {
     std::unique_ptr<Impl> impl_;
 };
 
-// Validation messages of all devices ever made in this process, also those reported while one is destroyed.
-int totalValidationMessages();
-
 }  // namespace ag::gpu

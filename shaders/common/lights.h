@@ -19,6 +19,14 @@ AG_FUNCTION float rangeWindow(float distance, float range) {
     return range > 0.0f ? clamp(1.0f - s2 * s2, 0.0f, 1.0f) : 1.0f;
 }
 
+// What a light of 1 W/sr that nothing hides sends to a place, W/m² on a plane that faces it. `away`: unit,
+// from the light; `distance`: m. Cosines below -1: a light to all sides.
+AG_FUNCTION float punctualIrradiance(vec3 away, float distance, vec3 axis, float cosInner, float cosOuter,
+                                     float range) {
+    float d = max(distance, 1e-4f);
+    return spotFalloff(dot(away, axis), cosInner, cosOuter) * rangeWindow(d, range) / (d * d);
+}
+
 // The cube face a direction points to: +x -x +y -y +z -z.
 AG_FUNCTION uint cubeFace(vec3 d) {
     vec3 a = abs(d);

@@ -35,7 +35,7 @@ struct PointLight {  // whose light is looked for at points alone
     vec3 intensity;  // W/sr; directional: W/m² on a plane facing it
     uint directional;
     vec3 direction;            // the way the light travels, unit
-    float cosInner, cosOuter;  // of a light to all sides below -1
+    float cosInner, cosOuter;  // of a light to all sides both below -1
 };
 
 struct PointLightsPush {

@@ -34,11 +34,10 @@ Arriving arrivingFrom(PointLight l, vec3 place, vec3 normal) {
     if (l.directional != 0)
         return Arriving(l.intensity * max(-dot(normal, l.direction), 0.0), -l.direction, push.p.reach);
     vec3 d = l.position - place;
-    float distance2 = max(dot(d, d), 1e-8), inverse = inversesqrt(distance2);
-    vec3 toLight = d * inverse;
-    float cone = spotFalloff(-dot(toLight, l.direction), l.cosInner, l.cosOuter);
-    float e = max(dot(normal, toLight), 0.0) * cone * rangeWindow(1.0 / inverse, l.range) / distance2;
-    return Arriving(l.intensity * e, toLight, 1.0 / inverse);
+    float distance_ = max(length(d), 1e-6);
+    vec3 toLight = d / distance_;
+    float facing = punctualIrradiance(-toLight, distance_, l.direction, l.cosInner, l.cosOuter, l.range);
+    return Arriving(l.intensity * (facing * max(dot(normal, toLight), 0.0)), toLight, distance_);
 }
 
 float most(vec3 v) { return max(v.x, max(v.y, v.z)); }

@@ -55,8 +55,7 @@ vec3 directFrom(RsmFace face, RsmMap map, vec3 x, vec3 n, bool allRound) {
     float distance_ = sun ? 1.0 : max(length(d), 1e-4);
     vec3 away = sun ? map.direction : d / distance_;
     float texel = 2.0 * map.tanHalf / float(face.size) * distance_;
-    float strength = map.kind == kLightSpot ? spotFalloff(dot(away, map.direction), map.cosInner, map.cosOuter) : 1.0;
-    if (!sun) strength *= rangeWindow(distance_, map.range) / (distance_ * distance_);
+    float strength = sun ? 1.0 : punctualIrradiance(away, distance_, map.direction, map.cosInner, map.cosOuter, map.range);
     strength *= allRound ? kSphere : max(-dot(n, away), 0.0);
     return map.intensity * (strength * litShare(face, map, ndc, x, texel));
 }

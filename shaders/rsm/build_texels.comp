@@ -41,8 +41,7 @@ vec3 incidentFlux(RsmMap map, RsmFace face, vec3 toSurface, float distance, vec2
     if (map.kind == kLightDirectional)
         return map.intensity * orthoTexelArea(2.0 * map.tanHalf, float(face.size));
     float cosAxis = inversesqrt(1.0 + dot(ndc, ndc) * map.tanHalf * map.tanHalf);
-    float cone = map.kind == kLightSpot
-                     ? spotFalloff(dot(toSurface, map.direction), map.cosInner, map.cosOuter) : 1.0;
+    float cone = spotFalloff(dot(toSurface, map.direction), map.cosInner, map.cosOuter);
     return map.intensity * cone * rangeWindow(distance, map.range) *
            perspectiveTexelSolidAngle(map.tanHalf, float(face.size), cosAxis);
 }

@@ -20,10 +20,11 @@ RsmSurface fetchRsmTexel_(vec4 a, vec4 b, vec4 c) { return RsmSurface(a.xyz, b.x
 // Of a map's light on a surface that nothing hides from it, W/m².
 vec3 irradianceOf(RsmMap map, vec3 place, vec3 normal) {
     if (map.kind == kLightDirectional) return map.intensity * max(-dot(normal, map.direction), 0.0);
-    vec3 d = map.position - place;
-    float distance2 = max(dot(d, d), 1e-12), inverse = inversesqrt(distance2);
-    float cone = map.kind == kLightSpot ? spotFalloff(-dot(d, map.direction) * inverse, map.cosInner, map.cosOuter) : 1.0;
-    return map.intensity * (max(dot(normal, d) * inverse, 0.0) * cone * rangeWindow(1.0 / inverse, map.range) / distance2);
+    vec3 d = place - map.position;
+    float distance_ = max(length(d), 1e-6);
+    vec3 away = d / distance_;
+    float facing = punctualIrradiance(away, distance_, map.direction, map.cosInner, map.cosOuter, map.range);
+    return map.intensity * (facing * max(-dot(normal, away), 0.0));
 }
 
 // Texels are stored tile by tile, so that a tile's 256 lie together: index of a texel by its tile and its place.

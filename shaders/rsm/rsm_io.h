@@ -28,7 +28,7 @@ struct RsmMap {     // 6 vec4: all faces of one bounce light
     vec3 direction;
     float range;
     vec3 intensity;  // W/sr; directional: W/m²
-    float cosInner;
+    float cosInner;  // of a light to all sides both below -1
     float cosOuter;
     float tanHalf;  // of a perspective face's opening; directional: half its width in m
     uint firstFace;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/driver_cache.h"
+#include "engine/gpu/instance.h"
 
 namespace ag::test {
 namespace {
