@@ -234,17 +234,21 @@ TEST(TexelRays, DrawsLearnWhichLightsAreSeen) {
     EXPECT_LT(unseen[1], 0.8 * unseen[0]);
 }
 
-// The first bounce at rest beside path tracing.
-double errorAtRest(Bench& b, bool rays) {
-    b.settings = withRays(rays);
-    useSmallMaps(b.settings);
-    const reference::RayScene scene(b.scene);
+Image tracedBounce1(const Bench& b) {
+    const reference::RayScene rays(b.scene);
     JobRunner runner(2);
-    const auto truth = reference::makeReference(
-        scene, b.size, {.paths = {.bounces = 1}, .samplesPerPixel = 512, .layer = "bounce1"}, runner,
-        [](double) {});
-    const auto found = compareImages(
-        truth.bounces[1], renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, 160));
+    return reference::makeReference(rays, b.size,
+                                    {.paths = {.bounces = 1}, .samplesPerPixel = 512, .layer = "bounce1"},
+                                    runner, [](double) {})
+        .bounces[1];
+}
+
+// Of the first bounce at rest, relative RMSE.
+double errorBeside(const Image& truth, Bench& b, bool rays, bool smallMaps) {
+    b.settings = withRays(rays);
+    if (smallMaps) useSmallMaps(b.settings);
+    const auto found =
+        compareImages(truth, renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, 160));
     EXPECT_TRUE(found);
     return found ? found->relativeRmse : 1;
 }
@@ -253,9 +257,9 @@ double errorAtRest(Bench& b, bool rays) {
 // map may lie on either.
 TEST(TexelRays, CreasesBesideLitSurfacesAreBright) {
     Bench b(*scenegen::buildScene("occluder", 0), {160, 90});
-    const double error = errorAtRest(b, true);
+    const double error = errorBeside(tracedBounce1(b), b, true, true);
     std::printf("occluder: relative RMSE %.3f\n", error);
-    EXPECT_LT(error, 0.19);
+    EXPECT_LT(error, 0.19);  // 0.227 when texels of the wall stood for the floor
 }
 
 // A slit lets the sun onto a strip of the floor, a fifth as wide as a texel of its map, at the foot of a
@@ -272,7 +276,9 @@ TEST(TexelRays, WhatIsNarrowerThanATexelLightsWhatIsNear) {
     room.sun("sun", {0, -1, 0}, glm::vec3(100));
     room.camera("camera", {0, 0.4f, 0.2f}, {0, 0.1f, -1}, 40);
     Bench with(room.finish(), {96, 54}), without(with.asset, {96, 54});
-    const double found = errorAtRest(with, true), lights = errorAtRest(without, false);
+    const Image truth = tracedBounce1(with);
+    const double found = errorBeside(truth, with, true, true),
+                 lights = errorBeside(truth, without, false, true);
     std::printf("a strip: relative RMSE %.3f with rays, %.3f without\n", found, lights);
     EXPECT_LT(found, 0.3 * lights);
 }
@@ -280,21 +286,11 @@ TEST(TexelRays, WhatIsNarrowerThanATexelLightsWhatIsNear) {
 // Sills light the wall above them: the lights' shape is wrong there, rays find it.
 TEST(TexelRays, FindTheShapeOfNearLights) {
     Bench with(*scenegen::buildScene("ledges", 0), {96, 54}), without(with.asset, {96, 54});
-    with.settings = withRays(true), without.settings = withRays(false);
-    const reference::RayScene rays(with.scene);
-    JobRunner runner(2);
-    const auto truth = reference::makeReference(
-        rays, with.size, {.paths = {.bounces = 1}, .samplesPerPixel = 512, .layer = "bounce1"}, runner,
-        [](double) {});
-    const auto error = [&](Bench& b) {
-        return compareImages(truth.bounces[1],
-                             renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, 160));
-    };
-    const auto found = error(with), lights = error(without);
-    ASSERT_TRUE(found && lights);
-    std::printf("ledges: relative RMSE %.3f with rays, %.3f without\n", found->relativeRmse,
-                lights->relativeRmse);
-    EXPECT_LT(found->relativeRmse, 0.75 * lights->relativeRmse);
+    const Image truth = tracedBounce1(with);
+    const double found = errorBeside(truth, with, true, false),
+                 lights = errorBeside(truth, without, false, false);
+    std::printf("ledges: relative RMSE %.3f with rays, %.3f without\n", found, lights);
+    EXPECT_LT(found, 0.75 * lights);
 }
 
 }  // namespace
