@@ -84,11 +84,16 @@ Choice addChoice(const ValTiles& t, uint32_t ray, const Settling& settling) {
     return choice;
 }
 
+// What was sent by the texel drawn, and by what the hemisphere's ray met.
+struct Sent {
+    ImageHandle drawn, near;
+};
+
 // `reach`: in the scene's extent.
-ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, float reach,
-                    uint32_t ray) {
+Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, float reach, uint32_t ray) {
     const Members members = addMembers(t.scope, in.rsm, in.clusters);
-    const ImageHandle sent = t.scope.image("texel_rays.sent", {.format = kFloat4, .size = t.gbuffer.size});
+    const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
+    const Sent sent{t.scope.image("texel_rays.sent", info), t.scope.image("texel_rays.sent_near", info)};
     const BufferHandle noise = addBlueNoise(t.scope);
     const float snapping = in.occluders.trees.snapping;
     PassBuilder cast = t.scope.compute("texel_rays.cast", "texel_rays/cast_rays.comp");
@@ -107,7 +112,8 @@ ImageHandle addRays(const ValTiles& t, const Choice& choice, const TexelRaysInpu
         .read("slotOfTexel", in.clusters.slotOfTexel)
         .read("candidates", in.clusters.candidates)
         .read("noise", noise)
-        .write("sent", sent)
+        .write("sent", sent.drawn)
+        .write("sentNear", sent.near)
         .readWrite("found", choice.found)
         .push(io::CastPush{.tiles = t.push,
                            .atlasWidth = in.rsm.atlas.size.x,
@@ -163,7 +169,9 @@ struct Means {
 };
 
 struct Measured {
-    ImageHandle areaLights, sent, control;
+    ImageHandle areaLights;
+    Sent sent;
+    ImageHandle control;
 };
 
 Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const TexelRaysSettings& s,
@@ -177,7 +185,8 @@ Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const Te
         .sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
         .sample("areaLights", of.areaLights)
-        .sample("sent", of.sent)
+        .sample("sent", of.sent.drawn)
+        .sample("sentNear", of.sent.near)
         .sample("control", of.control)
         .samplePrevious("previousSent", m.sent, Sampler::kNearestClamp)
         .samplePrevious("previousControl", m.control, Sampler::kNearestClamp)
@@ -308,8 +317,8 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     // Counted from the last change on, so that a still picture does not depend on what was before.
     const uint32_t ray = std::min(history.settling.sinceChange, in.frames) + in.turn * kMostRaysOfTurn;
     const Choice choice = addChoice(t, ray, history.settling);
-    const ImageHandle sent = addRays(t, choice, in, s.reach, ray);
-    const ImageHandle control = addControl(t, choice, sent, shading);
+    const Sent sent = addRays(t, choice, in, s.reach, ray);
+    const ImageHandle control = addControl(t, choice, sent.drawn, shading);
     const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling);
     return addCorrection(t, areaLights, means, seen, s, history.settling, in.turn);
 }

@@ -62,8 +62,15 @@ glm::vec3 colorOf(const GeometryArrays& g, const Material& m, int32_t layer, siz
                      : linearOf(&g.textures[size_t(m.textureClass)].srgb[size_t(layer)][texel * 4]);
 }
 
+float bumpCosineAt(const GeometryArrays& g, const Material& m, size_t texel) {
+    if (m.normalLayer < 0) return 1;
+    const uint8_t* const at = &g.textures[size_t(m.textureClass)].linear[size_t(m.normalLayer)][texel * 4];
+    return io::bumpCosine(glm::vec3(at[0], at[1], at[2]) / 127.5f - 1.0f, m.normalScale);
+}
+
 constexpr int kAlbedoWindows = 8;
 
+// What bounces of the light that a smooth surface would receive.
 glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 uv, bool whole) {
     const auto reflects = [&](glm::vec3 base, glm::vec2 roughnessAndMetallic) {
         const float rough = m.roughness * roughnessAndMetallic.x,
@@ -72,9 +79,11 @@ glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 uv, 
                      : io::diffuseAlbedo(base, metallic);
     };
     const glm::vec3 base(m.baseColor);
-    if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0) return reflects(base, glm::vec2(1));
+    if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0 && m.normalLayer < 0)
+        return reflects(base, glm::vec2(1));
     return meanAbout(m, uv, kAlbedoWindows, [&](size_t texel) {
-        return reflects(base * colorOf(g, m, m.baseColorLayer, texel), roughnessAndMetallicAt(g, m, texel));
+        return bumpCosineAt(g, m, texel) *
+               reflects(base * colorOf(g, m, m.baseColorLayer, texel), roughnessAndMetallicAt(g, m, texel));
     });
 }
 

@@ -11,6 +11,15 @@ AG_FUNCTION vec3 diffuseAlbedo(vec3 baseColor, float metallic) {
     return baseColor * (1.0f - metallic);
 }
 
+// Mean cosine between a normal map's normals and the surface's own: the share of a light's irradiance that a
+// bumpy surface receives of what a smooth one would, if its bumps lean no way on average. `mapped`: from -1
+// to 1, shorter than 1 where it is the mean of several.
+AG_FUNCTION float bumpCosine(vec3 mapped, float scale) {
+    vec3 scaled = vec3(mapped.x * scale, mapped.y * scale, mapped.z);
+    float squared = dot(scaled, scaled);
+    return squared > 0.0f ? clamp(sqrt(dot(mapped, mapped) / squared) * mapped.z, 0.0f, 1.0f) : 1.0f;
+}
+
 // Reflectance head on; a dielectric's is that of refractive index 1.5.
 AG_FUNCTION vec3 specularF0(vec3 baseColor, float metallic, float specular) {
     return mix(vec3(0.04f * specular), baseColor, metallic);

@@ -25,9 +25,10 @@ layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D sentMean;     /
 layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D controlMean;  // rgb: W/m²
 layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D moments;      // second ones: of rays; both; of control
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D surface;      // normal; m along the axis, 0: sky
+layout(set = 0, binding = 14) uniform sampler2D sentNear;
 #include "texel_rays/before.glsl"
 
-const float kMostTimes = 64.0;  // a sample may stand out of what is known; more is a draw that was hardly likely
+const float kMostTimes = 64.0;  // a draw may stand out of what is known; more was hardly likely
 
 struct Means {
     vec4 sent, control, moments;
@@ -58,11 +59,11 @@ void main() {
     float reversed = texelFetch(depthMap, at, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
     vec3 normal = texelFetch(normalMap, at, 0).xyz, place = placeOf(cameras.c.now, vec2(at), depth) + cameras.c.now.eye;
     Means m = known(size, normal, place, depth);
-    vec4 rays = texelFetch(sent, at, 0);
-    vec3 all = texelFetch(areaLights, at, 0).rgb, p = rays.rgb, q = texelFetch(control, at, 0).rgb;
+    vec3 all = texelFetch(areaLights, at, 0).rgb, p = texelFetch(sent, at, 0).rgb, q = texelFetch(control, at, 0).rgb;
     float e = luminance(all), most = kMostTimes * max(e, luminance(m.sent.rgb)), bright = max(luminance(p), luminance(q));
     float kept = bright > most && most > 0.0 ? most / bright : 1.0;
     p *= kept, q *= kept;
+    p += texelFetch(sentNear, at, 0).rgb;  // no more than surfaces send: without limit
     m.sent.a = min(m.sent.a * stillTrue(m, e), push.p.mostLength - 1.0) + 1.0;
     float share = 1.0 / m.sent.a, lp = luminance(p), lq = luminance(q);
     m.sent.rgb = mix(m.sent.rgb, p, share);

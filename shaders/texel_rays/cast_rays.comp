@@ -38,8 +38,10 @@ layout(set = 0, binding = 15, scalar) readonly buffer TreeTriangles { vec4 items
 layout(set = 0, binding = 16) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
-layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;  // W/m²; a: 1 + the entry of the light drawn, 0: none
+// W/m², by the texel drawn; a: 1 + the entry of the light drawn, 0: none.
+layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;
 layout(set = 0, binding = 20, scalar) buffer Found { RaysFound items[]; } found;  // of each block, by light
+layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;        // W/m², by the hemisphere's ray
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
@@ -48,6 +50,8 @@ layout(set = 0, binding = 20, scalar) buffer Found { RaysFound items[]; } found;
 
 const uint kDraws = 8;        // texels that one is resampled from
 const float kNearSides = 1.0; // of a texel: so near light is found by the hemisphere's ray alone
+const float kOwnSides = 0.7;  // a texel's own surface ends so far from its middle; beyond, it stands for places without one
+const float kAlike = 0.8;     // cosine between normals: a texel that is turned more got another irradiance
 const float kResampled = 4.0; // by how much that makes a texel with much to send likelier than drawing one at random
 
 struct Receiver {
@@ -62,19 +66,16 @@ float densityOfDraw(float ofLight, uint memberCount, RsmSurface s, vec3 toTexel)
     return cosine > 0.0 ? ofLight * kResampled / float(max(memberCount, 1)) * d2 / (max(cosine, 1e-4) * s.area) : 0.0;
 }
 
-float densityOfHemisphere(vec3 normal, vec3 toPlace) {
-    float d2 = max(dot(toPlace, toPlace), 1e-12), reach = push.p.reach;
-    return d2 < reach * reach ? max(dot(normal, toPlace) * inversesqrt(d2), 0.0) * kInvPi : 0.0;
-}
-
 // Of the hemisphere's ray for light of a texel: by the balance heuristic, and all of it so near that the texel's middle no
-// longer says where its light comes from. Both ways weigh it by that middle, so that they make a whole.
+// longer says where its light comes from. All of it also where the middle is below the horizon: draws do not find it.
+// Both ways weigh it by that middle, so that they make a whole.
 float shareOfHemisphere(Receiver r, RsmSurface s, float ofLight, uint memberCount) {
     vec3 toTexel = s.position - r.position;
-    float draw = densityOfDraw(ofLight, memberCount, s, toTexel), own = densityOfHemisphere(r.normal, toTexel);
-    if (own <= 0.0) return 0.0;
-    float sides = length(toTexel) * inversesqrt(s.area);
-    return mix(1.0, own / (draw + own), smoothstep(kNearSides, 2.0 * kNearSides, sides));
+    float d = length(toTexel), own = dot(r.normal, toTexel) / max(d, 1e-6) * kInvPi;
+    if (d >= push.p.reach) return 0.0;
+    if (own <= 0.0) return 1.0;
+    float draw = densityOfDraw(ofLight, memberCount, s, toTexel);
+    return mix(1.0, own / (draw + own), smoothstep(kNearSides, 2.0 * kNearSides, d * inversesqrt(s.area)));
 }
 
 struct Drawn {
@@ -166,15 +167,16 @@ Met surfaceMet(BvhRay ray) {
 vec3 sentFrom(Receiver r, uint map, Met met, float opaqueFrom) {
     uint texel = texelAt(map, push.p.atlasWidth, met.place, met.normal);
     uint slot = texel == kNoTexel ? kNoCluster : fetchTexel(slotOfTexel, int(texel)).x;
-    vec3 sends;
-    if (slot == kNoCluster) {
-        sends = irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance;
-    } else {
+    vec3 sends = irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance;
+    if (slot != kNoCluster) {
         RsmSurface s = AG_RSM_FETCH(texels, texel);
+        vec3 apart = met.place - s.position;
+        if (dot(apart, apart) > kOwnSides * kOwnSides * s.area) s.position = met.place;
         uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
         uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
         float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
-        sends = s.flux / s.area * shareOfHemisphere(r, s, ofLight, memberCount);
+        bool turned = dot(s.normal, met.normal) < kAlike && met.reflectance != vec3(0.0);
+        sends = (turned ? sends : s.flux / s.area) * shareOfHemisphere(r, s, ofLight, memberCount);
     }
     bool some = sends.x + sends.y + sends.z > 0.0;
     return some && isLit(maps.items[map], met.place, met.normal, r.offset, opaqueFrom) ? sends : vec3(0.0);
@@ -238,8 +240,11 @@ void main() {
     float opaqueFrom = float(random >> 8) / 16777216.0;
     if (e.x + e.y + e.z > 0.0 && !isSeen(r, toTexel, opaqueFrom)) e = vec3(0.0);
     float sends = luminance(e) * d.likely;
-    if (depth > 0.0) e += sentByNear(r, xi.xy, opaqueFrom);
+    vec3 near = depth > 0.0 ? sentByNear(r, xi.xy, opaqueFrom) : vec3(0.0);
     d.likely = there ? d.likely : 0.0;
-    if (there) imageStore(sent, pixel, vec4(e, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
+    if (there) {
+        imageStore(sent, pixel, vec4(e, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
+        imageStore(sentNear, pixel, vec4(near, 0.0));
+    }
     noteFound(block, d, sends);
 }

@@ -7,6 +7,7 @@
 
 #include "gi/upsampling.h"
 #include "tests/gi_gpu/bench.h"
+#include "tools/reference/reference.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
@@ -145,6 +146,20 @@ TEST(Upsampling, TakesLightAsEachPixelIsTurned) {
     std::printf("waves: off by %.4f of the mean, mean ratio %.4f\n", off, meanOf(image) / meanOf(truth));
     EXPECT_LT(off, 0.025);  // 0.03 with the light as the gathered pixels took it
     EXPECT_NEAR(meanOf(image) / meanOf(truth), 1, 0.01);
+}
+
+// Waves receive less light than the flat wall that they are on, and send less on.
+TEST(BumpySurfaces, SendOnWhatTheirBumpsReceive) {
+    Bench b(withWaves(*scenegen::buildScene("cornell", 0)), {96, 54});
+    const reference::RayScene rays(b.scene);
+    JobRunner runner(2);
+    const auto truth = reference::makeReference(
+        rays, b.size, {.paths = {.bounces = 1}, .samplesPerPixel = 256, .layer = "bounce1"}, runner,
+        [](double) {});
+    const Image image = renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, 16);
+    const double ratio = meanOf(image) / meanOf(truth.bounces[1]);
+    std::printf("waves: mean over path tracing's %.4f\n", ratio);
+    EXPECT_NEAR(ratio, 1, 0.02);  // 1.05 as if they were flat
 }
 
 // The mean over many frames does not depend on radius or samples but for the light beyond the disk, and with

@@ -78,5 +78,27 @@ TEST(Brdf, WholeReflectanceIsThatOfEvenLight) {
     EXPECT_EQ(wholeReflectance(vec3(0.3f), 0, 1, 0), vec3(0.3f)) << "Lambert";
 }
 
+// Of waves that lean no way on average, whatever their map is scaled by: the mean of their cosines to a
+// light.
+TEST(Brdf, BumpsReceiveTheMeanOfTheirCosines) {
+    const glm::vec3 light = glm::normalize(glm::vec3(0.3f, 0.1f, 1));
+    for (const float scale : {1.0f, 0.5f}) {
+        glm::vec3 mapped(0);
+        double lit = 0;
+        for (int i = 0; i < 256; ++i) {
+            const float phase = float(i) * 2 * kPi / 256;
+            const glm::vec3 n = glm::normalize(glm::vec3(0.5f * std::sin(phase), 0.5f * std::cos(phase), 1));
+            mapped += n / 256.0f;
+            lit += double(glm::dot(glm::normalize(glm::vec3(scale * glm::vec2(n), n.z)), light)) / 256;
+            EXPECT_NEAR(bumpCosine(n, scale), 1 / glm::length(glm::vec3(scale * glm::vec2(n) / n.z, 1)),
+                        1e-5);
+        }
+        if (scale == 1) {
+            EXPECT_NEAR(bumpCosine(mapped, scale) * light.z, lit, 1e-5);
+        }
+    }
+    EXPECT_EQ(bumpCosine(glm::vec3(0), 1), 1);
+}
+
 }  // namespace
 }  // namespace ag::io
