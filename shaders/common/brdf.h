@@ -11,9 +11,9 @@ AG_FUNCTION vec3 diffuseAlbedo(vec3 baseColor, float metallic) {
     return baseColor * (1.0f - metallic);
 }
 
-// Mean cosine between a normal map's normals and the surface's own: the share of a light's irradiance that a
-// bumpy surface receives of what a smooth one would, if its bumps lean no way on average. `mapped`: from -1
-// to 1, shorter than 1 where it is the mean of several.
+// Mean cosine between a normal map's normals and the surface. A bumpy surface receives that share of a smooth
+// one's irradiance, if its bumps lean no way on average. `mapped`: a normal in tangent space, or the mean of
+// several, which is shorter than 1.
 AG_FUNCTION float bumpCosine(vec3 mapped, float scale) {
     vec3 scaled = vec3(mapped.x * scale, mapped.y * scale, mapped.z);
     float squared = dot(scaled, scaled);

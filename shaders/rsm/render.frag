@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 // What a bounce light sees. The vertex normal, not the normal map: an emitter is a piece of surface, and the directions of
-// details below its size cancel out. What these receive less of the light for being turned is taken off the albedo.
+// bumps below its size cancel out. That bumps receive less light than a smooth surface is in the albedo.
 #define AG_SCENE_MATERIALS
 #include "common/brdf.h"
 #include "scene/scene.glsl"
@@ -24,6 +24,7 @@ void main() {
     vec3 n = unitNormal(normal);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
     vec3 albedo = bounceAlbedo(material, m, kWholeMaterials);
-    if (kTextureClass != 0 && m.layers.z >= 0) albedo *= bumpCosine(sampleLinear(m.uv, m.layers.z).xyz * 2.0 - 1.0, m.normalScale);
+    if (kTextureClass != 0 && m.layers.z >= 0)
+        albedo *= bumpCosine(sampleLinear(m.uv, m.layers.z).xyz * 2.0 - 1.0, m.normalScale);
     outAlbedo = vec4(albedo, 1.0);
 }

@@ -28,7 +28,7 @@ layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D surface;      /
 layout(set = 0, binding = 14) uniform sampler2D sentNear;
 #include "texel_rays/before.glsl"
 
-const float kMostTimes = 64.0;  // a draw may stand out of what is known; more was hardly likely
+const float kMostTimes = 64.0;  // a draw may send so many times what is known: more came of a tiny probability
 
 struct Means {
     vec4 sent, control, moments;
@@ -63,7 +63,7 @@ void main() {
     float e = luminance(all), most = kMostTimes * max(e, luminance(m.sent.rgb)), bright = max(luminance(p), luminance(q));
     float kept = bright > most && most > 0.0 ? most / bright : 1.0;
     p *= kept, q *= kept;
-    p += texelFetch(sentNear, at, 0).rgb;  // no more than surfaces send: without limit
+    p += texelFetch(sentNear, at, 0).rgb;  // at most what surfaces send: needs no limit
     m.sent.a = min(m.sent.a * stillTrue(m, e), push.p.mostLength - 1.0) + 1.0;
     float share = 1.0 / m.sent.a, lp = luminance(p), lq = luminance(q);
     m.sent.rgb = mix(m.sent.rgb, p, share);

@@ -50,8 +50,8 @@ layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;      
 
 const uint kDraws = 8;        // texels that one is resampled from
 const float kNearSides = 1.0; // of a texel: so near light is found by the hemisphere's ray alone
-const float kOwnSides = 0.7;  // a texel's own surface ends so far from its middle; beyond, it stands for places without one
-const float kAlike = 0.8;     // cosine between normals: a texel that is turned more got another irradiance
+const float kOwnSides = 0.7;  // of a texel: farther from its middle, a place is not on the texel's own surface
+const float kAlike = 0.8;     // least cosine between normals of a texel and a triangle that receive the same irradiance
 const float kResampled = 4.0; // by how much that makes a texel with much to send likelier than drawing one at random
 
 struct Receiver {
@@ -66,9 +66,9 @@ float densityOfDraw(float ofLight, uint memberCount, RsmSurface s, vec3 toTexel)
     return cosine > 0.0 ? ofLight * kResampled / float(max(memberCount, 1)) * d2 / (max(cosine, 1e-4) * s.area) : 0.0;
 }
 
-// Of the hemisphere's ray for light of a texel: by the balance heuristic, and all of it so near that the texel's middle no
-// longer says where its light comes from. All of it also where the middle is below the horizon: draws do not find it.
-// Both ways weigh it by that middle, so that they make a whole.
+// Weight of the hemisphere's ray for light from a texel: the balance heuristic; 1 close to the texel, whose middle is there a
+// poor guess of where its light comes from, and 1 where the middle is below the horizon, so that no draw finds it. Draws
+// have the rest. Both evaluate this at the texel's middle, so that the two weights add up to 1.
 float shareOfHemisphere(Receiver r, RsmSurface s, float ofLight, uint memberCount) {
     vec3 toTexel = s.position - r.position;
     float d = length(toTexel), own = dot(r.normal, toTexel) / max(d, 1e-6) * kInvPi;
@@ -161,23 +161,28 @@ Met surfaceMet(BvhRay ray) {
                whole ? reflectance : vec3(0.0));
 }
 
-// Of a map's light from what the hemisphere's ray met, W/m². Where no texel stands for the place, as beside a crease or on
-// what is narrower than texels, draws miss it: all of what the triangle reflects. Not of a masked one, whose texels are few
-// because the light passes through.
+// A map's light from what the hemisphere's ray met, W/m². Beside a crease and on what is narrower than a texel no texel
+// stands for the place. Draws miss it, so the weight is 1, and the triangle's reflectance says what it sends. Not so for
+// masked triangles: they have few texels because light passes through them.
 vec3 sentFrom(Receiver r, uint map, Met met, float opaqueFrom) {
     uint texel = texelAt(map, push.p.atlasWidth, met.place, met.normal);
     uint slot = texel == kNoTexel ? kNoCluster : fetchTexel(slotOfTexel, int(texel)).x;
-    vec3 sends = irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance;
-    if (slot != kNoCluster) {
+    bool byTexel = slot != kNoCluster;
+    float share = 1.0;
+    vec3 sends;
+    if (byTexel) {
         RsmSurface s = AG_RSM_FETCH(texels, texel);
+        sends = s.flux / s.area;
+        byTexel = dot(s.normal, met.normal) >= kAlike || met.reflectance == vec3(0.0);
         vec3 apart = met.place - s.position;
         if (dot(apart, apart) > kOwnSides * kOwnSides * s.area) s.position = met.place;
         uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
         uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
         float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
-        bool turned = dot(s.normal, met.normal) < kAlike && met.reflectance != vec3(0.0);
-        sends = (turned ? sends : s.flux / s.area) * shareOfHemisphere(r, s, ofLight, memberCount);
+        share = shareOfHemisphere(r, s, ofLight, memberCount);
     }
+    if (!byTexel) sends = irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance;
+    sends *= share;
     bool some = sends.x + sends.y + sends.z > 0.0;
     return some && isLit(maps.items[map], met.place, met.normal, r.offset, opaqueFrom) ? sends : vec3(0.0);
 }

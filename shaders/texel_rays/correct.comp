@@ -22,12 +22,12 @@ layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // tha
 layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
 
 const float kDoubt = 8.0;        // neighbours' errors are correlated: more noise is left than the filtered variance says
-const float kDoubtAlone = 32.0;  // the same of one pixel: where light is in one row, those about do not tell
+const float kDoubtAlone = 32.0;  // for a pixel by itself: its neighbours say nothing of light in a single row of pixels
 const int kStride = 4;           // pixels
 
 vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(shareOf, at, 0).x - 1.0) * lights; }
 
-// Of a correction by its square and its noise.
+// Share of a correction that is kept, by its square and the variance of its noise.
 float trustIn(float found, float noise) { return max(found - noise, 0.0) / max(found, 1e-30); }
 
 void main() {
