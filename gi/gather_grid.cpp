@@ -8,9 +8,6 @@
 namespace ag::gi {
 namespace {
 
-// Of the first pixel's rays: the others begin with what was found beside them.
-constexpr uint32_t kLaterShare = 2;
-
 uint32_t turnsOf(const BounceLightSettings& s) {
     return s.texelRays.allPixels ? s.spacing * s.spacing : 1;
 }
@@ -18,7 +15,7 @@ uint32_t turnsOf(const BounceLightSettings& s) {
 // While clusters change, what they send does: without new rays the old ones would count again.
 uint32_t raysOfTurn(const BounceLightSettings& s, uint32_t turn) {
     return turn == 0 ? std::max(s.texelRays.settleFrames, s.valClustering.settleFrames)
-                     : s.texelRays.settleFrames / kLaterShare;
+                     : s.texelRays.settleFrames;
 }
 
 // In the first turn later bounces come to rest, too: light of the sky on points goes on to them.

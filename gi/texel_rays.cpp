@@ -103,6 +103,7 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
         .read("texels", in.rsm.texels)
         .read("faces", in.rsm.faces)
         .read("maps", in.rsm.maps)
+        .read("tileMaps", in.rsm.tileMaps)
         .read("lists", t.lists)
         .read("counts", t.counts)
         .read("upTo", choice.upTo)

@@ -35,13 +35,17 @@ TexelView viewTexel(uint texel, uint mapIndex, uint atlasWidth) {
     return v;
 }
 
-// Where the ray so many texels aside meets the texel's plane.
-vec3 onPlane(TexelView v, vec2 aside) {
+// Where the light's ray so many texels aside meets the texel's plane.
+vec3 onPlaneAside(TexelView v, vec2 aside) {
     vec4 h = v.face.worldFromClip * vec4(v.ndc.xy + aside * (2.0 / float(v.face.size)), v.ndc.z, 1.0);
     vec3 through = h.xyz / h.w;
     vec3 ray = v.map.kind == kLightDirectional ? v.map.direction : through - v.map.position;
-    float along = dot(v.s.position - through, v.s.normal) / min(dot(ray, v.s.normal), -1e-6);
-    vec3 offset = through + ray * along - v.s.position;
+    return through + ray * (dot(v.s.position - through, v.s.normal) / min(dot(ray, v.s.normal), -1e-6));
+}
+
+// The same, not far away where the light grazes the plane.
+vec3 onPlane(TexelView v, vec2 aside) {
+    vec3 offset = onPlaneAside(v, aside) - v.s.position;
     float most = kMostStretch * sqrt(v.s.area);
     return v.s.position + offset * min(1.0, most * inversesqrt(max(dot(offset, offset), 1e-20)));
 }

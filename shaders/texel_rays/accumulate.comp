@@ -3,8 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 // This frame's rays and their control into the means that the frames before left on the same surface, and into their second
-// moments. In the mean the control is the area lights' sum: where that has left it by more than noise the light has changed,
-// and the past counts for less.
+// moments. Of the control by how much it differs from the area lights' sum, which is its expectation: that sum changes from
+// frame to frame while clusters settle.
 #include "common/pixel_rays.h"
 #include "texel_rays/texel_rays_io.h"
 
@@ -22,7 +22,7 @@ layout(set = 0, binding = 7) uniform sampler2D previousMoments;
 layout(set = 0, binding = 8) uniform sampler2D previousSurface;
 layout(set = 0, binding = 9, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D sentMean;     // rgb: W/m²; a: frames it stands for
-layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D controlMean;  // rgb: W/m²
+layout(set = 0, binding = 11, rgba32f) uniform writeonly image2D controlMean;  // rgb: less the area lights' sum, W/m²
 layout(set = 0, binding = 12, rgba32f) uniform writeonly image2D moments;      // second ones: of rays; both; of control
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D surface;      // normal; m along the axis, 0: sky
 layout(set = 0, binding = 14) uniform sampler2D sentNear;
@@ -46,14 +46,6 @@ Means known(ivec2 size, vec3 normal, vec3 place, float depth) {
     return m;
 }
 
-// 1 while the area lights send what the control says they did, down to 0.
-float stillTrue(Means m, float now) {
-    float n = max(m.sent.a, 1.0), mean = luminance(m.control.rgb), off = abs(now - mean);
-    // About what is sent now: a single sample says no more of its spread.
-    float uncertain = 4.0 * sqrt(max(m.moments.z - 2.0 * now * mean + now * now, 0.0) / n) + 0.1 * now;
-    return clamp(2.0 - off / max(uncertain, 1e-20), 0.0, 1.0);
-}
-
 void main() {
     ivec2 size = imageSize(surface), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
     float reversed = texelFetch(depthMap, at, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
@@ -64,10 +56,10 @@ void main() {
     float kept = bright > most && most > 0.0 ? most / bright : 1.0;
     p *= kept, q *= kept;
     p += texelFetch(sentNear, at, 0).rgb;  // at most what surfaces send: needs no limit
-    m.sent.a = min(m.sent.a * stillTrue(m, e), push.p.mostLength - 1.0) + 1.0;
+    m.sent.a = min(m.sent.a, push.p.mostLength - 1.0) + 1.0;
     float share = 1.0 / m.sent.a, lp = luminance(p), lq = luminance(q);
     m.sent.rgb = mix(m.sent.rgb, p, share);
-    m.control.rgb = mix(m.control.rgb, q, share);
+    m.control.rgb = mix(m.control.rgb, q - all, share);
     m.moments.xyz = mix(m.moments.xyz, vec3(lp * lp, lp * lq, lq * lq), share);
     bool seen = depth > 0.0;
     if (any(greaterThanEqual(pixel, size))) return;

@@ -43,40 +43,25 @@ layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;
 layout(set = 0, binding = 20, scalar) buffer Found { RaysFound items[]; } found;  // of each block, by light
 layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;        // W/m², by the hemisphere's ray
 
+layout(set = 0, binding = 22, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
+
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
 #include "texel_rays/blocks.glsl"
+#include "rsm/texel_square.glsl"
 #include "texel_rays/rsm_lookup.glsl"
 
 const uint kDraws = 8;        // texels that one is resampled from
-const float kNearSides = 1.0; // of a texel: so near light is found by the hemisphere's ray alone
-const float kOwnSides = 0.7;  // of a texel: farther from its middle, a place is not on the texel's own surface
 const float kAlike = 0.8;     // least cosine between normals of a texel and a triangle that receive the same irradiance
 const float kResampled = 4.0; // by how much that makes a texel with much to send likelier than drawing one at random
+const float kAboutTexel = 2.0; // sides: so far from a texel's middle a ray may meet what it stands for
 
 struct Receiver {
     vec3 position, normal;
+    vec3 start;        // of its rays
     float offset;      // m: rays leave so far before it
     uint tile, block;  // of the screen
 };
-
-// Of a texel, by drawing its light and then one of its members: per steradian at the receiver.
-float densityOfDraw(float ofLight, uint memberCount, RsmSurface s, vec3 toTexel) {
-    float d2 = max(dot(toTexel, toTexel), 1e-12), cosine = -dot(s.normal, toTexel) * inversesqrt(d2);
-    return cosine > 0.0 ? ofLight * kResampled / float(max(memberCount, 1)) * d2 / (max(cosine, 1e-4) * s.area) : 0.0;
-}
-
-// Weight of the hemisphere's ray for light from a texel: the balance heuristic; 1 close to the texel, whose middle is there a
-// poor guess of where its light comes from, and 1 where the middle is below the horizon, so that no draw finds it. Draws
-// have the rest. Both evaluate this at the texel's middle, so that the two weights add up to 1.
-float shareOfHemisphere(Receiver r, RsmSurface s, float ofLight, uint memberCount) {
-    vec3 toTexel = s.position - r.position;
-    float d = length(toTexel), own = dot(r.normal, toTexel) / max(d, 1e-6) * kInvPi;
-    if (d >= push.p.reach) return 0.0;
-    if (own <= 0.0) return 1.0;
-    float draw = densityOfDraw(ofLight, memberCount, s, toTexel);
-    return mix(1.0, own / (draw + own), smoothstep(kNearSides, 2.0 * kNearSides, d * inversesqrt(s.area)));
-}
 
 struct Drawn {
     uint entry, light;
@@ -96,38 +81,53 @@ Drawn drawLight(uint tile, uint block, float xi) {
     return Drawn(low, light, entries > 0 ? fetchTexel(likely, int(first + light)).x : 0.0);
 }
 
-// Mean of the channels of what a texel sends to the receiver if nothing stands between, times its weight against the
-// hemisphere's ray.
-float wantOf(Receiver r, RsmSurface s, float ofLight, uint memberCount) {
-    float factor = diskVectorFactor(r.position, r.normal, s.position, s.normal, s.area * kInvPi);
-    return factor * s.weight / s.area * (1.0 - shareOfHemisphere(r, s, ofLight, memberCount));
+// Whether the hemisphere's ray may find what a texel stands for. Else a draw has all of it, by its middle.
+bool bothFind(Receiver r, uint map, RsmSurface s) {
+    return map < push.p.mapCount && distance(s.position, r.position) + kAboutTexel * sqrt(s.area) < push.p.reach;
 }
 
-vec3 sentByDrawn(Receiver r, Drawn d, inout uint random, out vec3 toTexel) {
+// Share that a draw has of what it and the hemisphere's ray find, by their densities per steradian: the balance heuristic.
+float shareOfDraw(Receiver r, vec3 direction, float inSquare, float ofLight, uint memberCount) {
+    float draw = ofLight * kResampled / float(max(memberCount, 1)) * inSquare;
+    return draw > 0.0 ? draw / (draw + max(dot(r.normal, direction), 0.0) * kInvPi) : 0.0;
+}
+
+float factorOf(Receiver r, RsmSurface s) {
+    return s.weight > 0.0 ? diskVectorFactor(r.position, r.normal, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
+}
+
+// Mean of the channels of what a texel sends to the receiver if nothing stands between, times about its share.
+float wantOf(Receiver r, uint map, RsmSurface s, float ofLight, uint memberCount) {
+    float want = factorOf(r, s) * s.weight;
+    if (!bothFind(r, map, s)) return want;
+    vec3 d = s.position - r.start;
+    float d2 = dot(d, d), cosine = -dot(d, s.normal) * inversesqrt(d2);
+    return want * max(shareOfDraw(r, d * inversesqrt(d2), d2 / (max(cosine, 1e-4) * s.area), ofLight, memberCount), 1e-3);
+}
+
+struct Aim {
+    uint texel, map;
+    float weight;  // of what the texel sends; 0: there is none
+};
+
+Aim aimAt(Receiver r, Drawn d, inout uint random) {
     uint first = fetchTexel(memberRanges, int(d.light * 2)).x, count = fetchTexel(memberRanges, int(d.light * 2 + 1)).x;
-    uint chosen = 0;
-    float sum = 0.0, step = float(count) / float(kDraws);
-    toTexel = vec3(0.0);
-    if (d.likely <= 0.0 || count == 0) return vec3(0.0);
+    float sum = 0.0, step = float(count) / float(kDraws), wanted = 0.0;
+    Aim aim = Aim(kNoTexel, 0, 0.0);
+    if (d.likely <= 0.0 || count == 0) return aim;
+    uint map = tileMaps.items[fetchTexel(members, int(first)).x / (kRsmTileSize * kRsmTileSize)];
     for (uint i = 0; i < kDraws; ++i) {
         random = hashUint(random);
         uint place = min(uint((float(i) + float(random >> 8) / 16777216.0) * step), count - 1);
         uint texel = fetchTexel(members, int(first + place)).x;
-        float want = wantOf(r, AG_RSM_FETCH(texels, texel), d.likely, count);
+        float want = wantOf(r, map, AG_RSM_FETCH(texels, texel), d.likely, count);
         sum += want;
         random = hashUint(random);
-        if (want > 0.0 && float(random >> 8) / 16777216.0 * sum < want) chosen = texel;
+        if (want <= 0.0 || float(random >> 8) / 16777216.0 * sum >= want) continue;
+        aim.texel = texel;
+        wanted = want;
     }
-    if (sum <= 0.0) return vec3(0.0);
-    RsmSurface s = AG_RSM_FETCH(texels, chosen);
-    toTexel = s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)) - r.position;
-    return s.flux / s.weight * (sum * step / d.likely);
-}
-
-bool isSeen(Receiver r, vec3 toTexel, float opaqueFrom) {
-    vec3 start = r.normal * r.offset;
-    BvhRay ray = BvhRay(r.position + start, toTexel - start, 1.0, opaqueFrom, true, 0, 0);
-    return !traceOccluders(ray);
+    return sum > 0.0 ? Aim(aim.texel, map, sum * step / (d.likely * wanted)) : aim;
 }
 
 vec3 cosineDirection(vec3 n, vec2 xi) {
@@ -161,38 +161,78 @@ Met surfaceMet(BvhRay ray) {
                whole ? reflectance : vec3(0.0));
 }
 
-// A map's light from what the hemisphere's ray met, W/m². Beside a crease and on what is narrower than a texel no texel
-// stands for the place. Draws miss it, so the weight is 1, and the triangle's reflectance says what it sends. Not so for
-// masked triangles: they have few texels because light passes through them.
-vec3 sentFrom(Receiver r, uint map, Met met, float opaqueFrom) {
-    uint texel = texelAt(map, push.p.atlasWidth, met.place, met.normal);
-    uint slot = texel == kNoTexel ? kNoCluster : fetchTexel(slotOfTexel, int(texel)).x;
-    bool byTexel = slot != kNoCluster;
-    float share = 1.0;
+// What a map's light makes a place send, W/m², if it is lit. Beside a crease and on what is narrower than a texel no
+// texel stands for the place: then the triangle's reflectance says it. Not so for masked triangles: they have few texels
+// because light passes through them.
+struct Sender {
+    uint texel;  // kNoTexel: no draw finds it
     vec3 sends;
-    if (byTexel) {
+};
+
+Sender senderAt(uint map, Met met) {
+    uint texel = texelAt(map, push.p.atlasWidth, met.place, met.normal);
+    texel = texel != kNoTexel && fetchTexel(slotOfTexel, int(texel)).x == kNoCluster ? kNoTexel : texel;
+    if (texel != kNoTexel) {
         RsmSurface s = AG_RSM_FETCH(texels, texel);
-        sends = s.flux / s.area;
-        byTexel = dot(s.normal, met.normal) >= kAlike || met.reflectance == vec3(0.0);
-        vec3 apart = met.place - s.position;
-        if (dot(apart, apart) > kOwnSides * kOwnSides * s.area) s.position = met.place;
-        uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
-        uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
-        float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
-        share = shareOfHemisphere(r, s, ofLight, memberCount);
+        if (dot(s.normal, met.normal) >= kAlike || met.reflectance == vec3(0.0)) return Sender(texel, s.flux / s.area);
     }
-    if (!byTexel) sends = irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance;
-    sends *= share;
-    bool some = sends.x + sends.y + sends.z > 0.0;
-    return some && isLit(maps.items[map], met.place, met.normal, r.offset, opaqueFrom) ? sends : vec3(0.0);
+    return Sender(texel, irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance);
 }
 
-vec3 sentByNear(Receiver r, vec2 xi, float opaqueFrom) {
-    BvhRay ray = BvhRay(r.position + r.normal * r.offset, cosineDirection(r.normal, xi), push.p.reach, opaqueFrom, false, 0, 0);
-    if (!traceOccluders(ray)) return vec3(0.0);
-    Met met = surfaceMet(ray);
+// Weight of what the hemisphere's ray found: the rest of the draws'.
+float weightOfNear(Receiver r, uint map, uint texel, vec3 direction) {
+    if (texel == kNoTexel) return 1.0;
+    TexelView v = viewTexel(texel, map, push.p.atlasWidth);
+    if (!bothFind(r, map, v.s)) return 0.0;
+    SquareCrossing c = crossSquare(v, r.start, direction);
+    if (!inSquare(c.aside) || factorOf(r, v.s) <= 0.0) return 1.0;
+    uint slot = fetchTexel(slotOfTexel, int(texel)).x;
+    uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
+    uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
+    float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
+    return 1.0 - shareOfDraw(r, direction, c.density, ofLight, memberCount);
+}
+
+// A ray, what it counts, and the maps whose light it asks for.
+struct Way {
+    BvhRay ray;
+    float weight;
+    uint firstMap, endMap;
+};
+
+Way wayOfNear(Receiver r, vec2 xi, float opaqueFrom) {
+    return Way(BvhRay(r.start, cosineDirection(r.normal, xi), push.p.reach, opaqueFrom, false, 0, 0), 1.0, 0, push.p.mapCount);
+}
+
+// Close by through a place of the texel's square, for light comes from what the ray meets; farther away to its middle.
+Way wayOfDraw(Receiver r, Drawn d, Aim aim, vec2 xi, float opaqueFrom, out vec3 unlessMet) {
+    TexelView v = viewTexel(aim.texel, aim.map, push.p.atlasWidth);
+    bool both = bothFind(r, aim.map, v.s);
+    vec3 middle = v.s.position + v.s.normal * max(push.p.offset, push.p.texelOffset * sqrt(v.s.area)) - r.start;
+    vec3 toward = both ? onPlaneAside(v, xi - 0.5) - r.start : middle;
+    float far = length(toward);
+    vec3 direction = toward / max(far, 1e-9);
+    unlessMet = both ? vec3(0.0) : v.s.flux * (factorOf(r, v.s) * aim.weight);
+    if (!both) return Way(BvhRay(r.start, direction, far, opaqueFrom, true, 0, 0), 0.0, 0, 0);
+    uint memberCount = fetchTexel(memberRanges, int(d.light * 2 + 1)).x;
+    float density = crossSquare(v, r.start, direction).density, cosine = dot(r.normal, direction);
+    float share = shareOfDraw(r, direction, density, d.likely, memberCount);
+    float weight = density > 0.0 ? aim.weight * share * max(cosine, 0.0) * kInvPi / density : 0.0;
+    float reach = far + kAboutTexel * sqrt(v.s.area);
+    return Way(BvhRay(r.start, direction, reach, opaqueFrom, false, 0, 0), weight, aim.map, aim.map + 1);
+}
+
+// W/m².
+vec3 sentAlong(Receiver r, Way w, bool drawn, uint aimedAt) {
+    Met met = surfaceMet(w.ray);
     vec3 e = vec3(0.0);
-    for (uint map = 0; map < push.p.mapCount && met.front; ++map) e += sentFrom(r, map, met, opaqueFrom);
+    for (uint map = w.firstMap; map < w.endMap && met.front; ++map) {
+        Sender from = senderAt(map, met);
+        float weight = drawn ? (from.texel == aimedAt ? w.weight : 0.0) : weightOfNear(r, map, from.texel, w.ray.direction);
+        vec3 sends = from.sends * weight;
+        bool some = sends.x + sends.y + sends.z > 0.0;
+        if (some && isLit(maps.items[map], met.place, met.normal, r.offset, w.ray.opaqueFrom)) e += sends;
+    }
     return e;
 }
 
@@ -236,16 +276,27 @@ void main() {
     float offset = max(push.p.offset, push.p.pixelOffset * wide);
     // Nearer to the camera, which sees it: in a crease rounding may put it behind the other surface.
     position += normalize(camera.camera.position - position) * offset;
-    Receiver r = Receiver(position, texelFetch(normalMap, pixel, 0).xyz, offset, tile.y * push.p.tiles.tiles.x + tile.x, block);
+    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
+    uint inTiles = tile.y * push.p.tiles.tiles.x + tile.x;
+    Receiver r = Receiver(position, normal, position + normal * offset, offset, inTiles, block);
     uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.ray) * 31u);
     vec3 xi = fract(vec3(noiseAt(cell, 0u), noiseAt(cell, 32u).x) + push.p.shift);
     Drawn d = drawLight(r.tile, r.block, xi.z);
     d.likely = depth > 0.0 ? d.likely : 0.0;
-    vec3 toTexel, e = sentByDrawn(r, d, random, toTexel);
+    Aim aim = aimAt(r, d, random);
     float opaqueFrom = float(random >> 8) / 16777216.0;
-    if (e.x + e.y + e.z > 0.0 && !isSeen(r, toTexel, opaqueFrom)) e = vec3(0.0);
+    vec2 inSquare = vec2(hashUint(random) >> 8, hashUint(random ^ 0x9e3779b9u) >> 8) / 16777216.0;
+    vec3 found[2] = vec3[2](vec3(0.0), vec3(0.0));
+    for (uint i = 0; i < 2; ++i) {
+        bool drawn = i == 0;
+        if (depth == 0.0 || drawn && aim.weight == 0.0) continue;
+        Way w;
+        if (drawn) w = wayOfDraw(r, d, aim, inSquare, opaqueFrom, found[0]);
+        else w = wayOfNear(r, xi.xy, opaqueFrom);
+        if (traceOccluders(w.ray)) found[i] = sentAlong(r, w, drawn, aim.texel);
+    }
+    vec3 e = found[0], near = found[1];
     float sends = luminance(e) * d.likely;
-    vec3 near = depth > 0.0 ? sentByNear(r, xi.xy, opaqueFrom) : vec3(0.0);
     d.likely = there ? d.likely : 0.0;
     if (there) {
         imageStore(sent, pixel, vec4(e, d.likely > 0.0 ? float(d.entry + 1) : 0.0));

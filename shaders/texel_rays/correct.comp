@@ -21,7 +21,7 @@ layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
 layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
 
-const float kDoubt = 8.0;        // neighbours' errors are correlated: more noise is left than the filtered variance says
+const float kDoubt = 2.0;        // neighbours' errors are correlated: more noise is left than the filtered variance says
 const float kDoubtAlone = 32.0;  // for a pixel by itself: its neighbours say nothing of light in a single row of pixels
 const int kStride = 4;           // pixels
 

@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 0) uniform sampler2D areaLights;
 layout(set = 0, binding = 1) uniform sampler2D sentMean;
-layout(set = 0, binding = 2) uniform sampler2D controlMean;
+layout(set = 0, binding = 2) uniform sampler2D controlMean;  // less the area lights' sum
 layout(set = 0, binding = 3) uniform sampler2D moments;
 layout(set = 0, binding = 4) uniform sampler2D surface;
 layout(set = 0, binding = 5, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
@@ -40,8 +40,8 @@ Window windowAbout(ivec2 at, vec4 s, ivec2 size) {
             vec4 other = texelFetch(surface, there, 0), sent = texelFetch(sentMean, there, 0);
             float like = likeness(s.xyz, placeOf(cameras.c.now, vec2(there), other.w) - place, footprint, other.xyz);
             float weight = other.w > 0.0 ? like * sent.a : 0.0;
-            vec3 means = vec3(luminance(texelFetch(areaLights, there, 0).rgb), luminance(sent.rgb),
-                              luminance(texelFetch(controlMean, there, 0).rgb));
+            vec3 lights = texelFetch(areaLights, there, 0).rgb, control = lights + texelFetch(controlMean, there, 0).rgb;
+            vec3 means = vec3(luminance(lights), luminance(sent.rgb), luminance(control));
             w.central += weight * (texelFetch(moments, there, 0).xyz - means.yyz * means.yzz);
             w.mean += weight * means;
             w.withLights += weight * means * means.x;
@@ -58,7 +58,7 @@ void main() {
     ivec2 size = imageSize(rest), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
     Window w = windowAbout(at, texelFetch(surface, at, 0), size);
     vec4 sent = texelFetch(sentMean, at, 0);
-    vec3 control = texelFetch(controlMean, at, 0).rgb, lights = texelFetch(areaLights, at, 0).rgb;
+    vec3 lights = texelFetch(areaLights, at, 0).rgb, control = lights + texelFetch(controlMean, at, 0).rgb;
     float share = w.central.z > 0.0 ? clamp(w.central.y / w.central.z, 0.0, 1.0) : 1.0;
     float spread = w.central.x - 2.0 * share * w.central.y + share * share * w.central.z;
     float n = max(sent.a, 1.0), few = kFew / n, e2 = w.mean.y * w.mean.y;
