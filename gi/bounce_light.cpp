@@ -37,7 +37,8 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     const ValTiles tiles = addShadingTiles(scope, gathered, first, s.valShading, kFirstBounceShading);
     f.bounce1 = addValShading(tiles, s.valShading, kFirstBounceShading, refresh.pixels);
     f.bounce1 = addTexelRays(tiles, f.bounce1,
-                             {f.rsm, f.clusters, in.occluders, in.world.versions, grid.turn, grid.frames},
+                             {f.rsm, f.clusters, in.occluders, in.world.versions, grid.turn, grid.frames,
+                              refresh.pixels.count == 1},
                              s.valShading, s.texelRays, h.texelRays);
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
@@ -176,12 +177,11 @@ struct Measured {
 };
 
 Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const TexelRaysSettings& s,
-               const Settling& settling) {
+               const Settling& settling, bool begun) {
     const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
     const Means m{.sent = t.scope.historyImage("texel_rays.sent_mean", info),
                   .control = t.scope.historyImage("texel_rays.control_mean", info),
                   .moments = t.scope.historyImage("texel_rays.moments", info)};
-    const bool begun = settling.sinceChange > 1;  // the first frame in which nothing changes knows no other
     t.scope.compute("texel_rays.accumulate", "texel_rays/accumulate.comp")
         .sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
@@ -314,13 +314,17 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const uint32_t step = history.settling.advance(stands, in.frames);
     const Seen seen = addSeen(t, in.versions.origin, history);
     const float dimming = dimmingOf(in.rsm, history);
+    const bool wasWhole = std::exchange(history.whole, in.whole);
     if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, dimming, step);
     // Counted from the last change on, so that a still picture does not depend on what was before.
     const uint32_t ray = std::min(history.settling.sinceChange, in.frames) + in.turn * kMostRaysOfTurn;
     const Choice choice = addChoice(t, ray, history.settling);
     const Sent sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent.drawn, shading);
-    const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling);
+    // The first frame in which nothing changes knows no other, and light that is late says nothing of rays'
+    // mean.
+    const bool begun = history.settling.sinceChange > 1 && wasWhole;
+    const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling, begun);
     return addCorrection(t, areaLights, means, seen, s, history.settling, in.turn);
 }
 

@@ -46,6 +46,7 @@ struct TexelRaysSettings {
 // Lives on the CPU from frame to frame.
 struct TexelRaysHistory {
     Settling settling;
+    bool whole = true;  // every pixel's area lights were of that frame
     RenderCamera camera;
     uint64_t originVersion = 0;
     // Of the lights of the frame before: identities, and the luminance of what each sent.
@@ -62,6 +63,7 @@ struct TexelRaysInputs {
     const Versions& versions;
     uint32_t turn = 0;    // of the pixels of a square (gather_grid.h)
     uint32_t frames = 0;  // with new rays after anything last changed
+    bool whole = true;    // every pixel's area lights are of this frame
 };
 
 // Whether any are cast: `settings` ask for them, and there is something to trace them through.

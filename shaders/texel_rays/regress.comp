@@ -21,7 +21,7 @@ layout(set = 0, binding = 7, r32f) uniform writeonly image2D shareOf;  // of the
 
 const int kReach = 2;             // pixels about
 const float kLeastSpread = 0.01;  // of the squared mean: few samples may all be alike by chance
-const float kFew = 10.0;           // frames: the variance of so few is not to be believed
+const float kFew = 14.0;          // frames: the variance of so few is not to be believed
 const float kMostSurprise = 0.3;  // how far the share of detail may be from what moments say, as a deviation
 
 struct Window {

@@ -165,7 +165,7 @@ TEST(Probes, AreKnownTwoFramesLaterAndRestWhenNothingMoves) {
     EXPECT_FALSE(b.renderer.probeReadings().of(100));
     b.frame();
     EXPECT_TRUE(b.renderer.probeReadings().of(100));
-    for (int i = 0; i < 12; ++i)
+    for (int i = 0; i < b.restFrames(); ++i)
         b.frame();
     EXPECT_EQ(b.passesRun(), 0) << "nothing moved";
     EXPECT_TRUE(b.renderer.probeReadings().of(100));
