@@ -38,7 +38,7 @@ TEST(GatherGrid, EveryPixelOfASquareHasOneTurn) {
     }
 }
 
-TEST(GatherGrid, TheMiddleIsFirstAndHasTheMostRays) {
+TEST(GatherGrid, TheMiddleIsFirstAndAllTurnsHaveAsManyRays) {
     const BounceLightSettings s = shortTurns(2);
     GatherGridHistory history;
     const GatherGrid first = chooseGatherGrid(1, true, s, history);
@@ -47,7 +47,7 @@ TEST(GatherGrid, TheMiddleIsFirstAndHasTheMostRays) {
     for (uint32_t frame = 1; frame < framesToRest(s); ++frame)
         last = chooseGatherGrid(1, true, s, history);
     EXPECT_EQ(last.turn, 3u);
-    EXPECT_LT(last.frames, first.frames);
+    EXPECT_EQ(last.frames, first.frames);
 }
 
 TEST(GatherGrid, ChangesBeginAnew) {
