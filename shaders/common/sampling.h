@@ -6,6 +6,11 @@
 
 AG_BEGIN
 
+// The upper 24 bits as a number in [0, 1).
+AG_FUNCTION float unitOf(uint bits) {
+    return float(bits >> 8u) / 16777216.0f;
+}
+
 // Van der Corput in base 2: the bits mirrored at the point.
 AG_FUNCTION float radicalInverse2(uint bits) {
     bits = (bits << 16u) | (bits >> 16u);
@@ -13,7 +18,7 @@ AG_FUNCTION float radicalInverse2(uint bits) {
     bits = ((bits & 0x33333333u) << 2u) | ((bits & 0xccccccccu) >> 2u);
     bits = ((bits & 0x0f0f0f0fu) << 4u) | ((bits & 0xf0f0f0f0u) >> 4u);
     bits = ((bits & 0x00ff00ffu) << 8u) | ((bits & 0xff00ff00u) >> 8u);
-    return float(bits >> 8u) / 16777216.0f;
+    return unitOf(bits);
 }
 
 AG_FUNCTION float radicalInverse3(uint index) {
@@ -42,7 +47,7 @@ AG_FUNCTION uint hashUint(uint x) {
 }
 
 AG_FUNCTION float hashToUnit(uint x) {
-    return float(hashUint(x) >> 8u) / 16777216.0f;
+    return unitOf(hashUint(x));
 }
 
 // Two unit vectors that make a right-handed frame with n.

@@ -1,11 +1,11 @@
-// A texel's square of its map, seen from elsewhere through the texel's plane. Needs the buffers of rsm/footprint.glsl.
+// A texel's square of its map, as seen from a place through the texel's plane. Needs the buffers of rsm/footprint.glsl.
 #ifndef AG_TEXEL_SQUARE_GLSL
 #define AG_TEXEL_SQUARE_GLSL
 
 #include "common/rsm_math.h"
 #include "rsm/footprint.glsl"
 
-// m² of the plane about a place on it over the share of the square that the light's rays through them take.
+// Of the square on the texel's plane, m², as if it were everywhere as large as about `place`. `ndc`: of that place.
 float areaOfSquare(TexelView v, vec3 place, vec2 ndc) {
     bool sun = v.map.kind == kLightDirectional;
     vec3 d = place - v.map.position, away = sun ? v.map.direction : normalize(d);
@@ -16,11 +16,10 @@ float areaOfSquare(TexelView v, vec3 place, vec2 ndc) {
     return across / max(-dot(away, v.s.normal), 1e-6);
 }
 
-// Of a direction, per steradian, if it was drawn by an even place in the square; 0 if it misses that or comes from behind.
-// `aside`: of where it crosses the texel's plane, texels.
+// Where a direction crosses the texel's plane.
 struct SquareCrossing {
-    float density;
-    vec2 aside;
+    float density;  // of the direction, 1/sr, if places of the square are drawn evenly; 0: it crosses from behind
+    vec2 aside;     // of the texel's middle, texels
 };
 
 SquareCrossing crossSquare(TexelView v, vec3 from, vec3 direction) {

@@ -1,11 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Light that reaches a pixel, by two rays: one to a texel of one area light, drawn by what these are likely to send; one
-// into the hemisphere, not far, for light so near that no draw of a texel is even, and from where it ends one to the light.
-// Each of both ways counts by how likely either was to find that light (balance heuristic, Veach & Guibas 1995). Texels by
-// resampling (Talbot et al. 2005).
-#include "common/form_factors.h"
+// Light that reaches a pixel, by two rays: one to a texel of one area light, drawn by what these are likely to send
+// (resampling, Talbot et al. 2005); one into the hemisphere, not far. Within the reach of the second, both count the light of
+// the surface they meet, and a third ray asks whether the light gets there.
 #include "common/pixel_rays.h"
 #include "common/sampling.h"
 #include "common/texels.glsl"
@@ -42,30 +40,21 @@ layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
 layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;
 layout(set = 0, binding = 20, scalar) buffer Found { RaysFound items[]; } found;  // of each block, by light
 layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;        // W/m², by the hemisphere's ray
-
 layout(set = 0, binding = 22, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
 #include "texel_rays/blocks.glsl"
-#include "rsm/texel_square.glsl"
-#include "texel_rays/rsm_lookup.glsl"
+#include "texel_rays/met_surface.glsl"
+#include "texel_rays/ray_weights.glsl"
 
-const uint kDraws = 8;        // texels that one is resampled from
-const float kAlike = 0.8;     // least cosine between normals of a texel and a triangle that receive the same irradiance
-const float kResampled = 4.0; // by how much that makes a texel with much to send likelier than drawing one at random
-const float kAboutTexel = 2.0; // sides: so far from a texel's middle a ray may meet what it stands for
-
-struct Receiver {
-    vec3 position, normal;
-    vec3 start;        // of its rays
-    float offset;      // m: rays leave so far before it
-    uint tile, block;  // of the screen
-};
+const uint kDraws = 8;  // texels that one is resampled from
 
 struct Drawn {
     uint entry, light;
     float likely;  // 0: there is no light
+    uint memberCount;
+    float chance;  // of one of its texels
 };
 
 Drawn drawLight(uint tile, uint block, float xi) {
@@ -78,31 +67,9 @@ Drawn drawLight(uint tile, uint block, float xi) {
         high = after ? high : middle;
     }
     uint light = entries > 0 ? fetchTexel(lists, int(listEntry(tile, low, counts.items[tile], valCount))).x : 0;
-    return Drawn(low, light, entries > 0 ? fetchTexel(likely, int(first + light)).x : 0.0);
-}
-
-// Whether the hemisphere's ray may find what a texel stands for. Else a draw has all of it, by its middle.
-bool bothFind(Receiver r, uint map, RsmSurface s) {
-    return map < push.p.mapCount && distance(s.position, r.position) + kAboutTexel * sqrt(s.area) < push.p.reach;
-}
-
-// Share that a draw has of what it and the hemisphere's ray find, by their densities per steradian: the balance heuristic.
-float shareOfDraw(Receiver r, vec3 direction, float inSquare, float ofLight, uint memberCount) {
-    float draw = ofLight * kResampled / float(max(memberCount, 1)) * inSquare;
-    return draw > 0.0 ? draw / (draw + max(dot(r.normal, direction), 0.0) * kInvPi) : 0.0;
-}
-
-float factorOf(Receiver r, RsmSurface s) {
-    return s.weight > 0.0 ? diskVectorFactor(r.position, r.normal, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
-}
-
-// Mean of the channels of what a texel sends to the receiver if nothing stands between, times about its share.
-float wantOf(Receiver r, uint map, RsmSurface s, float ofLight, uint memberCount) {
-    float want = factorOf(r, s) * s.weight;
-    if (!bothFind(r, map, s)) return want;
-    vec3 d = s.position - r.start;
-    float d2 = dot(d, d), cosine = -dot(d, s.normal) * inversesqrt(d2);
-    return want * max(shareOfDraw(r, d * inversesqrt(d2), d2 / (max(cosine, 1e-4) * s.area), ofLight, memberCount), 1e-3);
+    float ofLight = entries > 0 ? fetchTexel(likely, int(first + light)).x : 0.0;
+    uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
+    return Drawn(low, light, ofLight, memberCount, chanceOfTexel(ofLight, memberCount));
 }
 
 struct Aim {
@@ -111,23 +78,24 @@ struct Aim {
 };
 
 Aim aimAt(Receiver r, Drawn d, inout uint random) {
-    uint first = fetchTexel(memberRanges, int(d.light * 2)).x, count = fetchTexel(memberRanges, int(d.light * 2 + 1)).x;
-    float sum = 0.0, step = float(count) / float(kDraws), wanted = 0.0;
     Aim aim = Aim(kNoTexel, 0, 0.0);
-    if (d.likely <= 0.0 || count == 0) return aim;
-    uint map = tileMaps.items[fetchTexel(members, int(first)).x / (kRsmTileSize * kRsmTileSize)];
+    if (d.likely <= 0.0 || d.memberCount == 0) return aim;
+    uint first = fetchTexel(memberRanges, int(d.light * 2)).x;
+    aim.map = tileMaps.items[fetchTexel(members, int(first)).x / (kRsmTileSize * kRsmTileSize)];
+    float sum = 0.0, wanted = 0.0, step = float(d.memberCount) / float(kDraws);
     for (uint i = 0; i < kDraws; ++i) {
         random = hashUint(random);
-        uint place = min(uint((float(i) + float(random >> 8) / 16777216.0) * step), count - 1);
+        uint place = min(uint((float(i) + unitOf(random)) * step), d.memberCount - 1);
         uint texel = fetchTexel(members, int(first + place)).x;
-        float want = wantOf(r, map, AG_RSM_FETCH(texels, texel), d.likely, count);
+        float want = wantOf(r, aim.map, AG_RSM_FETCH(texels, texel), d.chance);
         sum += want;
         random = hashUint(random);
-        if (want <= 0.0 || float(random >> 8) / 16777216.0 * sum >= want) continue;
+        if (want <= 0.0 || unitOf(random) * sum >= want) continue;
         aim.texel = texel;
         wanted = want;
     }
-    return sum > 0.0 ? Aim(aim.texel, map, sum * step / (d.likely * wanted)) : aim;
+    aim.weight = sum > 0.0 ? sum * step / (d.likely * wanted) : 0.0;
+    return aim;
 }
 
 vec3 cosineDirection(vec3 n, vec2 xi) {
@@ -137,101 +105,56 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
     return t * (radius * cos(angle)) + b * (radius * sin(angle)) + n * sqrt(max(1.0 - xi.x, 0.0));
 }
 
-// Whether a map's light reaches a place: a texel says it only about its middle.
-bool isLit(RsmMap map, vec3 place, vec3 normal, float offset, float opaqueFrom) {
-    vec3 start = place + normal * offset;
-    bool sun = map.kind == kLightDirectional;
-    BvhRay ray = BvhRay(start, sun ? -map.direction : map.position - start, sun ? 1e20 : 1.0, opaqueFrom, true, 0, 0);
-    return !traceOccluders(ray);
-}
-
-struct Met {
-    vec3 place, normal;  // on the ray's side, unit
-    bool front;          // it reflects light to where the ray came from
-    vec3 reflectance;    // 0 of a masked triangle
-};
-
-Met surfaceMet(BvhRay ray) {
-    vec3 normal = normalize(triangleNormal(ray.triangle, ray.place));
-    float front = treeTriangles.items[ray.triangle * 3 + 2].w;
-    bool behind = dot(normal, ray.direction) > 0.0;
-    bool whole = treeTriangles.items[ray.triangle * 3].w >= 1.0;
-    vec3 reflectance = unpackReflectance(treeTriangles.items[ray.triangle * 3 + 1].w);
-    return Met(ray.origin + ray.direction * ray.reach, behind ? -normal : normal, front == 0.0 || (front < 0.0) == behind,
-               whole ? reflectance : vec3(0.0));
-}
-
-// What a map's light makes a place send, W/m², if it is lit. Beside a crease and on what is narrower than a texel no
-// texel stands for the place: then the triangle's reflectance says it. Not so for masked triangles: they have few texels
-// because light passes through them.
-struct Sender {
-    uint texel;  // kNoTexel: no draw finds it
-    vec3 sends;
-};
-
-Sender senderAt(uint map, Met met) {
-    uint texel = texelAt(map, push.p.atlasWidth, met.place, met.normal);
-    texel = texel != kNoTexel && fetchTexel(slotOfTexel, int(texel)).x == kNoCluster ? kNoTexel : texel;
-    if (texel != kNoTexel) {
-        RsmSurface s = AG_RSM_FETCH(texels, texel);
-        if (dot(s.normal, met.normal) >= kAlike || met.reflectance == vec3(0.0)) return Sender(texel, s.flux / s.area);
-    }
-    return Sender(texel, irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance);
-}
-
-// Weight of what the hemisphere's ray found: the rest of the draws'.
-float weightOfNear(Receiver r, uint map, uint texel, vec3 direction) {
-    if (texel == kNoTexel) return 1.0;
-    TexelView v = viewTexel(texel, map, push.p.atlasWidth);
-    if (!bothFind(r, map, v.s)) return 0.0;
-    SquareCrossing c = crossSquare(v, r.start, direction);
-    if (!inSquare(c.aside) || factorOf(r, v.s) <= 0.0) return 1.0;
-    uint slot = fetchTexel(slotOfTexel, int(texel)).x;
-    uint light = fetchTexel(candidates, int(texel / (kRsmTileSize * kRsmTileSize) * kMaxCandidates + slot)).x;
-    uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
-    float ofLight = fetchTexel(likely, int(r.block * push.p.tiles.valCount + light)).x;
-    return 1.0 - shareOfDraw(r, direction, c.density, ofLight, memberCount);
-}
-
-// A ray, what it counts, and the maps whose light it asks for.
+// A ray, and the maps whose light it asks for where it ends.
 struct Way {
     BvhRay ray;
-    float weight;
     uint firstMap, endMap;
+    uint texel;      // kNoTexel: it counts whatever it meets
+    float weight;    // else of what is met there if this one stands for it
+    vec3 unblocked;  // W/m², if it meets nothing
 };
 
 Way wayOfNear(Receiver r, vec2 xi, float opaqueFrom) {
-    return Way(BvhRay(r.start, cosineDirection(r.normal, xi), push.p.reach, opaqueFrom, false, 0, 0), 1.0, 0, push.p.mapCount);
+    BvhRay ray = BvhRay(r.start, cosineDirection(r.normal, xi), push.p.reach, opaqueFrom, false, 0, 0);
+    return Way(ray, 0, push.p.mapCount, kNoTexel, 0.0, vec3(0.0));
 }
 
-// Close by through a place of the texel's square, for light comes from what the ray meets; farther away to its middle.
-Way wayOfDraw(Receiver r, Drawn d, Aim aim, vec2 xi, float opaqueFrom, out vec3 unlessMet) {
-    TexelView v = viewTexel(aim.texel, aim.map, push.p.atlasWidth);
-    bool both = bothFind(r, aim.map, v.s);
-    vec3 middle = v.s.position + v.s.normal * max(push.p.offset, push.p.texelOffset * sqrt(v.s.area)) - r.start;
-    vec3 toward = both ? onPlaneAside(v, xi - 0.5) - r.start : middle;
+// To a texel's middle: all it sends if nothing stands between.
+Way wayToMiddle(Receiver r, TexelView v, Aim aim, float opaqueFrom) {
+    vec3 middle = v.s.position + v.s.normal * max(push.p.offset, push.p.texelOffset * sqrt(v.s.area));
+    BvhRay ray = BvhRay(r.start, middle - r.start, 1.0, opaqueFrom, true, 0, 0);
+    return Way(ray, 0, 0, aim.texel, 0.0, v.s.flux * (factorOf(r, v.s) * aim.weight));
+}
+
+// Through a place of its square: the light of what is met there.
+Way wayThroughSquare(Receiver r, TexelView v, Drawn d, Aim aim, vec2 xi, float opaqueFrom) {
+    vec3 toward = onPlaneAside(v, xi - 0.5) - r.start;
     float far = length(toward);
     vec3 direction = toward / max(far, 1e-9);
-    unlessMet = both ? vec3(0.0) : v.s.flux * (factorOf(r, v.s) * aim.weight);
-    if (!both) return Way(BvhRay(r.start, direction, far, opaqueFrom, true, 0, 0), 0.0, 0, 0);
-    uint memberCount = fetchTexel(memberRanges, int(d.light * 2 + 1)).x;
-    float density = crossSquare(v, r.start, direction).density, cosine = dot(r.normal, direction);
-    float share = shareOfDraw(r, direction, density, d.likely, memberCount);
-    float weight = density > 0.0 ? aim.weight * share * max(cosine, 0.0) * kInvPi / density : 0.0;
-    float reach = far + kAboutTexel * sqrt(v.s.area);
-    return Way(BvhRay(r.start, direction, reach, opaqueFrom, false, 0, 0), weight, aim.map, aim.map + 1);
+    float density = crossSquare(v, r.start, direction).density, cosine = max(dot(r.normal, direction), 0.0);
+    float share = shareOfDraw(r, direction, density, d.chance);
+    float weight = density > 0.0 ? aim.weight * share * cosine * kInvPi / density : 0.0;
+    BvhRay ray = BvhRay(r.start, direction, far + kAboutTexel * sqrt(v.s.area), opaqueFrom, false, 0, 0);
+    return Way(ray, aim.map, aim.map + 1, aim.texel, weight, vec3(0.0));
+}
+
+Way wayOfDraw(Receiver r, Drawn d, Aim aim, vec2 xi, float opaqueFrom) {
+    TexelView v = viewTexel(aim.texel, aim.map, push.p.atlasWidth);
+    if (bothFind(r, aim.map, v.s)) return wayThroughSquare(r, v, d, aim, xi, opaqueFrom);
+    return wayToMiddle(r, v, aim, opaqueFrom);
 }
 
 // W/m².
-vec3 sentAlong(Receiver r, Way w, bool drawn, uint aimedAt) {
+vec3 sentAlong(Receiver r, Way w) {
+    if (!traceOccluders(w.ray)) return w.unblocked;
     Met met = surfaceMet(w.ray);
     vec3 e = vec3(0.0);
     for (uint map = w.firstMap; map < w.endMap && met.front; ++map) {
-        Sender from = senderAt(map, met);
-        float weight = drawn ? (from.texel == aimedAt ? w.weight : 0.0) : weightOfNear(r, map, from.texel, w.ray.direction);
-        vec3 sends = from.sends * weight;
+        Sender from = senderAt(map, met, push.p.atlasWidth);
+        float ofDraw = from.texel == w.texel ? w.weight : 0.0;
+        vec3 sends = from.sends * (w.texel != kNoTexel ? ofDraw : shareOfNear(r, map, from.texel, w.ray.direction));
         bool some = sends.x + sends.y + sends.z > 0.0;
-        if (some && isLit(maps.items[map], met.place, met.normal, r.offset, w.ray.opaqueFrom)) e += sends;
+        if (some && isLit(maps.items[map], met, r.offset, w.ray.opaqueFrom)) e += sends;
     }
     return e;
 }
@@ -284,23 +207,23 @@ void main() {
     Drawn d = drawLight(r.tile, r.block, xi.z);
     d.likely = depth > 0.0 ? d.likely : 0.0;
     Aim aim = aimAt(r, d, random);
-    float opaqueFrom = float(random >> 8) / 16777216.0;
-    vec2 inSquare = vec2(hashUint(random) >> 8, hashUint(random ^ 0x9e3779b9u) >> 8) / 16777216.0;
-    vec3 found[2] = vec3[2](vec3(0.0), vec3(0.0));
+    float opaqueFrom = unitOf(random);
+    vec2 placeInSquare = vec2(hashToUnit(random), hashToUnit(random ^ 0x9e3779b9u));
+    vec3 byWay[2] = vec3[2](vec3(0.0), vec3(0.0));
+    // A loop, so that the trees' walk is compiled once.
     for (uint i = 0; i < 2; ++i) {
-        bool drawn = i == 0;
-        if (depth == 0.0 || drawn && aim.weight == 0.0) continue;
+        bool draws = i == 0;
+        if (depth == 0.0 || draws && aim.weight == 0.0) continue;
         Way w;
-        if (drawn) w = wayOfDraw(r, d, aim, inSquare, opaqueFrom, found[0]);
+        if (draws) w = wayOfDraw(r, d, aim, placeInSquare, opaqueFrom);
         else w = wayOfNear(r, xi.xy, opaqueFrom);
-        if (traceOccluders(w.ray)) found[i] = sentAlong(r, w, drawn, aim.texel);
+        byWay[i] = sentAlong(r, w);
     }
-    vec3 e = found[0], near = found[1];
-    float sends = luminance(e) * d.likely;
+    float sends = luminance(byWay[0]) * d.likely;
     d.likely = there ? d.likely : 0.0;
     if (there) {
-        imageStore(sent, pixel, vec4(e, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
-        imageStore(sentNear, pixel, vec4(near, 0.0));
+        imageStore(sent, pixel, vec4(byWay[0], d.likely > 0.0 ? float(d.entry + 1) : 0.0));
+        imageStore(sentNear, pixel, vec4(byWay[1], 0.0));
     }
     noteFound(block, d, sends);
 }

@@ -283,6 +283,31 @@ TEST(TexelRays, WhatIsNarrowerThanATexelLightsWhatIsNear) {
     EXPECT_LT(found, 0.3 * lights);
 }
 
+// Draws through squares of orthographic, perspective and cube maps, whose reach is all of the room, and rays
+// into the hemisphere find the whole of the light together, and none of it twice.
+TEST(TexelRays, BothWaysAddUpForEveryKindOfMap) {
+    for (const auto& [kind, name] : {std::pair{LightKind::kDirectional, "sun"},
+                                     {LightKind::kSpot, "spot"},
+                                     {LightKind::kPoint, "point"}}) {
+        Bench b(*scenegen::buildScene("cornell", 0), {96, 54});
+        RenderLight& lamp = b.scene.lights[0];
+        lamp.kind = kind;
+        if (kind == LightKind::kDirectional) lamp.direction = glm::normalize(glm::vec3(0.3f, -0.4f, -1));
+        if (kind == LightKind::kPoint) lamp.position.y = 1.6f;
+        const Image truth = tracedBounce1(b);
+        b.settings = withRays(true);
+        useSmallMaps(b.settings);
+        b.settings.bounce.valClustering.count = 8;  // rays have all to say
+        b.settings.bounce.texelRays.reach = 1;
+        b.settings.bounce.texelRays.settleFrames = 64;
+        const int rest = int(framesToRest(b.settings.bounce));
+        const Image image = renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, rest);
+        const double ratio = meanOf(image) / meanOf(truth);
+        std::printf("%s: mean over path tracing's %.4f\n", name, ratio);
+        EXPECT_NEAR(ratio, 1, 0.01);  // 1.34 if squares are taken for half as large again
+    }
+}
+
 // Sills light the wall above them: the lights' shape is wrong there, rays find it.
 TEST(TexelRays, FindTheShapeOfNearLights) {
     Bench with(*scenegen::buildScene("ledges", 0), {96, 54}), without(with.asset, {96, 54});

@@ -1,0 +1,51 @@
+// What a ray meets, and what a map's light makes it send. Before: the buffers of rsm_lookup.glsl, treeTriangles,
+// slotOfTexel, the trees and bvh/trace.glsl.
+#ifndef AG_MET_SURFACE_GLSL
+#define AG_MET_SURFACE_GLSL
+
+#include "texel_rays/rsm_lookup.glsl"
+
+const float kAlike = 0.8;  // least cosine between normals of a texel and a triangle that receive the same irradiance
+
+struct Met {
+    vec3 place, normal;  // on the ray's side, unit
+    bool front;          // it reflects light to where the ray came from
+    vec3 reflectance;    // 0 of a masked triangle
+};
+
+Met surfaceMet(BvhRay ray) {
+    vec3 normal = normalize(triangleNormal(ray.triangle, ray.place));
+    float front = treeTriangles.items[ray.triangle * 3 + 2].w;
+    bool behind = dot(normal, ray.direction) > 0.0;
+    bool whole = treeTriangles.items[ray.triangle * 3].w >= 1.0;
+    vec3 reflectance = unpackReflectance(treeTriangles.items[ray.triangle * 3 + 1].w);
+    return Met(ray.origin + ray.direction * ray.reach, behind ? -normal : normal, front == 0.0 || (front < 0.0) == behind,
+               whole ? reflectance : vec3(0.0));
+}
+
+// Whether a map's light reaches a place: a texel says it only about its middle.
+bool isLit(RsmMap map, Met met, float offset, float opaqueFrom) {
+    vec3 start = met.place + met.normal * offset;
+    bool sun = map.kind == kLightDirectional;
+    BvhRay ray = BvhRay(start, sun ? -map.direction : map.position - start, sun ? 1e20 : 1.0, opaqueFrom, true, 0, 0);
+    return !traceOccluders(ray);
+}
+
+// What a map's light makes a place send if it reaches it, W/m². In a crease and on what is narrower than a texel no texel
+// stands for the place. There the triangle's reflectance counts, but not a masked triangle's: light passes through it, so
+// that few of its places have texels, and draws count those.
+struct Sender {
+    uint texel;  // that stands for the place, or kNoTexel: no draw finds it
+    vec3 sends;
+};
+
+Sender senderAt(uint map, Met met, uint atlasWidth) {
+    uint texel = texelAt(map, atlasWidth, met.place, met.normal);
+    texel = texel != kNoTexel && fetchTexel(slotOfTexel, int(texel)).x == kNoCluster ? kNoTexel : texel;
+    if (texel != kNoTexel) {
+        RsmSurface s = AG_RSM_FETCH(texels, texel);
+        if (dot(s.normal, met.normal) >= kAlike || met.reflectance == vec3(0.0)) return Sender(texel, s.flux / s.area);
+    }
+    return Sender(texel, irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance);
+}
+#endif
