@@ -3,8 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 // The area lights' sum, corrected by what the rays found, as far as that stands out of its noise (the positive part of James
-// and Stein's estimator, over the pixels about or at the pixel alone). Until it does, by what rays had found before something
-// changed.
+// and Stein's estimator, over the pixels about). Until it does, by what rays had found before something changed.
 #include "common/pixel_rays.h"
 #include "texel_rays/carried.glsl"
 #include "texel_rays/texel_rays_io.h"
@@ -21,14 +20,10 @@ layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
 layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
 
-const float kDoubt = 2.0;        // neighbours' errors are correlated: more noise is left than the filtered variance says
-const float kDoubtAlone = 32.0;  // for a pixel by itself: its neighbours say nothing of light in a single row of pixels
-const int kStride = 4;           // pixels
+const float kDoubt = 2.0;  // neighbours' errors are correlated: more noise is left than the filtered variance says
+const int kStride = 4;     // pixels
 
 vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(shareOf, at, 0).x - 1.0) * lights; }
-
-// Share of a correction that is kept, by its square and the variance of its noise.
-float trustIn(float found, float noise) { return max(found - noise, 0.0) / max(found, 1e-30); }
 
 void main() {
     ivec2 size = imageSize(irradiance), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
@@ -40,9 +35,9 @@ void main() {
             vec3 c = correctionAt(there, texelFetch(areaLights, there, 0).rgb, r.rgb);
             found += dot(c, c) / 3.0, noise += r.a;
         }
-    vec4 lights = texelFetch(areaLights, at, 0), known = texelFetch(previousCarried, at, 0), here = texelFetch(rest, at, 0);
-    vec3 measured = correctionAt(at, lights.rgb, here.rgb);
-    float trust = max(trustIn(found, kDoubt * noise), trustIn(dot(measured, measured) / 3.0, kDoubtAlone * here.a));
+    vec4 lights = texelFetch(areaLights, at, 0), known = texelFetch(previousCarried, at, 0);
+    vec3 measured = correctionAt(at, lights.rgb, texelFetch(rest, at, 0).rgb);
+    float trust = max(found - kDoubt * noise, 0.0) / max(found, 1e-30);
     vec4 kept = push.p.valid == 1 ? vec4(push.p.fading * stillTrue(luminance(lights.rgb), known.a) * known.rgb, known.a) : vec4(0.0);
     vec3 c = mix(kept.rgb, measured, trust);
     if (any(greaterThanEqual(pixel, size))) return;
