@@ -12,7 +12,7 @@ namespace ag::gi {
 
 BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                            BounceLightHistory& h) {
-    BounceLight f;
+    BounceLight f{.term = s.term};
     // What may wait
     const Refresh refresh = chooseRefresh(in.world, in.surfaces.view, in.surfaces.size, s, h.refresh);
     const GraphScope lights = scope.held(!refresh.lights);
@@ -33,24 +33,33 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     const Surfaces gathered =
         grid.turn == 0 ? downsampled
                        : addDownsampled(scope, in.surfaces, {s.spacing, grid.place}, kOtherDownsampling);
-    const ShadowedVals first{firstVals(f.vals, f.firstCount), f.isms};
-    const ValTiles tiles = addShadingTiles(scope, gathered, first, s.valShading, kFirstBounceShading);
-    f.bounce1 = addValShading(tiles, s.valShading, kFirstBounceShading, refresh.pixels);
-    f.bounce1 = addTexelRays(tiles, f.bounce1,
-                             {f.rsm, f.clusters, in.occluders, in.world.versions, grid.turn, grid.frames,
-                              refresh.pixels.count == 1},
-                             s.valShading, s.texelRays, h.texelRays);
+    const Vals asked = valsOf(f, s.term);
+    const bool together = grid.still || s.laterBounces.spacing == 1;  // else later bounces at fewer pixels
+    const ShadowedVals first{together ? asked : valsBetween(asked, 0, f.firstCount), f.isms};
+    const ValTiles tiles = addShadingTiles(scope, gathered, first, s.valShading, kFirstShading);
+    f.irradiance = addValShading(tiles, s.valShading, kFirstShading, refresh.pixels);
+    if (!together)
+        f.irradiance =
+            addLaterShading(scope, gathered, f.irradiance, {valsBetween(asked, f.firstCount, ~0u), f.isms},
+                            s.laterBounces.spacing, s.valShading);
+    const bool rays = castsTexelRays(s.texelRays, in.occluders) && f.vals.count > 0;
+    const ClusterMembers members = rays ? addClusterMembers(scope, f.rsm, f.clusters) : ClusterMembers{};
+    if (rays)
+        f.irradiance = addTexelRays(tiles, f.irradiance,
+                                    {f.rsm, f.clusters, members, in.occluders, in.world.versions, grid.turn,
+                                     grid.frames, grid.change, refresh.pixels.count == 1, grid.grows},
+                                    s.valShading, s.texelRays, h.texelRays);
+    if (isFirstBounce(f, asked)) f.bounce1 = f.irradiance;
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);
 
     // Light that goes on
-    f.irradiance = f.bounce1;
     const BufferHandle sky =
         addSkyOnPoints(scope, f.emitters, {in.sky, in.occluders, in.world.versions}, s.sky, h.skyOnPoints);
     const BufferHandle others = addLightsOnPoints(scope, f.emitters, in.world.otherLights, in.occluders);
-    addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces);
-    if (f.vals.count > f.firstCount)
-        f.irradiance = addLaterShading(scope, gathered, f.bounce1, {f.vals, f.isms},
-                                       {f.firstCount, s.laterBounces.spacing}, s.valShading);
+    const PointRays pointRays{
+        f.rsm, members, in.occluders, f.clusters.count, grid.still, h.laterBounces.step};
+    addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces,
+                       rays ? &pointRays : nullptr);
 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, gathered, s, h, f, grid);

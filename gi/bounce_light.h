@@ -40,8 +40,8 @@ struct BounceLightHistory {
 
 // What was made, with all that it was made from: for composition, debug views, tests and captures.
 struct BounceLight {
-    Irradiance irradiance;  // of all bounces
-    Irradiance bounce1;     // of the first alone; the same image where there are no others
+    Irradiance irradiance;  // of the settings' term
+    Irradiance bounce1;     // of the first bounce alone; the same image where there is no other light
     ImageHandle gloss;      // what glossy materials reflect beyond irradiance: rgba16f, W/(m² sr)
 
     BufferHandle viewPoints;
@@ -50,7 +50,8 @@ struct BounceLight {
     Importance importance;
     Clusters clusters;
     Vals vals;
-    uint32_t firstCount = 0;  // of the lights, those of the first bounce and of emissive surfaces
+    Term term = Term::kAll;   // of irradiance
+    uint32_t firstCount = 0;  // of the lights, those of emissive surfaces and of the first bounce
     SurfacePoints surfacePoints;
     IsmAtlas isms;
 };

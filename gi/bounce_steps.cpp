@@ -33,24 +33,45 @@ void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlas
     f.isms = addIsmAtlas(scope, f.surfacePoints, in.occluders.trees, f.vals, s);
 }
 
+Vals valsOf(const BounceLight& f, Term term) {
+    const uint32_t bounces = f.rsm.emissiveCount, later = f.firstCount;
+    switch (term) {
+        case Term::kAll:
+            return f.vals;
+        case Term::kBounces:
+            return valsBetween(f.vals, bounces, ~0u);
+        case Term::kFirstBounce:
+            return valsBetween(f.vals, bounces, later);
+        case Term::kLaterBounces:
+            return valsBetween(f.vals, later, ~0u);
+        case Term::kEmissive:
+            return valsBetween(f.vals, 0, bounces);
+    }
+    return {};
+}
+
+bool isFirstBounce(const BounceLight& f, const Vals& vals) {
+    const Vals first = valsOf(f, Term::kFirstBounce);
+    return vals.first == first.first && vals.count == first.count;
+}
+
 GatherGrid gatherGridOf(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                         BounceLightHistory& h, const BounceLight& f) {
     const Versions& v = in.world.versions;
     uint64_t light = f.rsm.inputsVersion;
     // Nobody may have asked for the light yet: then the pixels of earlier turns have none.
-    const uint64_t wanted =
-        hasAllPixels(scope, kUpsampling) + 2 * hasAllPixels(scope, kFirstBounceUpsampling);
+    const uint64_t wanted = hasAllPixels(scope, kUpsampling);
     for (const uint64_t part : {v.scene, v.instances, v.lights, v.camera, v.origin, in.sky.version,
                                 in.occluders.trees.staticVersion, hashValue(in.surfaces.size), wanted})
         light = combineHash(light, part);
-    return chooseGatherGrid(light, f.firstCount > 0 && castsTexelRays(s.texelRays, in.occluders), s,
+    return chooseGatherGrid(light, !valsOf(f, s.term).empty() && castsTexelRays(s.texelRays, in.occluders), s,
                             h.gatherGrid);
 }
 
 void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& gathered,
                  const BounceLightSettings& s, BounceLightHistory& h, BounceLight& f,
                  const GatherGrid& grid) {
-    const bool goesOn = f.irradiance.image != f.bounce1.image;
+    const bool apart = f.bounce1.image && f.irradiance.image != f.bounce1.image;
     const uint32_t steps = h.stochasticRsm.step + h.valClustering.settling.step + h.laterBounces.step;
     const uint64_t light = combineHash(f.rsm.inputsVersion, in.world.versions.instances);
     if (grid.turn > 0 && grid.begins) forgetPixels(scope);
@@ -58,17 +79,19 @@ void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& 
                                s.denoiser, h.denoiser);
     // Pixels meet area lights, not points that share maps.
     const bool areas = s.valShading.shape != ValShape::kPoint && !f.isms.shared;
-    const Vals vals = areas ? f.vals : Vals{};
-    const LightsOfPixels all{{vals, f.isms}, s.valShading.taps},
-        first{{firstVals(vals, f.firstCount), f.isms}, s.valShading.taps};
+    const auto lightsOf = [&](Term term) {
+        return LightsOfPixels{{areas ? valsOf(f, term) : Vals{}, f.isms}, s.valShading.taps};
+    };
     const auto toPixels = [&](const Irradiance& made, const UpsamplingNames& names,
                               const LightsOfPixels& of) {
         return grid.turn > 0 && hasAllPixels(scope, names)
                    ? addPlacing(scope, in.surfaces, gathered, made, names)
                    : addUpsampling(scope, in.surfaces, gathered, made, names, of);
     };
-    f.irradiance = toPixels(f.irradiance, kUpsampling, all);
-    f.bounce1 = goesOn ? toPixels(f.bounce1, kFirstBounceUpsampling, first) : f.irradiance;
+    const bool first = f.bounce1.image && !apart;
+    f.irradiance = toPixels(f.irradiance, kUpsampling, lightsOf(f.term));
+    if (apart) f.bounce1 = toPixels(f.bounce1, kFirstBounceUpsampling, lightsOf(Term::kFirstBounce));
+    if (first) f.bounce1 = f.irradiance;
 }
 
 }  // namespace ag::gi

@@ -15,6 +15,9 @@ void addAreaLights(GraphScope scope, const BounceLightInputs& in, const BounceLi
                    BounceLightHistory& h, BounceLight& f);
 // Points on surfaces, and what each light of `f.vals` sees of them.
 void addVisibility(GraphScope scope, const BounceLightInputs& in, const IsmAtlasSettings& s, BounceLight& f);
+// Those of a term alone.
+Vals valsOf(const BounceLight& f, Term term);
+bool isFirstBounce(const BounceLight& f, const Vals& vals);
 // Which pixels light is gathered at in this frame, and for how long yet if nothing changes.
 GatherGrid gatherGridOf(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                         BounceLightHistory& h, const BounceLight& f);

@@ -40,7 +40,12 @@ GatherGrid chooseGatherGrid(uint64_t light, bool castsRays, const BounceLightSet
                             GatherGridHistory& h) {
     h.changes += std::exchange(h.settings, s) != s;
     h.settling.advance(combineHash(combineHash(light, castsRays), h.changes), framesToRest(s));
-    GatherGrid grid{.place = glm::uvec2(s.spacing / 2)};
+    const bool changed = h.settling.sinceChange == 0;
+    h.restarts += changed;
+    GatherGrid grid{.place = glm::uvec2(s.spacing / 2),
+                    .still = castsRays && !changed,
+                    .grows = s.laterBounces.enabled && h.settling.sinceChange <= s.laterBounces.settleFrames,
+                    .change = h.restarts};
     const uint32_t turns = castsRays ? turnsOf(s) : 1;
     uint32_t since = h.settling.sinceChange;
     while (grid.turn + 1 < turns && since >= kBegins + framesOfTurn(s, grid.turn))

@@ -11,6 +11,9 @@ struct GatherGrid {
     glm::uvec2 place{0};  // of the pixel in its square
     uint32_t turn = 0;    // how many of the square's pixels were before it
     bool begins = false;  // its first frame
+    bool still = false;   // rays are cast, or were: nothing has changed since the frame before
+    bool grows = false;   // later bounces still add light
+    uint64_t change = 0;  // number of the last change
     uint32_t frames = 0;  // in which it casts rays
 };
 
@@ -19,6 +22,7 @@ struct GatherGridHistory {
     Settling settling;
     BounceLightSettings settings;  // of the frame before
     uint64_t changes = 0;          // of settings
+    uint64_t restarts = 0;         // by whatever changed
 };
 
 // Of a scene in which rays are cast: frames from the last change on until nothing is made anew.

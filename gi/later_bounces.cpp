@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "gi/occluder_trees.h"
 #include "gi/upsampling.h"
 #include "gi/val_shading.h"
 #include "gi/val_tiles.h"
+#include "shaders/bvh/bvh_io.h"
 #include "shaders/val_shading/val_shading_io.h"
 
 namespace ag::gi {
@@ -12,11 +14,39 @@ namespace {
 
 // As ValShadingSettings'. Farther than on screen: what disks are off by comes back in every bounce.
 constexpr float kNearReach = 6;
+constexpr float kMovingLength = 16, kStillLength = 1024;  // frames that means of rays stand for
+
+void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t lightCount, uint32_t firstLater,
+                  const PointRays& in, uint32_t rays) {
+    const uint32_t count = emitters.reflecting.count();
+    const HistoryBuffer means =
+        scope.historyBuffer("later_bounces.point_means", {.sizeBytes = count * sizeof(io::PointMeans)});
+    PassBuilder trace = scope.compute("later_bounces.trace", "later_bounces/trace.comp");
+    trace.read("points", emitters.texels)
+        .read("texels", in.rsm.texels)
+        .read("memberRanges", in.members.ranges)
+        .read("members", in.members.texels)
+        .readWrite("irradiance", emitters.irradiance.current)
+        .readPrevious("before", means)
+        .write("means", means.current)
+        .push(io::TracePush{.count = count,
+                            .valCount = lightCount,
+                            .firstLater = firstLater,
+                            .rays = in.still ? rays : 1,
+                            .step = in.step,
+                            .valid = means.valid,
+                            .mostLength = in.still ? kStillLength : kMovingLength,
+                            .offset = io::kRayOffset * in.occluders.extent})
+        .step(in.step)
+        .dispatchThreads(count);
+    readTrees(trace, in.occluders.trees);
+}
 
 }  // namespace
 
 void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const StraightLight& straight,
-                        const ShadowedVals& lights, uint32_t firstLater, const LaterBouncesSettings& s) {
+                        const ShadowedVals& lights, uint32_t firstLater, const LaterBouncesSettings& s,
+                        const PointRays* rays) {
     const auto& [vals, isms] = lights;
     const uint32_t count = emitters.reflecting.count();
     if (count == 0 || vals.count == 0) return;
@@ -45,10 +75,6 @@ void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const
             .read("lists", lists)
             .read("counts", counts)
             .constant("kList", list)
-            .read("sky", straight.sky ? straight.sky : vals.vals)
-            .constant("kSky", bool(straight.sky) && list == io::kFarList)
-            .read("straight", straight.lights ? straight.lights : vals.vals)
-            .constant("kStraight", bool(straight.lights) && list == io::kFarList)
             .push(push)
             .dispatchGroups(runs);
         return pass;
@@ -58,6 +84,8 @@ void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const
     gather("later_bounces.near", io::kNearList, shading.shape)
         .constant("kAdd", true)
         .readWrite("irradiance", emitters.irradiance.current);
+    if (rays && s.rays > 0)
+        addPointRays(scope, emitters, std::min(push.valCount, rays->clusterCount), firstLater, *rays, s.rays);
     scope.compute("later_bounces.conserve", "later_bounces/conserve.comp")
         .read("texels", emitters.texels)
         .read("vals", vals.vals)
@@ -71,14 +99,12 @@ void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const
     scope.output(emitters.irradiance.current);
 }
 
-Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
-                           const ShadowedVals& lights, const LaterShading& later,
-                           const ValShadingSettings& shading) {
-    if (later.spacing == 1) return addValShading(scope, gbuffer, lights, shading, kAllBouncesShading);
-    const Surfaces downsampled = addDownsampled(scope, gbuffer, later.spacing, kLaterDownsampling);
-    const ShadowedVals laterLights{laterVals(lights.vals, later.firstLater), lights.isms};
-    const Irradiance added = addValShading(scope, downsampled, laterLights, shading, kLaterShading);
-    return addUpsampling(scope, gbuffer, downsampled, added, kLaterUpsampling, bounce1);
+Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& others,
+                           const ShadowedVals& lights, uint32_t spacing, const ValShadingSettings& shading) {
+    if (lights.vals.empty()) return others;
+    const Surfaces downsampled = addDownsampled(scope, gbuffer, spacing, kLaterDownsampling);
+    const Irradiance added = addValShading(scope, downsampled, lights, shading, kLaterShading);
+    return addUpsampling(scope, gbuffer, downsampled, added, kLaterUpsampling, others);
 }
 
 }  // namespace ag::gi

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/core/setting_fields.h"
+#include "gi/cluster_members.h"
 #include "gi/settling.h"
 #include "gi/surface_emitters.h"
 #include "shaders/later_bounces/later_bounces_io.h"
@@ -22,6 +23,7 @@ struct LaterBouncesSettings {
     float share = 0.4f;          // of all clusters
     uint32_t spacing = 2;        // of the pixels bounced light is gathered at, to those later bounces are
     uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
+    uint32_t rays = 4;  // a frame of each point at rest to texels of either kind: of lights, of points
 
     static constexpr auto fields() {
         return std::tuple{
@@ -33,7 +35,10 @@ struct LaterBouncesSettings {
             SettingField{"spacing", &LaterBouncesSettings::spacing, 1, 4, "pixels",
                          "of those bounced light is gathered at, to those later bounces are"},
             SettingField{"settle_frames", &LaterBouncesSettings::settleFrames, 1, 1000000, "frames",
-                         "light goes on bouncing after anything last changed"}};
+                         "light goes on bouncing after anything last changed"},
+            SettingField{"rays", &LaterBouncesSettings::rays, 0, 64, "rays",
+                         "a frame of each point to what lights it, twice so many in all, where texel_rays "
+                         "are; 0: area lights alone; one each while something moves"}};
     }
 
     bool operator==(const LaterBouncesSettings&) const = default;
@@ -45,20 +50,26 @@ struct StraightLight {
     BufferHandle sky, lights;
 };
 
+// What rays of the points go to, and what they meet on the way.
+struct PointRays {
+    const RsmSet& rsm;
+    const ClusterMembers& members;
+    const Occluders& occluders;
+    uint32_t clusterCount;
+    bool still;  // nothing has changed since the frame before
+    uint32_t step;
+};
+
 // What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
 // for later bounces.
+// `rays`: what corrects it, if rays are cast at all.
 void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const StraightLight& straight,
-                        const ShadowedVals& lights, uint32_t firstLater,
-                        const LaterBouncesSettings& settings);
+                        const ShadowedVals& lights, uint32_t firstLater, const LaterBouncesSettings& settings,
+                        const PointRays* rays);
 
-struct LaterShading {
-    uint32_t firstLater = 0;  // of the area lights, the first that stands for later bounces
-    uint32_t spacing = 1;     // pixels from one that is gathered to the next
-};
-// `bounce1`, of the pixels of `gbuffer`, or nothing, and what the lights from `firstLater` on add to it. That
-// is smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
-Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& bounce1,
-                           const ShadowedVals& lights, const LaterShading& later,
-                           const ValShadingSettings& shading);
+// `others`, of the pixels of `gbuffer`, or nothing, and what `lights`, which stand for later bounces, add to
+// it. That is smoother: it is gathered at every spacing-th pixel and brought to the others along surfaces.
+Irradiance addLaterShading(GraphScope scope, const Surfaces& gbuffer, const Irradiance& others,
+                           const ShadowedVals& lights, uint32_t spacing, const ValShadingSettings& shading);
 
 }  // namespace ag::gi

@@ -56,9 +56,8 @@ RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
     rsm.lightRsmCount = layout.lightMapCount;
     rsm.lightFaceCount = layout.lightFaceCount;
-    const bool reflects = emitters.reflecting.side > 0, shines = emitters.emissive.side > 0;
-    if (shines) rsm.firstEmissive = layout.maps[layout.lightMapCount].firstCluster;
-    if (reflects) rsm.firstLater = layout.maps[layout.mapCount - 1].firstCluster;
+    rsm.emissiveCount = layout.emissiveClusters;
+    if (emitters.reflecting.side > 0) rsm.firstLater = layout.maps[layout.mapCount - 1].firstCluster;
     rsm.mapInfo = layout.maps;
     rsm.faceInfo = layout.faces;
     rsm.lightIds = layout.lightIds;

@@ -44,8 +44,8 @@ struct RsmSet {
     std::array<io::RsmFace, io::kMaxRsmFaces> faceInfo{};
     std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights
     uint32_t lightRsmCount = 0, lightFaceCount = 0;    // the first ones; those of surfaces may follow
-    // Of the clusters, the first of emissive surfaces, and the first of those that reflect; ~0: none.
-    uint32_t firstEmissive = ~0u, firstLater = ~0u;
+    // Clusters of emissive surfaces come before those of lights, those of surfaces that reflect after them.
+    uint32_t emissiveCount = 0, firstLater = ~0u;
     bool empty() const { return atlas.mapCount == 0; }
 };
 

@@ -246,9 +246,12 @@ RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t cl
     }
     layout.lightMapCount = layout.mapCount, layout.lightFaceCount = layout.faceCount;
     uint32_t sharing = shares.count;
-    if (emitters.emissive.side > 0) {
+    const bool shines = emitters.emissive.side > 0;
+    if (shines) {
         const float lights = fluxOf({sharers.data(), sharing});
-        sharers[sharing++] = {emissiveWeight(emitters.emissiveFlux, lights), layout.mapCount};
+        ++sharing;
+        std::shift_right(sharers.begin(), sharers.begin() + sharing, 1);
+        sharers[0] = {emissiveWeight(emitters.emissiveFlux, lights), layout.mapCount};
         addPointMap(layout, emitters.emissive, kEmissiveMapId, lights + emitters.emissiveFlux);
     }
     if (emitters.reflecting.side > 0) {
@@ -261,6 +264,7 @@ RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t cl
     if (layout.mapCount == 0) return layout;
     placeFaces(layout);
     shareClusters(layout, {sharers.data(), sharing}, clusterBudget);
+    layout.emissiveClusters = shines ? sharers[0].clusters : 0;
     return layout;
 }
 

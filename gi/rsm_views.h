@@ -11,6 +11,7 @@ struct RsmLayout {
     std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights
     uint32_t mapCount = 0, faceCount = 0;
     uint32_t lightMapCount = 0, lightFaceCount = 0;  // the first ones
+    uint32_t emissiveClusters = 0;                   // of all the first ones
     glm::uvec2 atlasSize{0};
     uint32_t largestFace = 0;
 };

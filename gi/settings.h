@@ -18,8 +18,12 @@
 
 namespace ag::gi {
 
+// What irradiance is of.
+enum class Term : uint32_t { kAll, kBounces, kFirstBounce, kLaterBounces, kEmissive };
+
 struct BounceLightSettings {
-    uint32_t spacing = 2;  // pixels from one that indirect light is gathered at to the next
+    Term term = Term::kAll;  // of our area lights' light; less than all for who looks at one alone
+    uint32_t spacing = 2;    // pixels from one that indirect light is gathered at to the next
     RsmSettings rsm;
     ImportanceSettings importance;
     ValClusteringSettings valClustering;

@@ -19,44 +19,11 @@ namespace {
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr uint32_t kMostRounds = 4;
 constexpr uint32_t kMostRaysOfTurn = 1 << 20;  // pixels of another turn draw other numbers
-constexpr float kFading = 31.0f / 32;          // of what is carried from before a change, a frame
+constexpr uint32_t kGrowingLength = 32;  // frames that means stand for while there are more and more bounces
+constexpr float kFading = 31.0f / 32;    // of what is carried from before a change, a frame
 // Names are literals, because the graph keeps views of them.
 constexpr std::array<std::string_view, kMostRounds> kFilterNames = {
     "texel_rays.filter0", "texel_rays.filter1", "texel_rays.filter2", "texel_rays.filter3"};
-
-BufferHandle uintBuffer(GraphScope scope, std::string_view name, uint64_t count) {
-    return scope.buffer(name, {.sizeBytes = count * 4, .texelFormat = VK_FORMAT_R32_UINT});
-}
-
-// Each cluster's texels, one after another.
-struct Members {
-    BufferHandle ranges, texels;  // first and count of each cluster; indices of texels
-};
-
-Members addMembers(GraphScope scope, const RsmSet& rsm, const Clusters& c) {
-    const uint64_t texelCount = uint64_t(rsm.tileCount) * io::kRsmTileSize * io::kRsmTileSize;
-    const Members m{uintBuffer(scope, "texel_rays.member_ranges", 2 * c.count),
-                    uintBuffer(scope, "texel_rays.members", texelCount)};
-    const BufferHandle ofTiles = uintBuffer(scope, "texel_rays.tile_members", c.mostPartials);
-    const glm::uvec2 push(c.count, rsm.tileCount);
-    scope.compute("texel_rays.count_members", "texel_rays/count_members.comp")
-        .read("clusters", c.clusters)
-        .read("partialOf", c.partialOf)
-        .read("partials", c.partials)
-        .write("memberRanges", m.ranges)
-        .write("tileMembers", ofTiles)
-        .push(push)
-        .dispatchGroups(c.count);
-    scope.compute("texel_rays.list_members", "texel_rays/list_members.comp")
-        .read("slotOfTexel", c.slotOfTexel)
-        .read("candidates", c.candidates)
-        .read("partialOf", c.partialOf)
-        .read("tileMembers", ofTiles)
-        .write("members", m.texels)
-        .push(push)
-        .dispatchGroups(rsm.tileCount);
-    return m;
-}
 
 // How likely pixels of a block are to draw each light.
 struct Choice {
@@ -90,9 +57,13 @@ struct Sent {
     ImageHandle drawn, near;
 };
 
+// Those that hemisphere's rays may find texels of.
+uint32_t mapsOf(const Vals& vals, const RsmSet& rsm) {
+    return vals.first < rsm.firstLater && vals.count > rsm.emissiveCount ? rsm.lightRsmCount : 0;
+}
+
 // `reach`: in the scene's extent.
 Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, float reach, uint32_t ray) {
-    const Members members = addMembers(t.scope, in.rsm, in.clusters);
     const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
     const Sent sent{t.scope.image("texel_rays.sent", info), t.scope.image("texel_rays.sent_near", info)};
     const BufferHandle noise = addBlueNoise(t.scope);
@@ -109,8 +80,8 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
         .read("counts", t.counts)
         .read("upTo", choice.upTo)
         .read("likely", choice.likely)
-        .read("memberRanges", members.ranges)
-        .read("members", members.texels)
+        .read("memberRanges", in.members.ranges)
+        .read("members", in.members.texels)
         .read("slotOfTexel", in.clusters.slotOfTexel)
         .read("candidates", in.clusters.candidates)
         .read("noise", noise)
@@ -119,7 +90,7 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
         .readWrite("found", choice.found)
         .push(io::CastPush{.tiles = t.push,
                            .atlasWidth = in.rsm.atlas.size.x,
-                           .mapCount = in.rsm.lightRsmCount,
+                           .mapCount = mapsOf(t.lights.vals, in.rsm),
                            .ray = ray,
                            .shift = blueNoiseShift(ray),
                            .offset = io::kRayOffset * in.occluders.extent,
@@ -174,6 +145,7 @@ struct Measured {
     ImageHandle areaLights;
     Sent sent;
     ImageHandle control;
+    bool grows;
 };
 
 Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const TexelRaysSettings& s,
@@ -198,9 +170,10 @@ Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const Te
         .write("controlMean", m.control.current)
         .write("moments", m.moments.current)
         .write("surface", seen.surface.current)
-        .push(io::RayAccumulatePush{.near = t.gbuffer.view.near,
-                                    .valid = begun && seen.known && m.sent.valid && seen.surface.valid,
-                                    .mostLength = float(s.mostLength)})
+        .push(io::RayAccumulatePush{
+            .near = t.gbuffer.view.near,
+            .valid = begun && seen.known && m.sent.valid && seen.surface.valid,
+            .mostLength = float(of.grows ? std::min(kGrowingLength, s.mostLength) : s.mostLength)})
         .step(settling.step)
         .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
     return m;
@@ -285,7 +258,7 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
 // What surfaces keep can be no brighter, over what it was, than the light that dimmed least.
 float dimmingOf(const RsmSet& rsm, TexelRaysHistory& history) {
     const std::span ids(history.lightIds.data(), history.lightCount);
-    float most = rsm.firstEmissive == ~0u ? 0 : 1;
+    float most = rsm.emissiveCount == 0 ? 0 : 1;
     std::array<float, io::kMaxBounceLights> strengths{};
     for (uint32_t i = 0; i < rsm.lightRsmCount; ++i) {
         strengths[i] = io::luminance(rsm.mapInfo[i].intensity);
@@ -310,7 +283,7 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
                         TexelRaysHistory& history) {
     if (!areaLights.image || !castsTexelRays(s, in.occluders)) return areaLights;
     uint64_t stands = combineHash(in.rsm.inputsVersion, combineHash(in.versions.view, in.versions.instances));
-    stands = combineHash(stands, in.turn);
+    stands = combineHash(stands, combineHash(in.turn, in.change));
     const uint32_t step = history.settling.advance(stands, in.frames);
     const Seen seen = addSeen(t, in.versions.origin, history);
     const float dimming = dimmingOf(in.rsm, history);
@@ -324,7 +297,8 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     // The first frame in which nothing changes knows no other, and light that is late says nothing of rays'
     // mean.
     const bool begun = history.settling.sinceChange > 1 && wasWhole;
-    const Means means = addMeans(t, {areaLights.image, sent, control}, seen, s, history.settling, begun);
+    const Means means =
+        addMeans(t, {areaLights.image, sent, control, in.grows}, seen, s, history.settling, begun);
     return addCorrection(t, areaLights, means, seen, s, history.settling, in.turn);
 }
 

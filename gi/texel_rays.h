@@ -8,7 +8,7 @@
 #include <array>
 
 #include "engine/core/setting_fields.h"
-#include "gi/rsm.h"
+#include "gi/cluster_members.h"
 #include "gi/settling.h"
 #include "gi/val_shading.h"
 
@@ -59,11 +59,14 @@ struct TexelRaysHistory {
 struct TexelRaysInputs {
     const RsmSet& rsm;
     const Clusters& clusters;
+    const ClusterMembers& members;
     const Occluders& occluders;
     const Versions& versions;
     uint32_t turn = 0;    // of the pixels of a square (gather_grid.h)
     uint32_t frames = 0;  // with new rays after anything last changed
+    uint64_t change = 0;  // number of the last change
     bool whole = true;    // every pixel's area lights are of this frame
+    bool grows = false;   // the light does yet, by later bounces
 };
 
 // Whether any are cast: `settings` ask for them, and there is something to trace them through.

@@ -44,13 +44,9 @@ Vals allocateVals(GraphScope scope, std::string_view vals, std::string_view shap
     return v;
 }
 
-Vals firstVals(Vals vals, uint32_t end) {
+Vals valsBetween(Vals vals, uint32_t begin, uint32_t end) {
     vals.count = std::min(vals.count, end);
-    return vals;
-}
-
-Vals laterVals(Vals vals, uint32_t first) {
-    vals.first = std::min(vals.count, first);
+    vals.first = std::min(vals.count, std::max(vals.first, begin));
     return vals;
 }
 

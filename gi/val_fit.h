@@ -13,14 +13,15 @@ struct Vals {
         shapes;  // io::ValShapeVectors; also a texel buffer of vec4; invalid for lights that are points
     uint32_t count = 0;  // padded with black lights to whole subgroups
     uint32_t first = 0;  // those before it are left alone
+
+    bool empty() const { return first >= count; }
 };
 
 // Room for `count` lights and the padding.
 Vals allocateVals(GraphScope scope, std::string_view vals, std::string_view shapes, uint32_t count);
 
-// The same without those from `end` on, or without those before `first`.
-Vals firstVals(Vals vals, uint32_t end);
-Vals laterVals(Vals vals, uint32_t first);
+// Of [begin, end) alone.
+Vals valsBetween(Vals vals, uint32_t begin, uint32_t end);
 
 // `traced`: occluders that have trees, if the lights may look at them: then none looks out from within a
 // solid.

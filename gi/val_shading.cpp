@@ -95,7 +95,7 @@ void addGloss(const ValTiles& t, const GlossGather& of, const WorkList& groups, 
 
 ValTiles addShadingTiles(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
                          const ValShadingSettings& settings, const ValShadingNames& names) {
-    if (lights.vals.count == 0) return {.scope = scope, .gbuffer = gbuffer, .lights = lights};
+    if (lights.vals.empty()) return {.scope = scope, .gbuffer = gbuffer, .lights = lights};
     return addValTiles(scope, gbuffer, lights, settings.nearReach, tileSizeFor(gbuffer.spacing), names.tiles);
 }
 

@@ -45,7 +45,7 @@ struct ValShadingNames {
     ValTileNames tiles;
     std::string_view far, near, farIrradiance, irradiance, farToward, toward;
 };
-constexpr ValShadingNames kFirstBounceShading = {
+constexpr ValShadingNames kFirstShading = {
     {"val_shading.classify", "val_shading.lists", "val_shading.counts"},
     "val_shading.far",
     "val_shading.near",
@@ -53,14 +53,6 @@ constexpr ValShadingNames kFirstBounceShading = {
     "val_shading.irradiance",
     "val_shading.far_toward",
     "val_shading.toward"};
-constexpr ValShadingNames kAllBouncesShading = {
-    {"val_shading.classify_all", "val_shading.lists_all", "val_shading.counts_all"},
-    "val_shading.far_all",
-    "val_shading.near_all",
-    "val_shading.far_irradiance_all",
-    "val_shading.irradiance_all",
-    "val_shading.far_toward_all",
-    "val_shading.toward_all"};
 constexpr ValShadingNames kLaterShading = {
     {"val_shading.classify_later", "val_shading.lists_later", "val_shading.counts_later"},
     "val_shading.far_later",
@@ -79,8 +71,7 @@ Irradiance addValShading(const ValTiles& tiles, const ValShadingSettings& settin
                          const ValShadingNames& names, const PixelShare& share = {});
 // Both.
 Irradiance addValShading(GraphScope scope, const Surfaces& gbuffer, const ShadowedVals& lights,
-                         const ValShadingSettings& settings,
-                         const ValShadingNames& names = kFirstBounceShading);
+                         const ValShadingSettings& settings, const ValShadingNames& names = kFirstShading);
 
 // What gloss adds to the Lambert part of the lights' reflection: rgba16f, W/(m² sr), of all pixels, gathered
 // at those of `downsampled` = addDownsampled(`all`) where neighbours reflect alike; pixels without a specular

@@ -150,44 +150,25 @@ ImageHandle addImportanceView(GraphScope scope, const RenderFrame& f) {
     return out;
 }
 
-bool hasEmissiveLights(const RenderFrame& f) {
-    return f.bounce.bounce1.image && f.bounce.rsm.firstEmissive != ~0u;
+// That of our area lights whose irradiance the layer is.
+gi::Term termOf(Layer layer) {
+    switch (layer) {
+        case Layer::kBounce1:
+            return gi::Term::kFirstBounce;
+        case Layer::kBounce2:
+            return gi::Term::kLaterBounces;
+        case Layer::kEmissive:
+            return gi::Term::kEmissive;
+        case Layer::kIndirect:
+            return gi::Term::kBounces;
+        default:
+            return gi::Term::kAll;
+    }
 }
 
-constexpr gi::ValShadingNames kTermShading = {
-    {"debug_view.classify", "debug_view.lists", "debug_view.counts"},
-    "debug_view.far",
-    "debug_view.near",
-    "debug_view.far_irradiance",
-    "debug_view.irradiance",
-    "debug_view.far_toward",
-    "debug_view.toward"};
-constexpr gi::ValShadingNames kLaterTermShading = {
-    {"debug_view.classify_later", "debug_view.lists_later", "debug_view.counts_later"},
-    "debug_view.far_later",
-    "debug_view.near_later",
-    "debug_view.far_irradiance_later",
-    "debug_view.irradiance_later",
-    "debug_view.far_toward_later",
-    "debug_view.toward_later"};
-
-// What some of the area lights send to each pixel, where emissive surfaces are gathered with the first
-// bounce.
-ImageHandle addTerm(GraphScope scope, const RenderFrame& f, uint32_t begin, uint32_t end,
-                    const gi::ValShadingNames& names = kTermShading) {
-    if (begin >= std::min(end, f.bounce.vals.count)) return {};
-    const gi::ShadowedVals lights{gi::laterVals(gi::firstVals(f.bounce.vals, end), begin), f.bounce.isms};
-    return gi::addValShading(scope, f.gbuffer.surfaces, lights, gi::ValShadingSettings{}, names).image;
-}
-
-ImageHandle addFirstBounceTerm(GraphScope scope, const RenderFrame& f) {
-    return addTerm(scope, f, 0, f.bounce.rsm.firstEmissive);
-}
-
-ImageHandle addBouncesTerm(GraphScope scope, const SceneView& scene, const RenderFrame& f) {
-    const ImageHandle first = addFirstBounceTerm(scope, f),
-                      later = addTerm(scope, f, f.bounce.firstCount, ~0u, kLaterTermShading);
-    return addSum(scope, scene, {first, later, {}});
+// What irradiance is of more than one term, with the first bounce beside it.
+bool hasLaterBeside(const gi::BounceLight& f) {
+    return f.irradiance.image && f.bounce1.image && f.irradiance.image != f.bounce1.image;
 }
 
 }  // namespace
@@ -218,6 +199,7 @@ bool isPicture(Layer layer) {
 RenderSettings settingsOf(Layer layer, RenderSettings s) {
     if (isPicture(layer)) return s;
     s.bounce.valShading.glossy = false;
+    if (s.technique == Technique::kAreaLights) s.bounce.term = termOf(layer);
     s.antialiasing.mode = Antialiasing::kOff;
     return s;
 }
@@ -227,7 +209,7 @@ bool hasLayer(const RenderFrame& f, Layer layer) {
         case Layer::kDirect:
             return bool(f.direct.image);
         case Layer::kEmissive:
-            return hasEmissiveLights(f);
+            return f.bounce.irradiance.image && f.bounce.term == gi::Term::kEmissive;
         case Layer::kSky:
             return bool(f.sky.image);
         case Layer::kIndirect:
@@ -235,8 +217,8 @@ bool hasLayer(const RenderFrame& f, Layer layer) {
         case Layer::kBounce1:
             return bool(f.bounce.bounce1.image);
         case Layer::kBounce2:
-            return f.bounce.irradiance.image && f.bounce.bounce1.image &&
-                   f.bounce.irradiance.image != f.bounce.bounce1.image;
+            return f.bounce.irradiance.image &&
+                   (f.bounce.term == gi::Term::kLaterBounces || hasLaterBeside(f.bounce));
         case Layer::kIrradiance:
             return f.direct.image || f.bounce.irradiance.image || f.sky.image;
         case Layer::kRsm:
@@ -267,20 +249,15 @@ ImageHandle addLayer(GraphScope scope, const SceneView& scene, const RenderFrame
         case Layer::kDirect:
             return addCopy(scope, scene, direct, {}, Copy::kLight);
         case Layer::kIndirect:
-            if (hasEmissiveLights(f)) return addBouncesTerm(scope, scene, f);
-            return addCopy(scope, scene, bounce, {}, Copy::kLight);
         case Layer::kEmissive:
-            return addCopy(scope, scene, addTerm(scope, f, f.bounce.rsm.firstEmissive, f.bounce.firstCount),
-                           {}, Copy::kLight);
+            return addCopy(scope, scene, bounce, {}, Copy::kLight);
         case Layer::kSky:
             return addCopy(scope, scene, f.sky.image, {}, Copy::kLight);
         case Layer::kBounce1:
-            if (hasEmissiveLights(f))
-                return addCopy(scope, scene, addFirstBounceTerm(scope, f), {}, Copy::kLight);
             return addCopy(scope, scene, f.bounce.bounce1.image, {}, Copy::kLight);
         case Layer::kBounce2:
-            return addCopy(scope, scene, f.bounce.irradiance.image, f.bounce.bounce1.image,
-                           Copy::kDifference);
+            if (!hasLaterBeside(f.bounce)) return addCopy(scope, scene, bounce, {}, Copy::kLight);
+            return addCopy(scope, scene, bounce, f.bounce.bounce1.image, Copy::kDifference);
         case Layer::kIrradiance:
             return addSum(scope, scene, {direct, bounce, f.sky.image});
         case Layer::kAlbedo:

@@ -14,7 +14,7 @@ BounceLight addSsvpLight(GraphScope scope, const BounceLightInputs& in, const Bo
     if (s.ismAtlas.enabled) f.isms = propagated.maps;
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 = addInterleavedShading(
-        scope, downsampled, {firstVals(f.vals, f.firstCount), f.isms}, s.valShading, ssvp.interleave);
+        scope, downsampled, {valsBetween(f.vals, 0, f.firstCount), f.isms}, s.valShading, ssvp.interleave);
     if (f.bounce1.image && f.vals.count > f.firstCount)
         f.irradiance = addInterleavedShading(scope, downsampled, {f.vals, f.isms}, s.valShading,
                                              ssvp.interleave, kAllInterleaved);

@@ -20,6 +20,9 @@ const uint kBvhMostItems = 1u << 27;
 // subtree.
 
 const float kBvhOffset = 1e-4f;  // of rays' starts from their surfaces, in the scene's extent
+// Rays end so far before their surfaces at least, in the scene's extent: short, for what is in a crease must
+// be met.
+const float kRayOffset = 2e-5f;
 
 struct BvhTriangle {  // 3 vec4
     vec3 corner;

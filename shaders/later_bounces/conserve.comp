@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// No more light arrives at all points together than was sent. Shadow maps that let some through a wall would hand it to both
+// What falls on the points straight is added to what area lights send. No more light arrives at all points together than was sent. Shadow maps that let some through a wall would hand it to both
 // of its sides, and with walls on all sides every round of the loop of bounces would make more of it.
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
@@ -24,8 +24,10 @@ void main() {
     for (uint i = lane; i < push.p.valCount; i += kConserveLanes) sent += fetchTexel(vals, int(i) * 3 + 2).xyz;
     for (uint i = lane; i < push.p.count; i += kConserveLanes) {
         float area = fetchTexel(texels, int(i) * 3).w;
-        if (kSky) sent += area * fetchTexel(sky, int(i)).rgb;
-        if (kStraight) sent += area * fetchTexel(straight, int(i)).rgb;
+        vec3 straightOn = kSky ? fetchTexel(sky, int(i)).rgb : vec3(0.0);
+        if (kStraight) straightOn += fetchTexel(straight, int(i)).rgb;
+        irradiance.items[i].xyz += straightOn;
+        sent += area * straightOn;
         arrived += area * irradiance.items[i].xyz;
     }
     sentBy[lane] = sent, arrivedAt[lane] = arrived;

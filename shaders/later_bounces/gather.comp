@@ -8,8 +8,6 @@ layout(constant_id = 0) const uint kShape = 4;
 layout(constant_id = 1) const int kVisibilityTaps = 0;
 layout(constant_id = 2) const uint kList = 0;
 layout(constant_id = 5) const bool kAdd = false;  // to what the other list's light made
-layout(constant_id = 6) const bool kSky = false;  // to what the sky sends
-layout(constant_id = 8) const bool kStraight = false;  // to what lights without a reflective shadow map send
 
 layout(set = 0, binding = 3) VEC4_TEXELS(vals);
 layout(set = 0, binding = 4) VEC4_TEXELS(shapes);
@@ -26,8 +24,6 @@ layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1) UINT_TEXELS(lists);
 layout(set = 0, binding = 2, scalar) readonly buffer Counts { uvec2 items[]; } counts;
 layout(set = 0, binding = 6, scalar) buffer Irradiance { vec4 items[]; } irradiance;
-layout(set = 0, binding = 7) VEC4_TEXELS(sky);
-layout(set = 0, binding = 8) VEC4_TEXELS(straight);
 
 struct Points {
     vec3 x[kPoints], n[kPoints], e[kPoints];
@@ -51,8 +47,6 @@ void main() {
         uint at = first + p;
         if (at >= push.p.count) continue;
         vec3 before = kAdd ? irradiance.items[at].xyz : vec3(0.0);
-        if (kSky) before += fetchTexel(sky, int(at)).rgb;
-        if (kStraight) before += fetchTexel(straight, int(at)).rgb;
         irradiance.items[at] = vec4(before + points.e[p], 1.0);
     }
 }

@@ -45,6 +45,23 @@ struct PointLightsPush {
     float reach;   // m: beyond it nothing stands
 };
 
+// Of a point's irradiance, W/m², over frames.
+struct PointMeans {
+    vec3 byRays, byLights;
+    float frames;
+};
+
+struct TracePush {
+    uint count;       // points
+    uint valCount;    // lights
+    uint firstLater;  // the first that stands for points
+    uint rays;        // a frame, to either kind
+    uint step;
+    uint valid;        // 0: there are no means before
+    float mostLength;  // frames that means stand for
+    float offset;      // m: rays leave and reach surfaces so far before them
+};
+
 const uint kRunPoints = 64;  // one after another, which share lists of near and far lights
 
 const uint kConserveLanes = 256;

@@ -11,10 +11,6 @@ namespace ag::io {
 
 const uint kDrawBlock = 8;  // pixels along the side of a block whose pixels draw lights alike; divides a tile
 
-// Rays end so far before their surfaces at least, in the scene's extent: short, for what is in a crease must
-// be met.
-const float kRayOffset = 2e-5f;
-
 // What a block's rays to texels of a light brought.
 struct RaysFound {
     float count;    // of rays

@@ -63,8 +63,8 @@ void main() {
     if (cluster >= push.settings.clusterCount) return;
     uint mapIndex = 0;
     for (uint i = 0; i < push.settings.mapCount; ++i)
-        if (cluster >= maps.items[i].firstCluster) mapIndex = i;
-    uint inMap = cluster - maps.items[mapIndex].firstCluster;  // before the first map: beyond any count
+        if (cluster - maps.items[i].firstCluster < maps.items[i].clusterCount) mapIndex = i;  // before it: beyond any count
+    uint inMap = cluster - maps.items[mapIndex].firstCluster;
     if (inMap >= maps.items[mapIndex].clusterCount) {
         seeds.items[cluster] = deadSeed(mapIndex);
         return;

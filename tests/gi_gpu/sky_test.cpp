@@ -21,7 +21,7 @@ SceneAsset floorUnder(Sky sky) {
 }
 
 Image layerAfter(Bench& b, Layer layer, uint32_t frames) {
-    return renderLayer(b.renderer, b.scene, b.size, b.settings, layer, frames);
+    return renderLayer(b.renderer, b.scene, b.size, render::settingsOf(layer, b.settings), layer, frames);
 }
 
 TEST(SkyLight, OpenGroundGetsAllOfIt) {

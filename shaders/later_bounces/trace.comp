@@ -1,0 +1,92 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+// Irradiance at the points from area lights, corrected by rays to texels of those lights: what rays found over what the lights
+// sent, both as means over frames. As a ratio it holds at once when the light grows with every further bounce.
+#include "common/form_factors.h"
+#include "common/sampling.h"
+#include "common/texels.glsl"
+#include "later_bounces/later_bounces_io.h"
+#include "rsm/rsm.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push { TracePush p; } push;
+
+layout(set = 0, binding = 0) VEC4_TEXELS(points);  // RsmTexel
+layout(set = 0, binding = 1) VEC4_TEXELS(texels);
+layout(set = 0, binding = 2) UINT_TEXELS(memberRanges);
+layout(set = 0, binding = 3) UINT_TEXELS(members);
+layout(set = 0, binding = 4) UVEC4_TEXELS(treeNodes);
+layout(set = 0, binding = 5) UVEC4_TEXELS(moverNodes);
+layout(set = 0, binding = 6) UVEC4_TEXELS(treePlaces);
+layout(set = 0, binding = 7, scalar) readonly buffer Triangles { vec4 items[]; } treeTriangles;
+layout(set = 0, binding = 8, scalar) buffer Irradiance { vec4 items[]; } irradiance;  // W/m²
+layout(set = 0, binding = 9, scalar) readonly buffer Before { PointMeans items[]; } before;
+layout(set = 0, binding = 10, scalar) writeonly buffer Means { PointMeans items[]; } means;
+#define AG_BVH_MOVERS
+#include "bvh/trace.glsl"
+
+const uint kDraws = 16;          // texels that one is resampled from
+const float kTrust = 2.0;        // frames: fewer rays say little
+const float kMostTimes = 4.0;    // area lights may be off
+const float kRaysAside = 0.02;   // of a texel's side: rays end before it
+
+uint firstMember(uint light) { return fetchTexel(memberRanges, int(light * 2)).x; }
+
+uint endOfMembers(uint endLight) { return firstMember(endLight - 1) + fetchTexel(memberRanges, int(endLight * 2 - 1)).x; }
+
+// A texel by what it would send if nothing stood between (resampling, Talbot et al. 2005), and what all would by this draw.
+struct Aim {
+    vec3 place;
+    vec3 sends;  // W/m²
+};
+
+Aim aimAt(vec3 x, vec3 n, uint first, uint end, inout uint random) {
+    float step = float(end - first) / float(kDraws), sum = 0.0;
+    Aim aim = Aim(x, vec3(0.0));
+    for (uint i = 0; i < kDraws; ++i) {
+        random = hashUint(random);
+        uint place = first + min(uint((float(i) + unitOf(random)) * step), end - first - 1);
+        RsmSurface s = AG_RSM_FETCH(texels, fetchTexel(members, int(place)).x);
+        float factor = s.weight > 0.0 ? diskVectorFactor(x, n, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
+        float want = factor * s.weight;
+        sum += want;
+        random = hashUint(random);
+        if (want <= 0.0 || unitOf(random) * sum >= want) continue;
+        aim = Aim(s.position + s.normal * max(push.p.offset, kRaysAside * sqrt(s.area)), s.flux / s.weight);
+    }
+    aim.sends *= sum * step;
+    return aim;
+}
+
+// By rays to the first bounce's texels and those of emissive surfaces, and to points.
+vec3 irradianceByRays(vec3 x, vec3 n, uint seed) {
+    uint firstOf[3] = uint[3](0, push.p.firstLater < push.p.valCount ? firstMember(push.p.firstLater) : endOfMembers(push.p.valCount),
+                              endOfMembers(push.p.valCount));
+    vec3 start = x + n * push.p.offset, e = vec3(0.0);
+    uint random = hashUint(seed);
+    for (uint r = 0; r < 2 * push.p.rays; ++r) {
+        uint kind = r & 1;
+        if (firstOf[kind] == firstOf[kind + 1]) continue;
+        Aim aim = aimAt(x, n, firstOf[kind], firstOf[kind + 1], random);
+        if (aim.sends.x + aim.sends.y + aim.sends.z <= 0.0) continue;
+        random = hashUint(random);
+        BvhRay ray = BvhRay(start, aim.place - start, 1.0, unitOf(random), true, 0, 0);
+        if (!traceOccluders(ray)) e += aim.sends;
+    }
+    return e / float(push.p.rays);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.p.count) return;
+    RsmSurface at = AG_RSM_FETCH(points, i);
+    vec3 byLights = irradiance.items[i].rgb, byRays = irradianceByRays(at.position, at.normal, i + push.p.step * push.p.count);
+    PointMeans m = push.p.valid == 1 ? before.items[i] : PointMeans(vec3(0.0), vec3(0.0), 0.0);
+    m.frames = min(m.frames, push.p.mostLength - 1.0) + 1.0;
+    m.byRays = mix(m.byRays, byRays, 1.0 / m.frames);
+    m.byLights = mix(m.byLights, byLights, 1.0 / m.frames);
+    means.items[i] = m;
+    vec3 known = m.byLights * (kTrust / m.frames);
+    irradiance.items[i].rgb = byLights * min((m.byRays + known) / max(m.byLights + known, vec3(1e-20)), vec3(kMostTimes));
+}
