@@ -16,9 +16,9 @@ constexpr size_t kMostSorted = 512;  // movers whose tree is worth building well
 
 struct Triangle {
     std::array<glm::vec3, 3> corners;
-    float opacity = 0;         // share that an alpha mask leaves
-    glm::vec3 reflectance{0};  // mean
-    float front = 0;           // as io::BvhTriangle's
+    float opacity = 0;  // share that an alpha mask leaves
+    SentAt sent;        // mean
+    float front = 0;    // as io::BvhTriangle's
 };
 
 Bounds boundsOf(const Triangle& t) {
@@ -76,37 +76,40 @@ TreeRange append(OccluderTrees& trees, const std::vector<Triangle>& triangles) {
     for (const uint32_t item : bvh.order) {
         const Triangle& t = triangles[item];
         const glm::vec3 corner = grid(t.corners[0]);
-        trees.triangles.push_back({.corner = corner,
-                                   .opacity = t.opacity,
-                                   .edge1 = grid(t.corners[1]) - corner,
-                                   .reflects = io::packReflectance(t.reflectance),
-                                   .edge2 = grid(t.corners[2]) - corner,
-                                   .front = t.front});
+        const bool emissive = t.sent.radiance != glm::vec3(0);
+        trees.triangles.push_back(
+            {.corner = corner,
+             .opacity = t.opacity,
+             .edge1 = grid(t.corners[1]) - corner,
+             .sends = emissive ? io::packRadiance(t.sent.radiance) : io::packReflectance(t.sent.reflectance),
+             .edge2 = grid(t.corners[2]) - corner,
+             .front = t.front + (emissive ? io::kEmissiveFront : 0)});
     }
     return {firstNode, uint32_t(trees.nodes.size()), bvh.nodes[0].bounds};
 }
 
 // Takes what depends on textures from some places on the triangle.
-void lookUp(const SampledScene& scene, uint32_t mesh, const std::array<glm::vec2, 3>& uvs,
-            ReflectanceAt reflectance, Triangle& t) {
+void lookUp(const SampledScene& scene, uint32_t mesh, const std::array<glm::vec2, 3>& uvs, LookUpSent sentAt,
+            Triangle& t) {
     constexpr uint32_t kPlaces = 16;
     uint32_t left = 0;
-    glm::vec3 sum(0);
+    SentAt sum;
     for (uint32_t i = 0; i < kPlaces; ++i) {
         const glm::vec2 xi = io::hammersley(i, kPlaces);
         const float root = std::sqrt(xi.x);
         const glm::vec2 uv = (1 - root) * uvs[0] + root * (1 - xi.y) * uvs[1] + root * xi.y * uvs[2];
         if (scene.isCutOut(mesh, uv)) continue;
         left += 1;
-        sum += reflectance(mesh, uv);
+        const SentAt sent = sentAt(mesh, uv);
+        sum.reflectance += sent.reflectance, sum.radiance += sent.radiance;
     }
     t.opacity = float(left) / kPlaces;
-    t.reflectance = sum / float(std::max(left, 1u));
+    const float share = 1.0f / float(std::max(left, 1u));
+    t.sent = {sum.reflectance * share, sum.radiance * share};
 }
 
 void appendTriangles(const SampledScene& scene, uint32_t meshIndex, const Strided<glm::vec3>& positions,
-                     const glm::mat4x3& transform, ReflectanceAt reflectance,
-                     std::vector<Triangle>& triangles) {
+                     const glm::mat4x3& transform, LookUpSent sentAt, std::vector<Triangle>& triangles) {
     const SampledMesh& mesh = scene.meshes[meshIndex];
     if (!mesh.blocksLight) return;
     const float outside = glm::determinant(glm::mat3(transform)) < 0 ? -1.0f : 1.0f;
@@ -120,8 +123,8 @@ void appendTriangles(const SampledScene& scene, uint32_t meshIndex, const Stride
             if (mesh.colors)
                 tint += glm::vec3(glm::unpackUnorm3x10_1x2(mesh.colors[mesh.indices[i + k]])) / 3.0f;
         }
-        lookUp(scene, meshIndex, uvs, reflectance, t);
-        t.reflectance *= tint;
+        lookUp(scene, meshIndex, uvs, sentAt, t);
+        t.sent.reflectance *= tint;
         if (t.opacity > 0) triangles.push_back(t);
     }
 }
@@ -158,21 +161,21 @@ io::BvhPlace placeOf(const TreeRange& tree, const glm::mat4x3& treeFromWorld) {
     return place;
 }
 
-OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of, ReflectanceAt reflectance) {
+OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of, LookUpSent sentAt) {
     OccluderTrees trees;
     trees.ofMesh.resize(scene.meshes.size());
     std::vector<Triangle> triangles;
     for (const SampledInstance& instance : scene.instances)
         if (instance.isPresent && !instance.movable)
             appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions,
-                            instance.worldFromLocal, reflectance, triangles);
+                            instance.worldFromLocal, sentAt, triangles);
     trees.everythingStatic = append(trees, triangles);
     if (of == TreesOf::kStatic) return trees;
     for (const SampledInstance& instance : scene.instances) {
         if (!instance.isPresent || !instance.movable || !trees.ofMesh[instance.mesh].empty()) continue;
         triangles.clear();
-        appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions, glm::mat4x3(1),
-                        reflectance, triangles);
+        appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions, glm::mat4x3(1), sentAt,
+                        triangles);
         trees.ofMesh[instance.mesh] = append(trees, triangles);
     }
     return trees;

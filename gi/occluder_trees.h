@@ -33,14 +33,19 @@ struct TracedBy {
     bool atRest = false;
 };
 
-// What a mesh reflects of light that bounces, at a place of its texture and without its vertices' colours.
-using ReflectanceAt = FunctionRef<glm::vec3(uint32_t mesh, glm::vec2 uv)>;
-constexpr auto kReflectsNothing = [](uint32_t, glm::vec2) { return glm::vec3(0); };
+// What a mesh sends at a place of its texture: of light that bounces, without its vertices' colours, and by
+// itself.
+struct SentAt {
+    glm::vec3 reflectance{0};
+    glm::vec3 radiance{0};  // W/(m² sr)
+};
+using LookUpSent = FunctionRef<SentAt(uint32_t mesh, glm::vec2 uv)>;
+constexpr auto kSendsNothing = [](uint32_t, glm::vec2) { return SentAt{}; };
 
 // Of all surfaces that block light, or of static ones alone. The cost is that of sorting all triangles some
-// 18 times: half a second for 250,000 on one core; and 16 calls of `reflectance` for each.
+// 18 times: half a second for 250,000 on one core; and 16 calls of `sentAt` for each.
 OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of = TreesOf::kAll,
-                                 ReflectanceAt reflectance = kReflectsNothing);
+                                 LookUpSent sentAt = kSendsNothing);
 
 // When trees are built: at once for what is new, else when what is static has not changed for some frames, as
 // long as it moves there are none.

@@ -62,6 +62,10 @@ uint32_t mapsOf(const Vals& vals, const RsmSet& rsm) {
     return vals.first < rsm.firstLater && vals.count > rsm.emissiveCount ? rsm.lightRsmCount : 0;
 }
 
+uint32_t emissiveMapOf(const Vals& vals, const RsmSet& rsm) {
+    return vals.first < rsm.emissiveCount ? rsm.lightRsmCount : ~0u;
+}
+
 // `reach`: in the scene's extent.
 Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, float reach, uint32_t ray) {
     const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
@@ -91,6 +95,7 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
         .push(io::CastPush{.tiles = t.push,
                            .atlasWidth = in.rsm.atlas.size.x,
                            .mapCount = mapsOf(t.lights.vals, in.rsm),
+                           .emissiveMap = emissiveMapOf(t.lights.vals, in.rsm),
                            .ray = ray,
                            .shift = blueNoiseShift(ray),
                            .offset = io::kRayOffset * in.occluders.extent,

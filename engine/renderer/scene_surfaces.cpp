@@ -212,9 +212,15 @@ glm::vec3 albedoOf(const RenderScene& scene, uint32_t instance, glm::vec2 uv, bo
 }
 
 gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of, bool whole) {
-    const AlbedoWindows albedo(*scene.geometry, whole);
+    const GeometryArrays& g = *scene.geometry;
+    const AlbedoWindows albedo(g, whole);
+    const auto sentAt = [&](uint32_t primitive, glm::vec2 uv) {
+        const Material& m = g.materials[g.primitives[primitive].material];
+        const bool shines = m.emissive != glm::vec3(0);
+        return gi::SentAt{albedo(primitive, uv), shines ? emissionAbout(g, m, uv) : glm::vec3(0)};
+    };
     return withSampledScene(scene,
-                            [&](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of, albedo); });
+                            [&](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of, sentAt); });
 }
 
 void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers,

@@ -28,10 +28,12 @@ struct BvhTriangle {  // 3 vec4
     vec3 corner;
     float opacity;  // share of it that an alpha mask leaves
     vec3 edge1;
-    float reflects;  // packReflectance of its mean
+    float sends;  // packReflectance of its mean; of one that shines packRadiance
     vec3 edge2;
-    float front;  // reflects where edge1 x edge2 points (1), on the other side (-1), on both (0)
+    float front;  // where edge1 x edge2 points (1), on the other side (-1), on both (0); kEmissiveFront more:
+                  // it shines
 };
+const float kEmissiveFront = 4.0f;
 
 // Where rays meet a tree. Read as whole words.
 struct BvhPlace {                                         // 4 uvec4
@@ -59,6 +61,19 @@ AG_FUNCTION vec3 unpackReflectance(float code) {
     vec3 high = floor(code * vec3(1.0f, 1.0f / 256.0f, 1.0f / 65536.0f));
     vec3 root = (high - 256.0f * floor(high * (1.0f / 256.0f))) / 255.0f;
     return root * root;
+}
+
+// Six bits a channel and of their exponent, of radiance from 2^-38 to 2^32.
+AG_FUNCTION float packRadiance(vec3 r) {
+    float most = max(r.x, max(r.y, r.z));
+    float exponent = clamp(floor(log2(max(most, 1e-20f))) + 1.0f, -31.0f, 32.0f);
+    vec3 code = min(floor(max(r, vec3(0.0f)) * exp2(6.0f - exponent) + 0.5f), vec3(63.0f));
+    return code.x + code.y * 64.0f + code.z * 4096.0f + (exponent + 31.0f) * 262144.0f;
+}
+AG_FUNCTION vec3 unpackRadiance(float code) {
+    vec4 high = floor(code * vec4(1.0f, 1.0f / 64.0f, 1.0f / 4096.0f, 1.0f / 262144.0f));
+    vec3 mantissa = vec3(high.x - 64.0f * high.y, high.y - 64.0f * high.z, high.z - 64.0f * high.w);
+    return mantissa * exp2(high.w - 31.0f - 6.0f);
 }
 
 AG_END

@@ -82,11 +82,13 @@ void main() {
     if (i >= push.p.count) return;
     RsmSurface at = AG_RSM_FETCH(points, i);
     vec3 byLights = irradiance.items[i].rgb, byRays = irradianceByRays(at.position, at.normal, i + push.p.step * push.p.count);
-    PointMeans m = push.p.valid == 1 ? before.items[i] : PointMeans(vec3(0.0), vec3(0.0), 0.0);
-    m.frames = min(m.frames, push.p.mostLength - 1.0) + 1.0;
-    m.byRays = mix(m.byRays, byRays, 1.0 / m.frames);
-    m.byLights = mix(m.byLights, byLights, 1.0 / m.frames);
-    means.items[i] = m;
-    vec3 known = m.byLights * (kTrust / m.frames);
-    irradiance.items[i].rgb = byLights * min((m.byRays + known) / max(m.byLights + known, vec3(1e-20)), vec3(kMostTimes));
+    bool known = push.p.valid == 1;
+    float frames = (known ? min(before.items[i].frames, push.p.mostLength - 1.0) : 0.0) + 1.0;
+    vec3 rays = known ? mix(before.items[i].byRays, byRays, 1.0 / frames) : byRays;
+    vec3 lights = known ? mix(before.items[i].byLights, byLights, 1.0 / frames) : byLights;
+    means.items[i].byRays = rays;
+    means.items[i].byLights = lights;
+    means.items[i].frames = frames;
+    vec3 trusted = lights * (kTrust / frames);
+    irradiance.items[i].rgb = byLights * min((rays + trusted) / max(lights + trusted, vec3(1e-20)), vec3(kMostTimes));
 }

@@ -123,7 +123,7 @@ Way wayOfNear(Receiver r, vec2 xi, float opaqueFrom) {
 Way wayToMiddle(Receiver r, TexelView v, Aim aim, float opaqueFrom) {
     vec3 middle = v.s.position + v.s.normal * max(push.p.offset, push.p.texelOffset * sqrt(v.s.area));
     BvhRay ray = BvhRay(r.start, middle - r.start, 1.0, opaqueFrom, true, 0, 0);
-    return Way(ray, 0, 0, aim.texel, 0.0, v.s.flux * (factorOf(r, v.s) * aim.weight));
+    return Way(ray, 0, 0, aim.texel, 0.0, v.s.flux * (drawnFactorOf(r, aim.map, v.s) * aim.weight));
 }
 
 // Through a place of its square: the light of what is met there.
@@ -148,7 +148,8 @@ Way wayOfDraw(Receiver r, Drawn d, Aim aim, vec2 xi, float opaqueFrom) {
 vec3 sentAlong(Receiver r, Way w) {
     if (!traceOccluders(w.ray)) return w.unblocked;
     Met met = surfaceMet(w.ray);
-    vec3 e = vec3(0.0);
+    bool shines = met.front && w.texel == kNoTexel && push.p.emissiveMap < kMaxRsmMaps;
+    vec3 e = shines ? met.shines * nearShare(w.ray.reach) : vec3(0.0);
     for (uint map = w.firstMap; map < w.endMap && met.front; ++map) {
         Sender from = senderAt(map, met, push.p.atlasWidth);
         float ofDraw = from.texel == w.texel ? w.weight : 0.0;

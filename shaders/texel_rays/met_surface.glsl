@@ -10,17 +10,19 @@ const float kAlike = 0.8;  // least cosine between normals of a texel and a tria
 struct Met {
     vec3 place, normal;  // on the ray's side, unit
     bool front;          // it reflects light to where the ray came from
-    vec3 reflectance;    // 0 of a masked triangle
+    vec3 reflectance;    // 0 of a masked triangle and of one that shines
+    vec3 shines;         // W/m²
 };
 
 Met surfaceMet(BvhRay ray) {
     vec3 normal = normalize(triangleNormal(ray.triangle, ray.place));
-    float front = treeTriangles.items[ray.triangle * 3 + 2].w;
+    float front = treeTriangles.items[ray.triangle * 3 + 2].w, sends = treeTriangles.items[ray.triangle * 3 + 1].w;
+    bool shines = front >= kEmissiveFront - 1.0;
+    front -= shines ? kEmissiveFront : 0.0;
     bool behind = dot(normal, ray.direction) > 0.0;
     bool whole = treeTriangles.items[ray.triangle * 3].w >= 1.0;
-    vec3 reflectance = unpackReflectance(treeTriangles.items[ray.triangle * 3 + 1].w);
     return Met(ray.origin + ray.direction * ray.reach, behind ? -normal : normal, front == 0.0 || (front < 0.0) == behind,
-               whole ? reflectance : vec3(0.0));
+               whole && !shines ? unpackReflectance(sends) : vec3(0.0), shines ? unpackRadiance(sends) * kPi : vec3(0.0));
 }
 
 // Whether a map's light reaches a place: a texel says it only about its middle.

@@ -32,15 +32,24 @@ float shareOfDraw(Receiver r, vec3 direction, float throughSquare, float chance)
     return draw > 0.0 ? draw / (draw + max(dot(r.normal, direction), 0.0) * kInvPi) : 0.0;
 }
 
+// Of emissive surfaces so far away: the hemisphere's ray has those that are near, draws to their points the others.
+float nearShare(float distance_) { return clamp(2.0 - 2.0 * distance_ / max(push.p.reach, 1e-20), 0.0, 1.0); }
+
 // What a texel sends to the receiver over its flux, if nothing stands between, 1/m².
 float factorOf(Receiver r, RsmSurface s) {
     return s.weight > 0.0 ? diskVectorFactor(r.position, r.normal, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
 }
 
+// The same of draws alone.
+float drawnFactorOf(Receiver r, uint map, RsmSurface s) {
+    float far = map == push.p.emissiveMap ? 1.0 - nearShare(distance(s.position, r.position)) : 1.0;
+    return far * factorOf(r, s);
+}
+
 // Mean of the channels of what a texel sends, times about the draws' share of it: never 0 where it sends anything.
 float wantOf(Receiver r, uint map, RsmSurface s, float chance) {
     const float kLeastShare = 1e-3;
-    float want = factorOf(r, s) * s.weight;
+    float want = drawnFactorOf(r, map, s) * s.weight;
     if (!bothFind(r, map, s)) return want;
     vec3 d = s.position - r.start;
     float d2 = dot(d, d), cosine = -dot(d, s.normal) * inversesqrt(d2);

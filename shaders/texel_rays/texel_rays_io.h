@@ -19,11 +19,12 @@ struct RaysFound {
 
 struct CastPush {
     ValShadingPush tiles;
-    uint atlasWidth;  // texels, of the maps
-    uint mapCount;    // of lights
-    uint ray;         // number of the frame's rays
-    vec3 shift;       // of the noise: the numbers a pixel draws for a direction, and for a light
-    float offset;     // m: rays leave and reach surfaces so far before them at least
+    uint atlasWidth;   // texels, of the maps
+    uint mapCount;     // of lights
+    uint emissiveMap;  // that of emissive surfaces; none: beyond all maps
+    uint ray;          // number of the frame's rays
+    vec3 shift;        // of the noise: the numbers a pixel draws for a direction, and for a light
+    float offset;      // m: rays leave and reach surfaces so far before them at least
     // The same in these pixels and in texels: a rasteriser draws between corners it has moved, and so beside
     // surfaces.
     float pixelOffset, texelOffset;

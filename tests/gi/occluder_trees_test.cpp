@@ -132,7 +132,7 @@ TreeSums sumsOf(std::span<const io::BvhTriangle> triangles) {
         const glm::dvec3 across = 0.5 * glm::dvec3(glm::cross(t.edge1, t.edge2));
         const glm::dvec3 middle = glm::dvec3(t.corner) + glm::dvec3(t.edge1 + t.edge2) / 3.0;
         sums.area += glm::length(across);
-        sums.reflected += glm::length(across) * glm::dvec3(io::unpackReflectance(t.reflects));
+        sums.reflected += glm::length(across) * glm::dvec3(io::unpackReflectance(t.sends));
         sums.volume += double(t.front) * glm::dot(across, middle) / 3;
     }
     return sums;
@@ -160,6 +160,25 @@ TEST(OccluderTrees, TrianglesKnowWhatTheyReflectAndToWhichSide) {
         // Of cubes: a sixth of the area times the side.
         const double side = std::sqrt(sums.area / double(trees.triangles.size()) * 2);
         EXPECT_NEAR(sums.volume / (sums.area / 6 * side), 1, 1e-3) << movable;
+    }
+}
+
+TEST(OccluderTrees, TrianglesThatShineKnowTheirRadiance) {
+    for (const glm::vec3 radiance : {glm::vec3(20, 7, 0.5f), glm::vec3(3e-4f, 0, 1e-4f), glm::vec3(64)}) {
+        scenegen::SceneBuilder builder("sign");
+        const uint32_t glow = builder.emissive("glow", glm::vec3(0.5f), radiance);
+        builder.quad("square", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, glow);
+        builder.camera("camera", {0, 0, 5}, {0, 0, 0}, 60);
+        const SceneAsset asset = builder.finish();
+        const OccluderTrees trees = render::buildTrees(staticScene(asset));
+        ASSERT_EQ(trees.triangles.size(), 2u);
+        for (const io::BvhTriangle& t : trees.triangles) {
+            EXPECT_EQ(t.front, 1 + io::kEmissiveFront);
+            const glm::vec3 stored = io::unpackRadiance(t.sends);
+            const float most = std::max({radiance.x, radiance.y, radiance.z});
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(stored[c], radiance[c], most / 63);
+        }
     }
 }
 

