@@ -91,7 +91,7 @@ ImageHandle addLight(GraphScope scope, const GBuffer& gbuffer, const SceneView& 
     gi::BounceLight bounce;
     if (s.technique == Technique::kAreaLights)
         bounce = gi::addBounceLightOn(scope, surfaces, f.bounce, s.bounce);
-    DirectLight direct = addSunLighting(scope, scene, surfaces, f.shadows, glossy);
+    DirectLight direct = addSunLighting(scope, scene, surfaces, f.shadows, nullptr, glossy);
     const PunctualLights lights{
         addPunctualLists(scope, scene, surfaces, clusters, s.punctualLighting.tiles, h.punctualLists),
         f.punctual.shadows};

@@ -2,6 +2,10 @@
 
 #include <array>
 
+#include "engine/core/hash.h"
+#include "engine/renderer/indirect_light.h"
+#include "gi/occluder_trees.h"
+#include "shaders/bvh/bvh_io.h"
 #include "shaders/direct_lighting/direct_lighting_io.h"
 
 namespace ag::render {
@@ -33,25 +37,39 @@ void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy,
 }
 
 DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                           const ShadowMaps& shadows, bool glossy) {
+                           const ShadowMaps& shadows, const gi::Occluders* traced, bool glossy) {
     DirectLight result;
     for (uint32_t i = 0; i < shadows.sunCount; ++i) {
         const RenderLight& light = scene.scene->lights[shadows.suns[i].light];
         const bool shadow = shadows.suns[i].viewCount > 0;
-        PassBuilder pass = scope.compute(kPassNames[i], shadow ? "direct_lighting/add_sun_shadowed.comp"
-                                                               : "direct_lighting/add_sun_unshadowed.comp");
+        const std::string_view shadowed =
+            traced ? "direct_lighting/add_sun_traced.comp" : "direct_lighting/add_sun_shadowed.comp";
+        PassBuilder pass =
+            scope.compute(kPassNames[i], shadow ? shadowed : "direct_lighting/add_sun_unshadowed.comp");
         pass.sample("normalMap", gbuffer.normal)
             .sample("depthMap", gbuffer.depth)
             .read("camera", scene.camera)
             .push(io::Sun{.direction = light.direction,
                           .firstView = shadows.suns[i].firstView,
                           .irradiance = light.intensity,
-                          .viewCount = shadows.suns[i].viewCount})
+                          .viewCount = shadows.suns[i].viewCount,
+                          .rayOffset = io::kRayOffset * scene.extent,
+                          .rayReach = gi::kRayReaches * scene.extent})
             .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
         if (shadow) pass.read("shadowViews", shadows.views).sample("shadowAtlas", shadows.atlas);
+        if (shadow && traced) gi::readTrees(pass, traced->trees);
         bindDirectLight(scope, gbuffer, glossy, pass, result);
     }
     return result;
+}
+
+bool standsStill(const SceneView& scene, const gi::Occluders& occluders, gi::Settling& settling) {
+    const gi::Versions v = versionsOf(scene);
+    uint64_t seen = occluders.trees.staticVersion;
+    for (const uint64_t part : {v.scene, v.instances, v.lights, v.view, v.origin})
+        seen = combineHash(seen, part);
+    settling.advance(seen, 0);
+    return settling.sinceChange > 0;
 }
 
 }  // namespace ag::render

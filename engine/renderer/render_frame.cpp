@@ -22,7 +22,10 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     // Direct light
     f.shadows = addSunShadows(scope, scene, s.shadowMaps, h.sunShadows);
     const bool glossy = s.bounce.valShading.glossy;
-    f.direct = addSunLighting(scope, scene, surfaces, f.shadows, glossy);
+    const gi::Occluders occluders = occludersOf(scene);
+    const bool byRays = s.shadowMaps.rays && gi::castsTexelRays(s.bounce.texelRays, occluders) &&
+                        standsStill(scene, occluders, h.sunRays);
+    f.direct = addSunLighting(scope, scene, surfaces, f.shadows, byRays ? &occluders : nullptr, glossy);
     const LightClusters& lights =
         clusterLights(*scene.scene, h.punctualRelevance, s.lightClusters, h.lightClusters);
     f.punctual.shadows =
@@ -34,7 +37,6 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
         addPunctualRelevance(scope, f.bounce.viewPoints, f.punctual.lists, h.punctualRelevance);
 
     // Light of the sky
-    const gi::Occluders occluders = occludersOf(scene);
     f.sky = gi::addSkyLight(scope, surfaces, s.bounce.spacing, {scene.sky, occluders, versionsOf(scene)},
                             s.bounce.sky, h.sky);
 

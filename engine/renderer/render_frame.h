@@ -29,6 +29,7 @@ struct RenderHistory {
     PictureVersion picture;
     AntialiasingHistory antialiasing;
     SunShadowHistory sunShadows;
+    gi::Settling sunRays;
     LightClusterHistory lightClusters;
     PunctualShadowHistory punctualShadows;
     PunctualListsHistory punctualLists;

@@ -16,6 +16,7 @@ struct ShadowMapSettings {
     uint32_t cascades = 3;       // of each sun, 1 to 4
     float cascadeReach = 1;      // part of the way to the scene's end that cascades share out
     float cascadeSplit = 0.75f;  // 0 uniform, 1 logarithmic
+    bool rays = true;            // instead while nothing changes, where texel_rays are
 
     static constexpr auto fields() {
         return std::tuple{
@@ -26,7 +27,9 @@ struct ShadowMapSettings {
                 "cascade_reach", &ShadowMapSettings::cascadeReach, 0.001, 1, "",
                 "part of the way to the scene's end that cascades share out; the last one goes on to it"},
             SettingField{"cascade_split", &ShadowMapSettings::cascadeSplit, 0, 1, "",
-                         "0 uniform, 1 logarithmic"}};
+                         "0 uniform, 1 logarithmic"},
+            SettingField{"rays", &ShadowMapSettings::rays, 0, 0, "",
+                         "while nothing changes suns' shadows are found by rays, where texel_rays are on"}};
     }
 
     bool operator==(const ShadowMapSettings&) const = default;

@@ -44,6 +44,9 @@ bool meetsBox(BvhGridRay r, uvec4 node, float reach) {
 float drawnFor(int triangle) { return float(uint(triangle) * 0x9e3779b9u >> 8u) / 16777216.0; }
 
 // Möller & Trumbore 1997, both sides; the reach, shorter where the triangle is met before.
+#ifndef AG_BVH_SHARE
+#define AG_BVH_SHARE(opaqueFrom, triangle) fract(opaqueFrom + drawnFor(triangle))
+#endif
 float meetTriangle(BvhGridRay r, int triangle, float reach, float opaqueFrom) {
     vec4 corner = treeTriangles.items[triangle * 3];
     vec3 edge1 = treeTriangles.items[triangle * 3 + 1].xyz, edge2 = treeTriangles.items[triangle * 3 + 2].xyz;
@@ -51,7 +54,7 @@ float meetTriangle(BvhGridRay r, int triangle, float reach, float opaqueFrom) {
     float det = dot(edge1, p), inverse = det != 0.0 ? 1.0 / det : 0.0;
     float u = dot(s, p) * inverse, v = dot(r.direction, q) * inverse, t = dot(edge2, q) * inverse;
     const float kSlack = 1e-6;  // no ray slips through where triangles meet
-    bool hit = det != 0.0 && min(u, v) >= -kSlack && u + v <= 1.0 + kSlack && t > 0.0 && corner.w > fract(opaqueFrom + drawnFor(triangle));
+    bool hit = det != 0.0 && min(u, v) >= -kSlack && u + v <= 1.0 + kSlack && t > 0.0 && corner.w > AG_BVH_SHARE(opaqueFrom, triangle);
     return hit ? min(t, reach) : reach;
 }
 

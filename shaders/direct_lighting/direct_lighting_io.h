@@ -18,6 +18,8 @@ struct Sun {
     uint firstView;   // index into the shadow views
     vec3 irradiance;  // W/m² on a plane facing the light
     uint viewCount;   // 0: casts no shadow
+    float rayOffset;  // m: shadow rays leave surfaces so far before them
+    float rayReach;   // m: beyond it nothing stands
 };
 
 struct PunctualLight {    // 4 vec4; sorted by cluster

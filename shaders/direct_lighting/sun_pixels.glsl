@@ -1,4 +1,4 @@
-// Irradiance straight from a sun, one pass each. Shadow by nine taps of its cascades.
+// Irradiance straight from a sun, one pass each. Shadow by nine taps of its cascades, or by a ray.
 #include "gbuffer/gbuffer.glsl"
 #include "shadow_maps/shadow_maps_io.h"
 
@@ -24,6 +24,30 @@ float sunShare(vec3 position, vec3 normal, float viewDepth) {
     return litShare(ShadowMap(view.clipFromWorld, view.origin, view.size), view.texelSize, position, normal, -push.sun.direction);
 }
 #endif
+#ifdef AG_TRACED
+#include "common/texels.glsl"
+layout(set = 0, binding = 20) UVEC4_TEXELS(treeNodes);
+layout(set = 0, binding = 21) UVEC4_TEXELS(moverNodes);
+layout(set = 0, binding = 22) UVEC4_TEXELS(treePlaces);
+layout(set = 0, binding = 23, scalar) readonly buffer TreeTriangles { vec4 items[]; } treeTriangles;
+#define AG_BVH_MOVERS
+#define AG_BVH_SHARE(opaqueFrom, triangle) (opaqueFrom)  // the same for all: 0 meets any triangle, kWholeOnly none that is masked
+#include "bvh/trace.glsl"
+
+// Behind masked surfaces alone, of which trees know the mean, the maps know more.
+const float kWholeOnly = 0.999;
+float tracedShare(vec3 position, vec3 normal, float viewDepth) {
+    vec3 start = position + (normal + normalize(camera.camera.position - position)) * push.sun.rayOffset;
+    bool masked = false;
+    for (int i = 0; i < 2; ++i) {
+        BvhRay ray = BvhRay(start, -push.sun.direction, push.sun.rayReach, masked ? kWholeOnly : 0.0, true, 0, 0);
+        if (!traceOccluders(ray)) break;
+        masked = treeTriangles.items[ray.triangle * 3].w < 1.0;
+        if (!masked) return 0.0;
+    }
+    return masked ? sunShare(position, normal, viewDepth) : 1.0;
+}
+#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -34,7 +58,10 @@ void main() {
     vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0);
     vec3 normal = normalAndRoughness.xyz;
     vec3 e = push.sun.irradiance * max(dot(normal, -push.sun.direction), 0.0);
-#ifdef AG_SHADOW
+    bool faces = depth > 0.0 && e != vec3(0.0);
+#if defined(AG_TRACED)
+    e *= faces ? tracedShare(position, normal, camera.camera.near / max(depth, 1e-9)) : 0.0;
+#elif defined(AG_SHADOW)
     e *= sunShare(position, normal, camera.camera.near / max(depth, 1e-9));
 #endif
     if (depth <= 0.0) e = vec3(0.0);
