@@ -52,7 +52,7 @@ SurfaceEmitters addSurfaceEmitters(GraphScope scope, const World& world, const O
     if (reflecting > 0) {
         const uint64_t inputs =
             combineHash(combineHash(combineHash(versions.lights, skyStep), versions.instances),
-                        combineHash(versions.camera, hashValue(glm::vec2(s.share, s.feedback))));
+                        combineHash(versions.camera, hashValue(glm::vec3(s.share, s.feedback, s.rays))));
         step = scope.isHeld() ? settling.step : settling.advance(inputs, s.settleFrames);
         e.irradiance = scope.historyBuffer(
             "later_bounces.irradiance", {.sizeBytes = reflecting * sizeof(glm::vec4), .texelFormat = vec4});

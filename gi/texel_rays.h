@@ -1,4 +1,4 @@
-// The first bounce of area lights corrected by rays while nothing moves. The lights' sum is smooth, but wrong
+// The light of area lights corrected by rays while nothing moves. The lights' sum is smooth, but wrong
 // where a light is near or its shadow map is coarse. Each pixel measures the error with two rays a frame to
 // texels of the reflective shadow maps, through the occluders' trees; the area lights' sum is a control
 // variate of that measurement. Means over frames, filtered by their variance. While something changes, no
@@ -25,7 +25,7 @@ struct TexelRaysSettings {
 
     static constexpr auto fields() {
         return std::tuple{SettingField{"enabled", &TexelRaysSettings::enabled, 0, 0, "",
-                                       "correct the first bounce of area lights by rays to texels"},
+                                       "correct the light of area lights by rays to texels while nothing changes"},
                           SettingField{"reach", &TexelRaysSettings::reach, 0, 1, "scene extents",
                                        "of rays to whatever light is near"},
                           SettingField{"most_length", &TexelRaysSettings::mostLength, 1, 2048, "frames",

@@ -54,6 +54,7 @@ DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::S
                           .irradiance = light.intensity,
                           .viewCount = shadows.suns[i].viewCount,
                           .rayOffset = io::kRayOffset * scene.extent,
+                          .pixelOffset = traced ? traced->trees.snapping : 0,
                           .rayReach = gi::kRayReaches * scene.extent})
             .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
         if (shadow) pass.read("shadowViews", shadows.views).sample("shadowAtlas", shadows.atlas);

@@ -216,8 +216,9 @@ Image readImage(Renderer& renderer, ImageHandle handle) {
 Image renderLayer(Renderer& renderer, const RenderScene& scene, glm::uvec2 size,
                   const RenderSettings& settings, Layer layer, uint32_t frames) {
     ImageHandle shown;
+    const RenderSettings alone = settingsOf(layer, settings);
     for (uint32_t i = 0; i < std::max(frames, 1u); ++i)
-        renderer.render(scene, size, settings, {.timing = TimingMode::kOff},
+        renderer.render(scene, size, alone, {.timing = TimingMode::kOff},
                         [&](GraphScope scope, const SceneView& view, const RenderFrame& frame) {
                             shown = addLayer(scope, view, frame, layer);
                             if (shown) scope.output(shown);

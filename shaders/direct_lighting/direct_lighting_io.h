@@ -14,12 +14,13 @@ const uint kPunctualTileSize = 16;            // pixels
 const uint kNoLightCluster = 0xffffffffu;
 
 struct Sun {
-    vec3 direction;   // the way the light travels, unit
-    uint firstView;   // index into the shadow views
-    vec3 irradiance;  // W/m² on a plane facing the light
-    uint viewCount;   // 0: casts no shadow
-    float rayOffset;  // m: shadow rays leave surfaces so far before them
-    float rayReach;   // m: beyond it nothing stands
+    vec3 direction;     // the way the light travels, unit
+    uint firstView;     // index into the shadow views
+    vec3 irradiance;    // W/m² on a plane facing the light
+    uint viewCount;     // 0: casts no shadow
+    float rayOffset;    // m: shadow rays leave surfaces so far before them at least
+    float pixelOffset;  // the same in pixels: a rasteriser draws between corners it has moved
+    float rayReach;     // m: beyond it nothing stands
 };
 
 struct PunctualLight {    // 4 vec4; sorted by cluster

@@ -36,8 +36,9 @@ layout(set = 0, binding = 23, scalar) readonly buffer TreeTriangles { vec4 items
 
 // Behind masked surfaces alone, of which trees know the mean, the maps know more.
 const float kWholeOnly = 0.999;
-float tracedShare(vec3 position, vec3 normal, float viewDepth) {
-    vec3 start = position + (normal + normalize(camera.camera.position - position)) * push.sun.rayOffset;
+float tracedShare(vec3 position, vec3 normal, float pixelWidth, float viewDepth) {
+    float offset = max(push.sun.rayOffset, push.sun.pixelOffset * pixelWidth);
+    vec3 start = position + (normal + normalize(camera.camera.position - position)) * offset;
     bool masked = false;
     for (int i = 0; i < 2; ++i) {
         BvhRay ray = BvhRay(start, -push.sun.direction, push.sun.rayReach, masked ? kWholeOnly : 0.0, true, 0, 0);
@@ -58,9 +59,10 @@ void main() {
     vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0);
     vec3 normal = normalAndRoughness.xyz;
     vec3 e = push.sun.irradiance * max(dot(normal, -push.sun.direction), 0.0);
-    bool faces = depth > 0.0 && e != vec3(0.0);
 #if defined(AG_TRACED)
-    e *= faces ? tracedShare(position, normal, camera.camera.near / max(depth, 1e-9)) : 0.0;
+    bool faces = depth > 0.0 && e != vec3(0.0);
+    float pixelWidth = distance(position, worldFromPixel(camera.camera.worldFromClip, size, pixel + ivec2(1, 0), depth));
+    e *= faces ? tracedShare(position, normal, pixelWidth, camera.camera.near / max(depth, 1e-9)) : 0.0;
 #elif defined(AG_SHADOW)
     e *= sunShare(position, normal, camera.camera.near / max(depth, 1e-9));
 #endif

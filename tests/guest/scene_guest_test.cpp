@@ -196,6 +196,7 @@ Compared compare(const RenderScene& scene) {
     renderer.load(*scene.geometry);
     render::RenderSettings settings;
     settings.bounce.laterBounces.enabled = true;
+    settings.bounce.texelRays.enabled = false;  // the library has none
     const auto layer = [&](render::Layer of, uint32_t frames) {
         return render::renderLayer(renderer, scene, kSize, render::settingsOf(of, settings), of, frames);
     };

@@ -1,0 +1,70 @@
+// What rays add to a picture that stands still, term by term against path tracing.
+#include "engine/core/image_difference.h"
+#include "tests/gi_gpu/bench.h"
+#include "tools/reference/reference.h"
+#include "tools/scenegen/scenes.h"
+
+namespace ag::gi {
+using namespace render;
+namespace {
+
+Image traced(const Bench& b, Layer layer, uint32_t bounces, uint32_t samples) {
+    const reference::RayScene rays(b.scene);
+    JobRunner runner(2);
+    const std::string name(layerInfo(layer).name);
+    const reference::Reference all = reference::makeReference(
+        rays, b.size, {.paths = {.bounces = bounces}, .samplesPerPixel = samples, .layer = name}, runner,
+        [](double) {});
+    return *reference::layerOf(all, name);
+}
+
+Image atRest(Bench& b, Layer layer, uint32_t frames) {
+    return renderLayer(b.renderer, b.scene, b.size, settingsOf(layer, b.settings), layer, frames);
+}
+
+double errorOf(const Image& image, const Image& truth) {
+    return compareImages(truth, image)->relativeRmse;
+}
+
+TEST(RaysAtRest, SunsShadowsAreAsTraced) {
+    Bench b(*scenegen::buildScene("courtyard", 0), {96, 54});
+    const Image truth = traced(b, Layer::kDirect, 0, 2);
+    const double rays = errorOf(atRest(b, Layer::kDirect, 6), truth);
+    b.settings.shadowMaps.rays = false;
+    const double maps = errorOf(atRest(b, Layer::kDirect, 6), truth);
+    std::printf("courtyard, direct: relative RMSE %.4f, by maps %.4f\n", rays, maps);
+    EXPECT_LT(rays, 0.5 * maps);
+}
+
+// Tubes of 6 cm on walls: points on them, far from each other, leave blots.
+TEST(RaysAtRest, WhatIsNearAnEmissiveSurfaceIsLitByAllOfIt) {
+    Bench b(*scenegen::buildScene("neon", 0), {96, 54});
+    const Image truth = traced(b, Layer::kEmissive, 0, 512);
+    const auto error = [&](float reach) {
+        b.settings.bounce.texelRays = {.reach = reach, .settleFrames = 64};
+        return errorOf(atRest(b, Layer::kEmissive, framesToRest(b.settings.bounce)), truth);
+    };
+    const double near = error(0.05f), points = error(0);
+    std::printf("neon: relative RMSE %.3f, by points alone %.3f\n", near, points);
+    EXPECT_LT(near, 0.8 * points);
+}
+
+TEST(RaysAtRest, LaterBouncesLoseLittleLight) {
+    Bench b(*scenegen::buildScene("courtyard", 0), {96, 54});
+    b.settings = {};
+    addBounces(b.settings);
+    b.settings.bounce.texelRays = {.settleFrames = 64};
+    b.settings.bounce.sky.settleFrames = 64;
+    const double truth = meanOf(traced(b, Layer::kIndirect, 16, 64));
+    const auto ratio = [&](uint32_t rays) {
+        b.settings.bounce.laterBounces.rays = rays;
+        return meanOf(atRest(b, Layer::kIndirect, framesToRest(b.settings.bounce))) / truth;
+    };
+    const double with = ratio(4), without = ratio(0);
+    std::printf("courtyard, all bounces: mean ratio %.3f, %.3f without rays of points\n", with, without);
+    EXPECT_NEAR(with, 1, 0.08);
+    EXPECT_GT(with, without + 0.01);
+}
+
+}  // namespace
+}  // namespace ag::gi
