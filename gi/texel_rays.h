@@ -24,20 +24,21 @@ struct TexelRaysSettings {
     float tolerance = 1;          // standard deviations by which the light of taps may differ
 
     static constexpr auto fields() {
-        return std::tuple{SettingField{"enabled", &TexelRaysSettings::enabled, 0, 0, "",
-                                       "correct the light of area lights by rays to texels while nothing changes"},
-                          SettingField{"reach", &TexelRaysSettings::reach, 0, 1, "scene extents",
-                                       "of rays to whatever light is near"},
-                          SettingField{"most_length", &TexelRaysSettings::mostLength, 1, 2048, "frames",
-                                       "a pixel's mean stands for"},
-                          SettingField{"settle_frames", &TexelRaysSettings::settleFrames, 0, 1000000,
-                                       "frames", "with new rays after anything last changed"},
-                          SettingField{"all_pixels", &TexelRaysSettings::allPixels, 0, 0, "",
-                                       "then gather at the pixels left out, too, while nothing changes"},
-                          SettingField{"rounds", &TexelRaysSettings::rounds, 0, 4, "rounds",
-                                       "of the filter, each twice as wide"},
-                          SettingField{"tolerance", &TexelRaysSettings::tolerance, 0.01, 1000, "deviations",
-                                       "by which the light of taps may differ"}};
+        return std::tuple{
+            SettingField{"enabled", &TexelRaysSettings::enabled, 0, 0, "",
+                         "correct the light of area lights by rays to texels while nothing changes"},
+            SettingField{"reach", &TexelRaysSettings::reach, 0, 1, "scene extents",
+                         "of rays to whatever light is near"},
+            SettingField{"most_length", &TexelRaysSettings::mostLength, 1, 2048, "frames",
+                         "a pixel's mean stands for"},
+            SettingField{"settle_frames", &TexelRaysSettings::settleFrames, 0, 1000000, "frames",
+                         "with new rays after anything last changed"},
+            SettingField{"all_pixels", &TexelRaysSettings::allPixels, 0, 0, "",
+                         "then gather at the pixels left out, too, while nothing changes"},
+            SettingField{"rounds", &TexelRaysSettings::rounds, 0, 4, "rounds",
+                         "of the filter, each twice as wide"},
+            SettingField{"tolerance", &TexelRaysSettings::tolerance, 0.01, 1000, "deviations",
+                         "by which the light of taps may differ"}};
     }
 
     bool operator==(const TexelRaysSettings&) const = default;
