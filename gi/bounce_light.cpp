@@ -30,6 +30,7 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     // Gather on screen, at some of the pixels
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     const GatherGrid grid = gatherGridOf(scope, in, s, h, f);
+    f.still = grid.still;
     const Surfaces gathered =
         grid.turn == 0 ? downsampled
                        : addDownsampled(scope, in.surfaces, {s.spacing, grid.place}, kOtherDownsampling);

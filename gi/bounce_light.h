@@ -51,6 +51,7 @@ struct BounceLight {
     Clusters clusters;
     Vals vals;
     Term term = Term::kAll;   // of irradiance
+    bool still = false;       // rays are cast: nothing has changed since the frame before
     uint32_t firstCount = 0;  // of the lights, those of emissive surfaces and of the first bounce
     SurfacePoints surfacePoints;
     IsmAtlas isms;

@@ -61,10 +61,11 @@ GatherGrid gatherGridOf(GraphScope scope, const BounceLightInputs& in, const Bou
     uint64_t light = f.rsm.inputsVersion;
     // Nobody may have asked for the light yet: then the pixels of earlier turns have none.
     const uint64_t wanted = hasAllPixels(scope, kUpsampling);
-    for (const uint64_t part : {v.scene, v.instances, v.lights, v.camera, v.origin, in.sky.version,
+    for (const uint64_t part : {v.scene, v.instances, v.lights, v.view, v.origin, in.sky.version,
                                 in.occluders.trees.staticVersion, hashValue(in.surfaces.size), wanted})
         light = combineHash(light, part);
-    return chooseGatherGrid(light, !valsOf(f, s.term).empty() && castsTexelRays(s.texelRays, in.occluders), s,
+    return chooseGatherGrid(light, v.camera,
+                            !valsOf(f, s.term).empty() && castsTexelRays(s.texelRays, in.occluders), s,
                             h.gatherGrid);
 }
 

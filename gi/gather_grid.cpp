@@ -36,15 +36,17 @@ uint32_t framesToRest(const BounceLightSettings& s) {
     return frames;
 }
 
-GatherGrid chooseGatherGrid(uint64_t light, bool castsRays, const BounceLightSettings& s,
+GatherGrid chooseGatherGrid(uint64_t light, uint64_t camera, bool castsRays, const BounceLightSettings& s,
                             GatherGridHistory& h) {
     h.changes += std::exchange(h.settings, s) != s;
-    h.settling.advance(combineHash(combineHash(light, castsRays), h.changes), framesToRest(s));
-    const bool changed = h.settling.sinceChange == 0;
+    const uint64_t inputs = combineHash(combineHash(light, castsRays), h.changes);
+    h.light.advance(inputs, framesToRest(s));
+    h.settling.advance(combineHash(inputs, camera), framesToRest(s));
+    const bool changed = h.light.sinceChange == 0;
     h.restarts += changed;
     GatherGrid grid{.place = glm::uvec2(s.spacing / 2),
                     .still = castsRays && !changed,
-                    .grows = s.laterBounces.enabled && h.settling.sinceChange <= s.laterBounces.settleFrames,
+                    .grows = s.laterBounces.enabled && h.light.sinceChange <= s.laterBounces.settleFrames,
                     .change = h.restarts};
     const uint32_t turns = castsRays ? turnsOf(s) : 1;
     uint32_t since = h.settling.sinceChange;

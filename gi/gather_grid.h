@@ -19,7 +19,8 @@ struct GatherGrid {
 
 // Lives on the CPU from frame to frame.
 struct GatherGridHistory {
-    Settling settling;
+    Settling settling;             // of the pixels' light
+    Settling light;                // of what it depends on, but where in the pixels surfaces are sampled
     BounceLightSettings settings;  // of the frame before
     uint64_t changes = 0;          // of settings
     uint64_t restarts = 0;         // by whatever changed
@@ -28,8 +29,9 @@ struct GatherGridHistory {
 // Of a scene in which rays are cast: frames from the last change on until nothing is made anew.
 uint32_t framesToRest(const BounceLightSettings& settings);
 
-// `light`: of all but the settings that light depends on. Without rays the middle pixel has all turns.
-GatherGrid chooseGatherGrid(uint64_t light, bool castsRays, const BounceLightSettings& settings,
-                            GatherGridHistory& history);
+// `light`: of all that light depends on but the settings and `camera`, which anti-aliasing moves within a
+// pixel. Without rays the middle pixel has all turns.
+GatherGrid chooseGatherGrid(uint64_t light, uint64_t camera, bool castsRays,
+                            const BounceLightSettings& settings, GatherGridHistory& history);
 
 }  // namespace ag::gi

@@ -36,7 +36,8 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
                             .step = in.step,
                             .valid = means.valid,
                             .mostLength = in.still ? kStillLength : kMovingLength,
-                            .offset = io::kRayOffset * in.occluders.extent})
+                            .offset = io::kRayOffset * in.occluders.extent,
+                            .texelOffset = in.occluders.trees.snapping})
         .step(in.step)
         .dispatchThreads(count);
     readTrees(trace, in.occluders.trees);

@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "engine/core/hash.h"
-#include "engine/renderer/indirect_light.h"
 #include "gi/occluder_trees.h"
 #include "shaders/bvh/bvh_io.h"
 #include "shaders/direct_lighting/direct_lighting_io.h"
@@ -62,15 +60,6 @@ DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::S
         bindDirectLight(scope, gbuffer, glossy, pass, result);
     }
     return result;
-}
-
-bool standsStill(const SceneView& scene, const gi::Occluders& occluders, gi::Settling& settling) {
-    const gi::Versions v = versionsOf(scene);
-    uint64_t seen = occluders.trees.staticVersion;
-    for (const uint64_t part : {v.scene, v.instances, v.lights, v.view, v.origin})
-        seen = combineHash(seen, part);
-    settling.advance(seen, 0);
-    return settling.sinceChange > 0;
 }
 
 }  // namespace ag::render

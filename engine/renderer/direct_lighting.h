@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/renderer/shadow_maps.h"
-#include "gi/settling.h"
 #include "gi/surfaces.h"
 #include "gi/val_shading.h"
 
@@ -21,8 +20,5 @@ void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy,
 // `traced`: occluders that have trees, if shadows are found by rays.
 DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
                            const ShadowMaps& shadows, const gi::Occluders* traced, bool glossy);
-
-// Whether the frame stands still, so that rays for exact shadows are cast once.
-bool standsStill(const SceneView& scene, const gi::Occluders& occluders, gi::Settling& settling);
 
 }  // namespace ag::render

@@ -23,9 +23,8 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
     f.shadows = addSunShadows(scope, scene, s.shadowMaps, h.sunShadows);
     const bool glossy = s.bounce.valShading.glossy;
     const gi::Occluders occluders = occludersOf(scene);
-    const bool byRays = s.shadowMaps.rays && gi::castsTexelRays(s.bounce.texelRays, occluders) &&
-                        standsStill(scene, occluders, h.sunRays);
-    f.direct = addSunLighting(scope, scene, surfaces, f.shadows, byRays ? &occluders : nullptr, glossy);
+    const gi::Occluders* traced = f.bounce.still && s.shadowMaps.rays ? &occluders : nullptr;
+    f.direct = addSunLighting(scope, scene, surfaces, f.shadows, traced, glossy);
     const LightClusters& lights =
         clusterLights(*scene.scene, h.punctualRelevance, s.lightClusters, h.lightClusters);
     f.punctual.shadows =

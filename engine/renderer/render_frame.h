@@ -29,7 +29,6 @@ struct RenderHistory {
     PictureVersion picture;
     AntialiasingHistory antialiasing;
     SunShadowHistory sunShadows;
-    gi::Settling sunRays;
     LightClusterHistory lightClusters;
     PunctualShadowHistory punctualShadows;
     PunctualListsHistory punctualLists;

@@ -180,7 +180,7 @@ SceneView SceneGpu::import(GraphScope scope, const RenderScene& scene, const Pix
         combineHash(combineHash(points_.staticVersion(), staticVersion_), scene.originVersion);
     if (traced)
         view.trees = trees_.import(scope, scene, combineHash(view.staticVersion, scene.originVersion),
-                                   *traced, wholeMaterials);
+                                   *traced, {wholeMaterials, lightUnit_});
     view.sky = sky_.import(scope, scene.sky, lightUnit_, view.skyPicture);
     view.camera = gi::addCamera(scope, "scene.camera", view.eye, grid.size);
     return view;

@@ -211,13 +211,13 @@ glm::vec3 albedoOf(const RenderScene& scene, uint32_t instance, glm::vec2 uv, bo
     return albedoAbout(*scene.geometry, m, textureUv(m, uv), whole);
 }
 
-gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of, bool whole) {
+gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of, SurfaceLight sent) {
     const GeometryArrays& g = *scene.geometry;
-    const AlbedoWindows albedo(g, whole);
+    const AlbedoWindows albedo(g, sent.whole);
     const auto sentAt = [&](uint32_t primitive, glm::vec2 uv) {
         const Material& m = g.materials[g.primitives[primitive].material];
         const bool shines = m.emissive != glm::vec3(0);
-        return gi::SentAt{albedo(primitive, uv), shines ? emissionAbout(g, m, uv) : glm::vec3(0)};
+        return gi::SentAt{albedo(primitive, uv), shines ? emissionAbout(g, m, uv) / sent.unit : glm::vec3(0)};
     };
     return withSampledScene(scene,
                             [&](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of, sentAt); });

@@ -15,8 +15,14 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
                                                 uint32_t count, bool whole);
 // On emissive surfaces; their radiance is over `lightUnit`. Empty: nothing shines.
 std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint32_t count, float lightUnit);
+// How triangles of trees send light.
+struct SurfaceLight {
+    bool whole = false;  // they reflect what specular lobes do, too
+    float unit = 1;      // their radiance is over it
+    bool operator==(const SurfaceLight&) const = default;
+};
 gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of = gi::TreesOf::kAll,
-                             bool whole = false);
+                             SurfaceLight sent = {});
 void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers, gi::MoverTree& result);
 
 }  // namespace ag::render

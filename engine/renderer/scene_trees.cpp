@@ -5,7 +5,6 @@
 
 #include "engine/core/hash.h"
 #include "engine/gpu/transfer.h"
-#include "engine/renderer/scene_surfaces.h"
 
 namespace ag::render {
 namespace {
@@ -50,7 +49,7 @@ std::unique_ptr<gpu::Buffer> roomFor(gpu::Device& device, std::unique_ptr<gpu::B
 }  // namespace
 
 void SceneTrees::build(const RenderScene& scene) {
-    trees_ = buildTrees(scene, of_, whole_);
+    trees_ = buildTrees(scene, of_, sent_);
     gpu::retire(device_, std::move(nodes_));
     gpu::retire(device_, std::move(triangles_));
     nodes_ = gpu::loadBuffer(device_, {.name = "scene.tree_nodes", .texelFormat = kWords}, trees_.nodes);
@@ -69,10 +68,10 @@ void SceneTrees::place(const RenderScene& scene) {
 }
 
 // Whether the trees are those of what is static now.
-bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of, bool whole) {
-    if (of_ != of || whole_ != whole) forget();  // built at once
+bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of, SurfaceLight sent) {
+    if (of_ != of || sent_ != sent) forget();  // built at once
     of_ = of;
-    whole_ = whole;
+    sent_ = sent;
     if (staticVersion_ != staticVersion || (of == gi::TreesOf::kAll && movesAnew(scene, movingPrimitives_)))
         from_ = builtFrom(scene, of, movingPrimitives_);
     staticVersion_ = staticVersion;
@@ -85,8 +84,8 @@ bool SceneTrees::follow(const RenderScene& scene, uint64_t staticVersion, gi::Tr
 }
 
 gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
-                                       gi::TracedBy by, bool whole) {
-    const bool follows = follow(scene, staticVersion, by.of, whole);
+                                       gi::TracedBy by, SurfaceLight sent) {
+    const bool follows = follow(scene, staticVersion, by.of, sent);
     if (!nodes_) return {};
     const bool moves = scene.instancesVersion != before_, waits = by.atRest && moves && placedOf_ != 0;
     before_ = scene.instancesVersion;

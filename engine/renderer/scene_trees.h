@@ -8,6 +8,7 @@
 #include "engine/core/function_ref.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/resources.h"
+#include "engine/renderer/scene_surfaces.h"
 #include "engine/scene/render_scene.h"
 #include "gi/inputs.h"
 #include "gi/occluder_trees.h"
@@ -20,10 +21,9 @@ class SceneTrees {
 
     // Of this frame. Blocking where a scene is new. Where what is static is moved none, until it has rested
     // for some frames: then they are built anew. `staticVersion`: changes when it may have moved. `by`: of
-    // all if rays are to meet what moves, too. `whole`: they reflect what whole materials do, not their
-    // Lambert part alone.
+    // all if rays are to meet what moves, too.
     gi::TracedOccluders import(GraphScope scope, const RenderScene& scene, uint64_t staticVersion,
-                               gi::TracedBy by, bool whole);
+                               gi::TracedBy by, SurfaceLight sent);
     using Stage = FunctionRef<void(std::span<const std::byte>, const gpu::Buffer&, uint64_t offset)>;
     void upload(Stage stage);
     // Another scene or other units follow.
@@ -36,12 +36,12 @@ class SceneTrees {
   private:
     void build(const RenderScene& scene);
     void place(const RenderScene& scene);
-    bool follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of, bool whole);
+    bool follow(const RenderScene& scene, uint64_t staticVersion, gi::TreesOf of, SurfaceLight sent);
 
     gpu::Device& device_;
     gi::TreeUpkeep upkeep_;
     gi::TreesOf of_ = gi::TreesOf::kStatic;
-    bool whole_ = false;
+    SurfaceLight sent_;
     uint64_t staticVersion_ = 0, from_ = 0;  // from_: a hash of what they are built of
     uint64_t placedOf_ = 0, before_ = 0;     // RenderScene::instancesVersion, if that matters; last frame's
     uint64_t builds_ = 0, placings_ = 0;     // versions of the buffers

@@ -43,10 +43,12 @@ bool meetsBox(BvhGridRay r, uvec4 node, float reach) {
 // Multiples of the golden ratio: one in [0, 1) for each triangle, unlike its neighbours'.
 float drawnFor(int triangle) { return float(uint(triangle) * 0x9e3779b9u >> 8u) / 16777216.0; }
 
-// Möller & Trumbore 1997, both sides; the reach, shorter where the triangle is met before.
+// Triangles of more opacity are met. A pass may define another rule.
 #ifndef AG_BVH_SHARE
 #define AG_BVH_SHARE(opaqueFrom, triangle) fract(opaqueFrom + drawnFor(triangle))
 #endif
+
+// Möller & Trumbore 1997, both sides; the reach, shorter where the triangle is met before.
 float meetTriangle(BvhGridRay r, int triangle, float reach, float opaqueFrom) {
     vec4 corner = treeTriangles.items[triangle * 3];
     vec3 edge1 = treeTriangles.items[triangle * 3 + 1].xyz, edge2 = treeTriangles.items[triangle * 3 + 2].xyz;

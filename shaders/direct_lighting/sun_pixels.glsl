@@ -31,17 +31,18 @@ layout(set = 0, binding = 21) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 22) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 23, scalar) readonly buffer TreeTriangles { vec4 items[]; } treeTriangles;
 #define AG_BVH_MOVERS
-#define AG_BVH_SHARE(opaqueFrom, triangle) (opaqueFrom)  // the same for all: 0 meets any triangle, kWholeOnly none that is masked
+#define AG_BVH_SHARE(opaqueFrom, triangle) (opaqueFrom)
 #include "bvh/trace.glsl"
 
-// Behind masked surfaces alone, of which trees know the mean, the maps know more.
-const float kWholeOnly = 0.999;
+const float kAll = 0.0, kUnmasked = 0.999;  // opacity of triangles that rays meet
+
+// Trees know the mean opacity of masked triangles alone. Where nothing else is in the way, the shadow maps are asked.
 float tracedShare(vec3 position, vec3 normal, float pixelWidth, float viewDepth) {
     float offset = max(push.sun.rayOffset, push.sun.pixelOffset * pixelWidth);
     vec3 start = position + (normal + normalize(camera.camera.position - position)) * offset;
     bool masked = false;
     for (int i = 0; i < 2; ++i) {
-        BvhRay ray = BvhRay(start, -push.sun.direction, push.sun.rayReach, masked ? kWholeOnly : 0.0, true, 0, 0);
+        BvhRay ray = BvhRay(start, -push.sun.direction, push.sun.rayReach, masked ? kUnmasked : kAll, true, 0, 0);
         if (!traceOccluders(ray)) break;
         masked = treeTriangles.items[ray.triangle * 3].w < 1.0;
         if (!masked) return 0.0;

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// What falls on the points straight is added to what area lights send. No more light arrives at all points together than was sent. Shadow maps that let some through a wall would hand it to both
-// of its sides, and with walls on all sides every round of the loop of bounces would make more of it.
+// What falls on the points straight is added to what area lights send. All points together receive no more than was sent:
+// shadow maps that let some light through a wall would hand it to both of its sides, and with walls on all sides every round
+// of the loop of bounces would make more of it.
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
 

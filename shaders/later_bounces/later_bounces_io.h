@@ -57,9 +57,10 @@ struct TracePush {
     uint firstLater;  // the first that stands for points
     uint rays;        // a frame, to either kind
     uint step;
-    uint valid;        // 0: there are no means before
-    float mostLength;  // frames that means stand for
-    float offset;      // m: rays leave and reach surfaces so far before them
+    uint valid;         // 0: there are no means before
+    float mostLength;   // frames that means stand for
+    float offset;       // m: rays leave and reach surfaces so far before them at least
+    float texelOffset;  // the same in texels
 };
 
 const uint kRunPoints = 64;  // one after another, which share lists of near and far lights

@@ -4,10 +4,8 @@
 // Irradiance at the points from area lights, corrected by rays to texels of those lights: what rays found over what the lights
 // sent, both as means over frames. As a ratio it holds at once when the light grows with every further bounce.
 #include "common/form_factors.h"
-#include "common/sampling.h"
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
-#include "rsm/rsm.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { TracePush p; } push;
@@ -25,38 +23,31 @@ layout(set = 0, binding = 9, scalar) readonly buffer Before { PointMeans items[]
 layout(set = 0, binding = 10, scalar) writeonly buffer Means { PointMeans items[]; } means;
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
+#include "cluster_members/draw_member.glsl"
 
-const uint kDraws = 16;          // texels that one is resampled from
-const float kTrust = 2.0;        // frames: fewer rays say little
-const float kMostTimes = 4.0;    // area lights may be off
-const float kRaysAside = 0.02;   // of a texel's side: rays end before it
+const uint kDraws = 16;        // texels that one is resampled from
+const float kTrust = 2.0;      // frames: rays of fewer say little
+const float kMostTimes = 4.0;  // so far area lights may be below rays
 
 uint firstMember(uint light) { return fetchTexel(memberRanges, int(light * 2)).x; }
 
 uint endOfMembers(uint endLight) { return firstMember(endLight - 1) + fetchTexel(memberRanges, int(endLight * 2 - 1)).x; }
 
-// A texel by what it would send if nothing stood between (resampling, Talbot et al. 2005), and what all would by this draw.
+float factorOf(vec3 x, vec3 n, RsmSurface s) {
+    return s.weight > 0.0 ? diskVectorFactor(x, n, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
+}
+
 struct Aim {
     vec3 place;
-    vec3 sends;  // W/m²
+    vec3 sends;  // W/m², of all members by this draw, if nothing stands between
 };
 
 Aim aimAt(vec3 x, vec3 n, uint first, uint end, inout uint random) {
-    float step = float(end - first) / float(kDraws), sum = 0.0;
-    Aim aim = Aim(x, vec3(0.0));
-    for (uint i = 0; i < kDraws; ++i) {
-        random = hashUint(random);
-        uint place = first + min(uint((float(i) + unitOf(random)) * step), end - first - 1);
-        RsmSurface s = AG_RSM_FETCH(texels, fetchTexel(members, int(place)).x);
-        float factor = s.weight > 0.0 ? diskVectorFactor(x, n, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
-        float want = factor * s.weight;
-        sum += want;
-        random = hashUint(random);
-        if (want <= 0.0 || unitOf(random) * sum >= want) continue;
-        aim = Aim(s.position + s.normal * max(push.p.offset, kRaysAside * sqrt(s.area)), s.flux / s.weight);
-    }
-    aim.sends *= sum * step;
-    return aim;
+    MemberDraw d = MemberDraw(0, 0.0, 0.0);
+    AG_DRAW_MEMBER(d, first, end - first, kDraws, random, factorOf(x, n, s) * s.weight)
+    RsmSurface s = AG_RSM_FETCH(texels, d.texel);
+    vec3 place = s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area));
+    return Aim(place, s.flux * (factorOf(x, n, s) * weightOf(d, end - first, kDraws)));
 }
 
 // By rays to the first bounce's texels and those of emissive surfaces, and to points.

@@ -44,6 +44,7 @@ layout(set = 0, binding = 22, scalar) readonly buffer TileMaps { uint items[]; }
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
+#include "cluster_members/draw_member.glsl"
 #include "texel_rays/blocks.glsl"
 #include "texel_rays/met_surface.glsl"
 #include "texel_rays/ray_weights.glsl"
@@ -82,19 +83,10 @@ Aim aimAt(Receiver r, Drawn d, inout uint random) {
     if (d.likely <= 0.0 || d.memberCount == 0) return aim;
     uint first = fetchTexel(memberRanges, int(d.light * 2)).x;
     aim.map = tileMaps.items[fetchTexel(members, int(first)).x / (kRsmTileSize * kRsmTileSize)];
-    float sum = 0.0, wanted = 0.0, step = float(d.memberCount) / float(kDraws);
-    for (uint i = 0; i < kDraws; ++i) {
-        random = hashUint(random);
-        uint place = min(uint((float(i) + unitOf(random)) * step), d.memberCount - 1);
-        uint texel = fetchTexel(members, int(first + place)).x;
-        float want = wantOf(r, aim.map, AG_RSM_FETCH(texels, texel), d.chance);
-        sum += want;
-        random = hashUint(random);
-        if (want <= 0.0 || unitOf(random) * sum >= want) continue;
-        aim.texel = texel;
-        wanted = want;
-    }
-    aim.weight = sum > 0.0 ? sum * step / (d.likely * wanted) : 0.0;
+    MemberDraw drawn = MemberDraw(kNoTexel, 0.0, 0.0);
+    AG_DRAW_MEMBER(drawn, first, d.memberCount, kDraws, random, wantOf(r, aim.map, s, d.chance))
+    aim.texel = drawn.texel;
+    aim.weight = weightOf(drawn, d.memberCount, kDraws) / d.likely;
     return aim;
 }
 

@@ -24,14 +24,14 @@ TEST(GatherGrid, EveryPixelOfASquareHasOneTurn) {
         uint32_t begun = 0;
         GatherGrid grid;
         for (uint32_t frame = 0; frame < framesToRest(s); ++frame) {
-            grid = chooseGatherGrid(7, true, s, history);
+            grid = chooseGatherGrid(7, 0, true, s, history);
             if (!grid.begins) continue;
             EXPECT_EQ(grid.turn, begun++);
             EXPECT_TRUE(places.emplace(grid.place.x, grid.place.y).second) << "two turns of one pixel";
         }
         EXPECT_EQ(places.size(), spacing * spacing);
         for (int more = 0; more < 100; ++more) {
-            const GatherGrid later = chooseGatherGrid(7, true, s, history);
+            const GatherGrid later = chooseGatherGrid(7, 0, true, s, history);
             EXPECT_EQ(later.turn, grid.turn);
             EXPECT_FALSE(later.begins);
         }
@@ -41,11 +41,11 @@ TEST(GatherGrid, EveryPixelOfASquareHasOneTurn) {
 TEST(GatherGrid, TheMiddleIsFirstAndAllTurnsHaveAsManyRays) {
     const BounceLightSettings s = shortTurns(2);
     GatherGridHistory history;
-    const GatherGrid first = chooseGatherGrid(1, true, s, history);
+    const GatherGrid first = chooseGatherGrid(1, 0, true, s, history);
     EXPECT_EQ(first.place, glm::uvec2(1));
     GatherGrid last = first;
     for (uint32_t frame = 1; frame < framesToRest(s); ++frame)
-        last = chooseGatherGrid(1, true, s, history);
+        last = chooseGatherGrid(1, 0, true, s, history);
     EXPECT_EQ(last.turn, 3u);
     EXPECT_EQ(last.frames, first.frames);
 }
@@ -56,14 +56,14 @@ TEST(GatherGrid, ChangesBeginAnew) {
     const auto rest = [&](uint64_t light) {
         GatherGrid grid;
         for (uint32_t frame = 0; frame < framesToRest(s); ++frame)
-            grid = chooseGatherGrid(light, true, s, history);
+            grid = chooseGatherGrid(light, 0, true, s, history);
         return grid.turn;
     };
     EXPECT_EQ(rest(1), 3u);
-    EXPECT_EQ(chooseGatherGrid(2, true, s, history).turn, 0u) << "other light";
+    EXPECT_EQ(chooseGatherGrid(2, 0, true, s, history).turn, 0u) << "other light";
     EXPECT_EQ(rest(2), 3u);
     s.valShading.taps += 1;
-    EXPECT_EQ(chooseGatherGrid(2, true, s, history).turn, 0u) << "other settings";
+    EXPECT_EQ(chooseGatherGrid(2, 0, true, s, history).turn, 0u) << "other settings";
     EXPECT_EQ(rest(2), 3u);
     s.texelRays.allPixels = false;
     EXPECT_EQ(rest(2), 0u);
@@ -73,24 +73,40 @@ TEST(GatherGrid, WithoutRaysTheMiddleHasAllTurns) {
     const BounceLightSettings s = shortTurns(2);
     GatherGridHistory history;
     for (uint32_t frame = 0; frame < 2 * framesToRest(s); ++frame)
-        EXPECT_EQ(chooseGatherGrid(1, false, s, history).place, glm::uvec2(1));
-    const GatherGrid first = chooseGatherGrid(1, true, s, history);
+        EXPECT_EQ(chooseGatherGrid(1, 0, false, s, history).place, glm::uvec2(1));
+    const GatherGrid first = chooseGatherGrid(1, 0, true, s, history);
     EXPECT_TRUE(first.begins) << "once rays can be cast they have all their frames";
     EXPECT_EQ(first.turn, 0u);
+}
+
+// Anti-aliasing moves samples in the pixels: light is gathered anew, but rays go on.
+TEST(GatherGrid, OtherSamplesOfPixelsAreNoChangeOfLight) {
+    const BounceLightSettings s = shortTurns(2);
+    GatherGridHistory history;
+    const GatherGrid first = chooseGatherGrid(1, 0, true, s, history);
+    EXPECT_FALSE(first.still);
+    for (uint64_t sample = 1; sample < 8; ++sample) {
+        const GatherGrid grid = chooseGatherGrid(1, sample, true, s, history);
+        EXPECT_TRUE(grid.still && grid.begins);
+        EXPECT_EQ(grid.change, first.change);
+    }
+    const GatherGrid other = chooseGatherGrid(2, 7, true, s, history);
+    EXPECT_FALSE(other.still);
+    EXPECT_NE(other.change, first.change);
 }
 
 TEST(GatherGrid, TheFirstTurnLastsUntilAllLightRests) {
     BounceLightSettings s = shortTurns(2);
     GatherGridHistory history;
-    EXPECT_EQ(chooseGatherGrid(1, true, s, history).frames, 8u);
+    EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).frames, 8u);
     s.valClustering.settleFrames = 20;
-    EXPECT_EQ(chooseGatherGrid(1, true, s, history).frames, 20u);
+    EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).frames, 20u);
     s.laterBounces = {.enabled = true, .settleFrames = 30};
     s.sky.settleFrames = 10;
-    EXPECT_EQ(chooseGatherGrid(1, true, s, history).frames, 20u) << "of rays";
+    EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).frames, 20u) << "of rays";
     for (int frame = 1; frame <= 40; ++frame)
-        EXPECT_EQ(chooseGatherGrid(1, true, s, history).turn, 0u);
-    EXPECT_EQ(chooseGatherGrid(1, true, s, history).turn, 1u);
+        EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).turn, 0u);
+    EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).turn, 1u);
 }
 
 }  // namespace

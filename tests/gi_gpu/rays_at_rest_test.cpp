@@ -49,6 +49,21 @@ TEST(RaysAtRest, WhatIsNearAnEmissiveSurfaceIsLitByAllOfIt) {
     EXPECT_LT(near, 0.8 * points);
 }
 
+// The renderer counts such light in units of its own.
+TEST(RaysAtRest, SurfacesMayShineHoweverBright) {
+    constexpr float kTimes = 1e6f;
+    std::array<double, 2> mean{};
+    for (const bool bright : {false, true}) {
+        SceneAsset asset = *scenegen::buildScene("neon", 0);
+        for (Material& m : asset.geometry.materials)
+            m.emissive *= bright ? kTimes : 1;
+        Bench b(std::move(asset), {96, 54});
+        b.settings.bounce.texelRays = {.reach = 1};
+        mean[bright] = meanOf(atRest(b, Layer::kEmissive, 64));
+    }
+    EXPECT_NEAR(mean[1] / mean[0] / double(kTimes), 1, 0.01);
+}
+
 TEST(RaysAtRest, LaterBouncesLoseLittleLight) {
     Bench b(*scenegen::buildScene("courtyard", 0), {96, 54});
     b.settings = {};
