@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/core/log.h"
+#include "engine/gpu/device_faults.h"
 
 namespace ag::gpu {
 namespace {
