@@ -14,7 +14,8 @@ struct MemberDraw {
 // Of what the drawn texel sends, so that its mean is the sum over all `count`.
 float weightOf(MemberDraw d, uint count, uint draws) { return d.sum > 0.0 ? d.sum * float(count) / (float(draws) * d.wanted) : 0.0; }
 
-// `draws` candidates at even steps of members [first, first + count). `want`: what the texel s would send, at least 0.
+// `draws` candidates at even steps of members [first, first + count). `want`: what the texel s would send, at least 0. None
+// that wants less than 2^-24 of the sum is drawn, so that weights stay finite.
 #define AG_DRAW_MEMBER(d, first, count, draws, random, want)                                                                    \
     {                                                                                                                           \
         float step_ = float(count) / float(draws);                                                                              \
@@ -26,7 +27,7 @@ float weightOf(MemberDraw d, uint count, uint draws) { return d.sum > 0.0 ? d.su
             float want_ = (want);                                                                                               \
             d.sum += want_;                                                                                                     \
             random = hashUint(random);                                                                                          \
-            if (want_ <= 0.0 || unitOf(random) * d.sum >= want_) continue;                                                      \
+            if (want_ <= 0.0 || (1.0 - unitOf(random)) * d.sum > want_) continue;                                               \
             d.texel = texel_;                                                                                                   \
             d.wanted = want_;                                                                                                   \
         }                                                                                                                       \
