@@ -46,10 +46,11 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     const bool rays = castsTexelRays(s.texelRays, in.occluders) && f.vals.count > 0;
     const ClusterMembers members = rays ? addClusterMembers(scope, f.rsm, f.clusters) : ClusterMembers{};
     if (rays)
-        f.irradiance = addTexelRays(tiles, f.irradiance,
-                                    {f.rsm, f.clusters, members, in.occluders, in.world.versions, grid.turn,
-                                     grid.frames, grid.change, refresh.pixels.count == 1, grid.grows},
-                                    s.valShading, s.texelRays, h.texelRays);
+        f.irradiance =
+            addTexelRays(tiles, f.irradiance,
+                         {f.rsm, f.clusters, members, in.occluders, in.world.versions, grid.turn, grid.frames,
+                          grid.change, refresh.pixels.count == 1, grid.grows, s.laterBounces.feedback},
+                         s.valShading, s.texelRays, h.texelRays);
     if (isFirstBounce(f, asked)) f.bounce1 = f.irradiance;
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);
 

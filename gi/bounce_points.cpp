@@ -1,5 +1,6 @@
 #include "gi/bounce_points.h"
 
+#include <algorithm>
 #include <bit>
 #include <numbers>
 
@@ -53,6 +54,13 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
         if (deformed) points.back().edgesLocal[0].inward.x = s.curvatureLocal;
     }
     return points;
+}
+
+float meanArea(std::span<const io::BouncePoint> points) {
+    double sum = 0;
+    for (const io::BouncePoint& p : points)
+        sum += double(p.area);
+    return float(sum / double(std::max<size_t>(points.size(), 1)));
 }
 
 float emittedFlux(std::span<const io::BouncePoint> shining) {

@@ -15,6 +15,8 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
                                                 const SurfaceSamples& samples, AlbedoAt albedoAt,
                                                 uint32_t count);
 
+// m² that a point stands for in the mean; 0: there are none.
+float meanArea(std::span<const io::BouncePoint> points);
 // Of points that shine, W, mean of the channels.
 float emittedFlux(std::span<const io::BouncePoint> shining);
 

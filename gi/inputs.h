@@ -69,6 +69,8 @@ struct Occluders {
     BufferHandle bouncePoints;
     uint32_t bouncePointCount = 0, emissivePointCount = 0;
     float emissiveFlux = 0;  // W, mean of the channels: of the points that shine
+    // m² that a point of either kind stands for in the mean; 0: not known.
+    float bouncePointArea = 0, emissivePointArea = 0;
     // Vertices of instances that joints bend, as they are now; none: there are no such.
     BufferHandle deformedPositions, deformedAttributes;
     TracedOccluders trees;       // none: no rays

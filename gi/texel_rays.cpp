@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -19,6 +20,7 @@ namespace {
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr uint32_t kMostRounds = 4;
 constexpr uint32_t kMostRaysOfTurn = 1 << 20;  // pixels of another turn draw other numbers
+constexpr float kNearPoints = 3;               // of their spacing
 constexpr uint32_t kGrowingLength = 32;  // frames that means stand for while there are more and more bounces
 constexpr float kFading = 31.0f / 32;    // of what is carried from before a change, a frame
 // Names are literals, because the graph keeps views of them.
@@ -66,12 +68,23 @@ uint32_t emissiveMapOf(const Vals& vals, const RsmSet& rsm) {
     return vals.first < rsm.emissiveCount ? rsm.lightRsmCount : ~0u;
 }
 
+// None either where the lights are not those that its points had their light from.
+uint32_t laterMapOf(const Vals& vals, const TexelRaysInputs& in) {
+    const bool all = vals.first == 0 && vals.count > in.rsm.firstLater;
+    return all && in.endless ? in.rsm.atlas.mapCount - 1 : ~0u;
+}
+
+// Points that are nearer are no even surface.
+float reachOfPoints(float area, float most) {
+    return std::min(kNearPoints * std::sqrt(area), most);
+}
+
 // `reach`: in the scene's extent.
 Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in, float reach, uint32_t ray) {
     const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
     const Sent sent{t.scope.image("texel_rays.sent", info), t.scope.image("texel_rays.sent_near", info)};
     const BufferHandle noise = addBlueNoise(t.scope);
-    const float snapping = in.occluders.trees.snapping;
+    const float snapping = in.occluders.trees.snapping, most = reach * in.occluders.extent;
     PassBuilder cast = t.scope.compute("texel_rays.cast", "texel_rays/cast_rays.comp");
     cast.sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
@@ -96,12 +109,15 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
                            .atlasWidth = in.rsm.atlas.size.x,
                            .mapCount = mapsOf(t.lights.vals, in.rsm),
                            .emissiveMap = emissiveMapOf(t.lights.vals, in.rsm),
+                           .laterMap = laterMapOf(t.lights.vals, in),
                            .ray = ray,
                            .shift = blueNoiseShift(ray),
                            .offset = io::kRayOffset * in.occluders.extent,
                            .pixelOffset = snapping / float(t.gbuffer.spacing),
                            .texelOffset = snapping,
-                           .reach = reach * in.occluders.extent})
+                           .reach = most,
+                           .emissiveReach = reachOfPoints(in.occluders.emissivePointArea, most),
+                           .laterReach = reachOfPoints(in.occluders.bouncePointArea, most)})
         .dispatchGroups(choice.blocks);
     readTrees(cast, in.occluders.trees);
     return sent;
@@ -305,6 +321,19 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const Means means =
         addMeans(t, {areaLights.image, sent, control, in.grows}, seen, s, history.settling, begun);
     return addCorrection(t, areaLights, means, seen, s, history.settling, in.turn);
+}
+
+Irradiance addJoinedTurns(GraphScope scope, const Surfaces& all, const Irradiance& placed,
+                          const TexelRaysSettings& s) {
+    const ImageHandle result = scope.image("texel_rays.joined", {.format = kHalf4, .size = all.size});
+    scope.compute("texel_rays.join", "texel_rays/join.comp")
+        .sample("normalMap", all.normal)
+        .sample("depthMap", all.depth)
+        .sample("light", placed.image)
+        .write("result", result)
+        .push(io::JoinPush{pixelRays(all.view, all.size), all.view.near, {1, s.tolerance}})
+        .dispatchThreads(all.size.x, all.size.y);
+    return {result, placed.toward};
 }
 
 }  // namespace ag::gi

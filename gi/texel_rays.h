@@ -68,6 +68,7 @@ struct TexelRaysInputs {
     uint64_t change = 0;  // number of the last change
     bool whole = true;    // every pixel's area lights are of this frame
     bool grows = false;   // the light does yet, by later bounces
+    bool endless = true;  // light goes on after its second bounce
 };
 
 // Whether any are cast: `settings` ask for them, and there is something to trace them through.
@@ -77,5 +78,9 @@ bool castsTexelRays(const TexelRaysSettings& settings, const Occluders& occluder
 Irradiance addTexelRays(const ValTiles& tiles, const Irradiance& areaLights, const TexelRaysInputs& in,
                         const ValShadingSettings& shading, const TexelRaysSettings& settings,
                         TexelRaysHistory& history);
+
+// `placed`: pixels of all turns, each by rays of its own, at `all`; the noise between them smoothed.
+Irradiance addJoinedTurns(GraphScope scope, const Surfaces& all, const Irradiance& placed,
+                          const TexelRaysSettings& settings);
 
 }  // namespace ag::gi

@@ -36,7 +36,9 @@ struct ValShadingSettings {
 };
 
 struct Irradiance {
-    ImageHandle image;   // rgba16f, W/m²; invalid: no light, nothing to add
+    // rgba16f, W/m²; a, of what rays are cast for: standard deviation of its noise. Invalid: no light,
+    // nothing to add.
+    ImageHandle image;
     ImageHandle toward;  // rgba16f: vector irradiance over that along the normal; invalid: not known
 };
 

@@ -108,6 +108,8 @@ void PointPool::chooseEmissive(const RenderScene& scene) {
     bounces_.resize(reflecting_);
     const auto shining = chooseEmissivePoints(scene, kEmissivePoints, lightUnit_);
     emissiveFlux_ = gi::emittedFlux(shining);
+    emissiveArea_ = gi::meanArea(shining);
+    reflectingArea_ = gi::meanArea(bounces_);
     bounces_.insert(bounces_.end(), shining.begin(), shining.end());
     changedBounces.add(0, uint32_t(bounces_.size()));
     ++bounceVersion_;

@@ -48,6 +48,9 @@ class PointPool {
     uint32_t emissiveCount() const { return uint32_t(bounces_.size()) - reflecting_; }
     uint32_t reflectingCount() const { return reflecting_; }
     float emissiveFlux() const { return emissiveFlux_; }  // W, mean of the channels
+    // m² that a point stands for in the mean, when they were chosen last.
+    float reflectingArea() const { return reflectingArea_; }
+    float emissiveArea() const { return emissiveArea_; }
 
     // Another number: of the arrays' places (all of them changed), of static points, of bounce points.
     uint64_t layoutVersion() const { return layoutVersion_; }
@@ -100,7 +103,7 @@ class PointPool {
     double area_ = 0;       // now
     double unseen_ = 0;     // of it, no bounce point stands for
     bool whole_ = false;
-    float lightUnit_ = 1, emissiveFlux_ = 0;
+    float lightUnit_ = 1, emissiveFlux_ = 0, reflectingArea_ = 0, emissiveArea_ = 0;
     uint64_t layoutVersion_ = 0, staticVersion_ = 0, bounceVersion_ = 0;
 };
 

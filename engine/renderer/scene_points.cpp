@@ -72,6 +72,8 @@ void ScenePoints::import(GraphScope scope, gi::Occluders& o) {
     o.bouncePointCount = pool_.reflectingCount();
     o.emissivePointCount = pool_.emissiveCount();
     o.emissiveFlux = pool_.emissiveFlux();
+    o.bouncePointArea = pool_.reflectingArea();
+    o.emissivePointArea = pool_.emissiveArea();
 }
 
 void ScenePoints::upload(Stage stage) {

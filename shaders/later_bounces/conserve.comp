@@ -4,6 +4,7 @@
 // What falls on the points straight is added to what area lights send. All points together receive no more than was sent:
 // shadow maps that let some light through a wall would hand it to both of its sides, and with walls on all sides every round
 // of the loop of bounces would make more of it.
+#include "common/pixel_rays.h"
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
 
@@ -15,7 +16,7 @@ layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1) VEC4_TEXELS(vals);
 layout(set = 0, binding = 2) VEC4_TEXELS(sky);
 layout(set = 0, binding = 3) VEC4_TEXELS(straight);
-layout(set = 0, binding = 4, scalar) buffer Irradiance { vec4 items[]; } irradiance;
+layout(set = 0, binding = 4, scalar) buffer Irradiance { vec4 items[]; } irradiance;  // a: area lights' share of it
 
 shared vec3 sentBy[kConserveLanes], arrivedAt[kConserveLanes];  // W
 
@@ -27,7 +28,8 @@ void main() {
         float area = fetchTexel(texels, int(i) * 3).w;
         vec3 straightOn = kSky ? fetchTexel(sky, int(i)).rgb : vec3(0.0);
         if (kStraight) straightOn += fetchTexel(straight, int(i)).rgb;
-        irradiance.items[i].xyz += straightOn;
+        vec3 byLights = irradiance.items[i].xyz, all = byLights + straightOn;
+        irradiance.items[i] = vec4(all, luminance(byLights) / max(luminance(all), 1e-20));
         sent += area * straightOn;
         arrived += area * irradiance.items[i].xyz;
     }

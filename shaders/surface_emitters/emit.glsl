@@ -14,7 +14,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { EmitPush p; } push;
 
 layout(set = 0, binding = 1, scalar) readonly buffer Points { BouncePoint items[]; } points;
-layout(set = 0, binding = 2) VEC4_TEXELS(irradiance);  // W/m²
+layout(set = 0, binding = 2) VEC4_TEXELS(irradiance);  // W/m²; a: area lights' share of it
 layout(set = 0, binding = 3, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 4, scalar) writeonly buffer Edges { SurfaceEdge items[]; } edges;  // two a point
 #ifdef AG_SKINNED
@@ -40,10 +40,10 @@ void main() {
     if (t.skinnedMesh != kNoSkinnedMesh) followSkinnedMesh(p);
 #endif
     bool reflects = i < push.p.reflecting;
-    vec3 e = reflects && push.p.known == 1 ? fetchTexel(irradiance, int(i)).rgb : vec3(0.0);
-    vec3 radiosity = reflects ? min(p.albedo, vec3(kMostAlbedo)) * e : p.albedo * kPi;
+    vec4 e = reflects && push.p.known == 1 ? fetchTexel(irradiance, int(i)) : vec4(0.0);
+    vec3 radiosity = reflects ? min(p.albedo, vec3(kMostAlbedo)) * e.rgb : p.albedo * kPi;
     vec3 flux = radiosity * p.area;
     texels.items[i] = RsmTexel(transformPoint(t, p.positionLocal), p.area, normalize(transformNormal(t, p.normalLocal)),
-                               (flux.x + flux.y + flux.z) / 3.0, flux, 1.0);
+                               (flux.x + flux.y + flux.z) / 3.0, flux, e.a);
     for (int k = 0; k < 2; ++k) edges.items[i * 2 + k] = placeEdge(t, p.edgesLocal[k]);
 }

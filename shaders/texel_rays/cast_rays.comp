@@ -8,6 +8,7 @@
 #include "common/sampling.h"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
+#include "later_bounces/later_bounces_io.h"
 #include "rsm/rsm_io.h"
 #include "texel_rays/texel_rays_io.h"
 #include "val_clustering/val_clustering_io.h"
@@ -36,9 +37,9 @@ layout(set = 0, binding = 15, scalar) readonly buffer TreeTriangles { vec4 items
 layout(set = 0, binding = 16) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
-// W/m², by the texel drawn; a: 1 + the entry of the light drawn, 0: none.
+// W/m², by the texels drawn; a: 1 + the entry of the light drawn, 0: none.
 layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;
-layout(set = 0, binding = 20, scalar) buffer Found { RaysFound items[]; } found;  // of each block, by light
+layout(set = 0, binding = 20, scalar) buffer FoundByLight { RaysFound items[]; } found;  // of each block, by light
 layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;        // W/m², by the hemisphere's ray
 layout(set = 0, binding = 22, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 
@@ -111,10 +112,12 @@ Way wayOfNear(Receiver r, vec2 xi, float opaqueFrom) {
     return Way(ray, 0, push.p.mapCount, kNoTexel, 0.0, vec3(0.0));
 }
 
+// Where a ray to a texel's middle ends.
+vec3 before(RsmSurface s) { return s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)); }
+
 // To a texel's middle: all it sends if nothing stands between.
 Way wayToMiddle(Receiver r, TexelView v, Aim aim, float opaqueFrom) {
-    vec3 middle = v.s.position + v.s.normal * max(push.p.offset, push.p.texelOffset * sqrt(v.s.area));
-    BvhRay ray = BvhRay(r.start, middle - r.start, 1.0, opaqueFrom, true, 0, 0);
+    BvhRay ray = BvhRay(r.start, before(v.s) - r.start, 1.0, opaqueFrom, true, 0, 0);
     return Way(ray, 0, 0, aim.texel, 0.0, v.s.flux * (drawnFactorOf(r, aim.map, v.s) * aim.weight));
 }
 
@@ -136,20 +139,46 @@ Way wayOfDraw(Receiver r, Drawn d, Aim aim, vec2 xi, float opaqueFrom) {
     return wayToMiddle(r, v, aim, opaqueFrom);
 }
 
-// W/m².
-vec3 sentAlong(Receiver r, Way w) {
-    if (!traceOccluders(w.ray)) return w.unblocked;
+// What area lights send to a place, W/m², by a ray to one texel.
+vec3 receivedAt(Met met, Receiver from, float opaqueFrom, uint random) {
+    Receiver r = Receiver(met.place, met.normal, met.place + met.normal * from.offset, from.offset, from.tile, from.block);
+    Drawn d = drawLight(r.tile, r.block, unitOf(random));
+    if (d.likely <= 0.0 || d.memberCount == 0) return vec3(0.0);
+    MemberDraw drawn = MemberDraw(kNoTexel, 0.0, 0.0);
+    AG_DRAW_MEMBER(drawn, fetchTexel(memberRanges, int(d.light * 2)).x, d.memberCount, kDraws, random, factorOf(r, s) * s.weight)
+    if (drawn.texel == kNoTexel) return vec3(0.0);
+    RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);
+    BvhRay ray = BvhRay(r.start, before(s) - r.start, 1.0, opaqueFrom, true, 0, 0);
+    if (traceOccluders(ray)) return vec3(0.0);
+    return s.flux * (factorOf(r, s) * weightOf(drawn, d.memberCount, kDraws) / d.likely);
+}
+
+// What goes on from what the hemisphere's ray met, W/m².
+vec3 sentOn(Receiver r, Met met, BvhRay ray, uint random) {
+    float near = push.p.laterMap < kMaxRsmMaps ? nearShare(ray.reach, push.p.laterReach) : 0.0;
+    vec3 reflects = min(met.reflectance, vec3(kMostAlbedo)) * near;
+    return reflects != vec3(0.0) ? reflects * receivedAt(met, r, ray.opaqueFrom, random) : vec3(0.0);
+}
+
+struct Found {
+    vec3 e;   // W/m², of what the ray met or was drawn to
+    vec3 on;  // the same of light that goes on from there, by another draw
+};
+
+Found sentAlong(Receiver r, Way w, uint random) {
+    if (!traceOccluders(w.ray)) return Found(w.unblocked, vec3(0.0));
     Met met = surfaceMet(w.ray);
-    bool shines = met.front && w.texel == kNoTexel && push.p.emissiveMap < kMaxRsmMaps;
-    vec3 e = shines ? met.shines * nearShare(w.ray.reach) : vec3(0.0);
-    for (uint map = w.firstMap; map < w.endMap && met.front; ++map) {
+    if (!met.front) return Found(vec3(0.0), vec3(0.0));
+    bool near = w.texel == kNoTexel, shines = near && push.p.emissiveMap < kMaxRsmMaps;
+    vec3 e = shines ? met.shines * nearShare(w.ray.reach, push.p.emissiveReach) : vec3(0.0);
+    for (uint map = w.firstMap; map < w.endMap; ++map) {
         Sender from = senderAt(map, met, push.p.atlasWidth);
         float ofDraw = from.texel == w.texel ? w.weight : 0.0;
-        vec3 sends = from.sends * (w.texel != kNoTexel ? ofDraw : shareOfNear(r, map, from.texel, w.ray.direction));
+        vec3 sends = from.sends * (near ? shareOfNear(r, map, from.texel, w.ray.direction) : ofDraw);
         bool some = sends.x + sends.y + sends.z > 0.0;
         if (some && isLit(maps.items[map], met, r.offset, w.ray.opaqueFrom)) e += sends;
     }
-    return e;
+    return Found(e, near ? sentOn(r, met, w.ray, random) : vec3(0.0));
 }
 
 vec2 noiseAt(uvec2 pixel, uint aside) {
@@ -202,7 +231,7 @@ void main() {
     Aim aim = aimAt(r, d, random);
     float opaqueFrom = unitOf(random);
     vec2 placeInSquare = vec2(hashToUnit(random), hashToUnit(random ^ 0x9e3779b9u));
-    vec3 byWay[2] = vec3[2](vec3(0.0), vec3(0.0));
+    Found byWay[2] = Found[2](Found(vec3(0.0), vec3(0.0)), Found(vec3(0.0), vec3(0.0)));
     // A loop, so that the trees' walk is compiled once.
     for (uint i = 0; i < 2; ++i) {
         bool draws = i == 0;
@@ -210,13 +239,13 @@ void main() {
         Way w;
         if (draws) w = wayOfDraw(r, d, aim, placeInSquare, opaqueFrom);
         else w = wayOfNear(r, xi.xy, opaqueFrom);
-        byWay[i] = sentAlong(r, w);
+        byWay[i] = sentAlong(r, w, random);
     }
-    float sends = luminance(byWay[0]) * d.likely;
+    float sends = luminance(byWay[0].e) * d.likely;
     d.likely = there ? d.likely : 0.0;
     if (there) {
-        imageStore(sent, pixel, vec4(byWay[0], d.likely > 0.0 ? float(d.entry + 1) : 0.0));
-        imageStore(sentNear, pixel, vec4(byWay[1], 0.0));
+        imageStore(sent, pixel, vec4(byWay[0].e + byWay[1].on, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
+        imageStore(sentNear, pixel, vec4(byWay[1].e, 0.0));
     }
     noteFound(block, d, sends);
 }

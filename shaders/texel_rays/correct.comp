@@ -13,7 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform sampler2D areaLights;
 layout(set = 0, binding = 1) uniform sampler2D rest;
 layout(set = 0, binding = 2) uniform sampler2D shareOf;
-layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D irradiance;
+layout(set = 0, binding = 3, rgba16f) uniform writeonly image2D irradiance;  // a: standard deviation of its noise
 layout(set = 0, binding = 4) uniform sampler2D previousCarried;
 // rgb: what was added to the area lights' light, W/m²; a: its luminance then.
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
@@ -41,7 +41,8 @@ void main() {
     vec4 kept = push.p.valid == 1 ? vec4(push.p.fading * stillTrue(luminance(lights.rgb), known.a) * known.rgb, known.a) : vec4(0.0);
     vec3 c = mix(kept.rgb, measured, trust);
     if (any(greaterThanEqual(pixel, size))) return;
-    imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c, vec3(0.0), vec3(kMostHalf)), lights.a));
+    float deviation = trust * sqrt(kDoubt * texelFetch(rest, at, 0).a);
+    imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c, vec3(0.0), vec3(kMostHalf)), min(deviation, kMostHalf)));
     imageStore(correction, pixel, vec4(c, luminance(lights.rgb)));
     imageStore(carried, pixel, kept);
 }

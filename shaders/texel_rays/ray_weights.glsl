@@ -32,8 +32,8 @@ float shareOfDraw(Receiver r, vec3 direction, float throughSquare, float chance)
     return draw > 0.0 ? draw / (draw + max(dot(r.normal, direction), 0.0) * kInvPi) : 0.0;
 }
 
-// Of emissive surfaces so far away: the hemisphere's ray has those that are near, draws to their points the others.
-float nearShare(float distance_) { return clamp(2.0 - 2.0 * distance_ / max(push.p.reach, 1e-20), 0.0, 1.0); }
+// Of surfaces so far away: the hemisphere's ray has those that are near, draws to points on them the others.
+float nearShare(float distance_, float reach) { return clamp(2.0 - 2.0 * distance_ / max(reach, 1e-20), 0.0, 1.0); }
 
 // What a texel sends to the receiver over its flux, if nothing stands between, 1/m².
 float factorOf(Receiver r, RsmSurface s) {
@@ -42,8 +42,9 @@ float factorOf(Receiver r, RsmSurface s) {
 
 // The same of draws alone.
 float drawnFactorOf(Receiver r, uint map, RsmSurface s) {
-    float far = map == push.p.emissiveMap ? 1.0 - nearShare(distance(s.position, r.position)) : 1.0;
-    return far * factorOf(r, s);
+    float reach = map == push.p.emissiveMap ? push.p.emissiveReach : map == push.p.laterMap ? push.p.laterReach : 0.0;
+    float ofNear = map == push.p.laterMap ? s.cosine : 1.0;  // where the hemisphere's ray ends it finds area lights' light alone
+    return factorOf(r, s) * (1.0 - ofNear * nearShare(distance(s.position, r.position), reach));
 }
 
 // Mean of the channels of what a texel sends, times about the draws' share of it: never 0 where it sends anything.

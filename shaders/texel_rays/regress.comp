@@ -54,14 +54,20 @@ Window windowAbout(ivec2 at, vec4 s, ivec2 size) {
     return w;
 }
 
+// Second moments of rays; both; of control: of what is left of rays.
+float spreadOf(vec3 m, float share) { return m.x - 2.0 * share * m.y + share * share * m.z; }
+
 void main() {
     ivec2 size = imageSize(rest), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
     Window w = windowAbout(at, texelFetch(surface, at, 0), size);
     vec4 sent = texelFetch(sentMean, at, 0);
     vec3 lights = texelFetch(areaLights, at, 0).rgb, control = lights + texelFetch(controlMean, at, 0).rgb;
     float share = w.central.z > 0.0 ? clamp(w.central.y / w.central.z, 0.0, 1.0) : 1.0;
-    float spread = w.central.x - 2.0 * share * w.central.y + share * share * w.central.z;
     float n = max(sent.a, 1.0), few = kFew / n, e2 = w.mean.y * w.mean.y;
+    // A rare find stands out of the pixels about, and of the pixel's own rays.
+    vec2 means = vec2(luminance(sent.rgb), luminance(control));
+    vec3 own = max(texelFetch(moments, at, 0).xyz - means.xxy * means.xyy, vec3(0.0)) * (n / max(n - 1.0, 1.0));
+    float spread = max(spreadOf(w.central, share), spreadOf(own, share));
     float variance = max(spread, kLeastSpread * e2 + 1e-12) / n + few * few * few * few * e2;
     // What is left of the rays follows the lights' sum from pixel to pixel by so much.
     vec3 together = w.withLights - w.mean * w.mean.x;

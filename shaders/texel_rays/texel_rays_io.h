@@ -3,6 +3,8 @@
 #ifndef AG_TEXEL_RAYS_IO_H
 #define AG_TEXEL_RAYS_IO_H
 
+#include "common/pixel_rays.h"
+#include "ray_filter/ray_filter_io.h"
 #include "val_shading/val_shading_io.h"
 
 #ifdef __cplusplus
@@ -19,16 +21,19 @@ struct RaysFound {
 
 struct CastPush {
     ValShadingPush tiles;
-    uint atlasWidth;   // texels, of the maps
-    uint mapCount;     // of lights
-    uint emissiveMap;  // that of emissive surfaces; none: beyond all maps
-    uint ray;          // number of the frame's rays
-    vec3 shift;        // of the noise: the numbers a pixel draws for a direction, and for a light
-    float offset;      // m: rays leave and reach surfaces so far before them at least
+    uint atlasWidth;  // texels, of the maps
+    uint mapCount;    // of lights
+    // Maps of points that shine and of those that reflect; none: beyond all maps.
+    uint emissiveMap, laterMap;
+    uint ray;      // number of the frame's rays
+    vec3 shift;    // of the noise: the numbers a pixel draws for a direction, and for a light
+    float offset;  // m: rays leave and reach surfaces so far before them at least
     // The same in these pixels and in texels: a rasteriser draws between corners it has moved, and so beside
     // surfaces.
     float pixelOffset, texelOffset;
     float reach;  // m: of rays to whatever is near
+    // m, at most the reach: surfaces are met by such rays, and draws to points have those beyond.
+    float emissiveReach, laterReach;
 };
 
 struct ChoosePush {
@@ -52,6 +57,12 @@ struct CarryPush {
 struct CorrectPush {
     uint valid;    // 0: there is no frame before
     float fading;  // share of what is carried that stays, a frame
+};
+
+struct JoinPush {
+    PixelRays rays;
+    float near;  // m
+    RayFilterPush filterBy;
 };
 
 #ifdef __cplusplus

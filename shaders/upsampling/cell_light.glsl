@@ -7,15 +7,15 @@ layout(set = 0, binding = 9) uniform sampler2D base;    // of pixels: other ligh
 layout(constant_id = 0) const bool kDirected = false;
 layout(constant_id = 1) const bool kAdd = false;
 
-vec3 withBase(ivec2 pixel, vec3 e) { return kAdd ? e + texelFetch(base, pixel, 0).rgb : e; }
+vec4 withBase(ivec2 pixel, vec4 e) { return kAdd ? vec4(e.rgb + texelFetch(base, pixel, 0).rgb, e.a) : e; }
 
 // A cell's light as a surface that is turned otherwise takes it.
-vec3 lightFor(Surface s, ivec2 cell) {
+vec4 lightFor(Surface s, ivec2 cell) {
     const float kLeast = 0.5, kMost = 1.5;  // light that comes over the horizon, or no longer does, is not known
     ivec2 there = clamp(cell, ivec2(0), textureSize(light, 0) - 1);
-    vec3 e = texelFetch(light, there, 0).rgb;
+    vec4 e = texelFetch(light, there, 0);
     if (!kDirected) return e;
     vec3 from = texelFetch(toward, there, 0).xyz;
     float own = dot(from, texelFetch(cellNormals, there, 0).xyz);
-    return own > 0.0 ? e * clamp(dot(from, s.normal) / own, kLeast, kMost) : e;
+    return own > 0.0 ? vec4(e.rgb * clamp(dot(from, s.normal) / own, kLeast, kMost), e.a) : e;
 }

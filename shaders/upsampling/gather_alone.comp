@@ -33,5 +33,5 @@ void main() {
         AreaLight l = loadLight(i);
         if (l.power.rgb != vec3(0.0)) e += irradianceFrom(l, position, normal, width, push.ismTileSize);
     }
-    imageStore(result, pixel, vec4(min(e, vec3(kMostHalf)), 1.0));
+    imageStore(result, pixel, vec4(min(e, vec3(kMostHalf)), 0.0));
 }

@@ -8,5 +8,5 @@ layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D result;
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy), pixel = cell * push.spacing + push.place;
     if (any(greaterThanEqual(cell, textureSize(light, 0))) || any(greaterThanEqual(pixel, imageSize(result)))) return;
-    imageStore(result, pixel, vec4(texelFetch(light, cell, 0).rgb, 1.0));
+    imageStore(result, pixel, texelFetch(light, cell, 0));
 }

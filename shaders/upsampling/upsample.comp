@@ -18,7 +18,7 @@ void main() {
     Surface s = surfaceAt(pixel);
     vec2 at = cellsAt(pixel);
     ivec2 low = ivec2(floor(at));
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     float total = 0.0;
     [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 cell = low + ivec2(i & 1, i >> 1);
@@ -29,6 +29,6 @@ void main() {
     }
     if (any(greaterThanEqual(ivec2(gl_GlobalInvocationID.xy), size))) return;
     bool found = total >= kLeastWeight;
-    imageStore(result, pixel, vec4(found && s.depth > 0.0 ? withBase(pixel, sum / total) : vec3(0.0), 1.0));
+    imageStore(result, pixel, found && s.depth > 0.0 ? withBase(pixel, sum / total) : vec4(0.0));
     if (!found && s.depth > 0.0) listPixel(pixel);
 }

@@ -22,7 +22,7 @@ void main() {
     Surface s = surfaceAt(pixel);
     vec2 at = cellsAt(pixel);
     ivec2 nearest = ivec2(floor(at + 0.5));
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     float total = 0.0, most = 0.0;
     for (int i = 0; i < (2 * kReach + 1) * (2 * kReach + 1); ++i) {
         ivec2 cell = nearest + ivec2(i % (2 * kReach + 1), i / (2 * kReach + 1)) - kReach;
@@ -32,6 +32,6 @@ void main() {
         sum += weight * lightFor(s, cell);
         total += weight;
     }
-    imageStore(result, pixel, vec4(withBase(pixel, sum / total), 1.0));
+    imageStore(result, pixel, withBase(pixel, sum / total));
     if (most < kAlone) listPixel(pixel);
 }
