@@ -48,8 +48,9 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     if (rays)
         f.irradiance =
             addTexelRays(tiles, f.irradiance,
-                         {f.rsm, f.clusters, members, in.occluders, in.world.versions, grid.turn, grid.frames,
-                          grid.change, refresh.pixels.count == 1, grid.grows, s.laterBounces.feedback},
+                         {f.rsm, f.clusters, members, in.occluders, s.sky.enabled ? in.sky : SkyOnDevice{},
+                          in.world.versions, grid.turn, grid.frames, grid.change, refresh.pixels.count == 1,
+                          grid.grows, s.laterBounces.feedback},
                          s.valShading, s.texelRays, h.texelRays);
     if (isFirstBounce(f, asked)) f.bounce1 = f.irradiance;
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);

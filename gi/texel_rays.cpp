@@ -102,6 +102,9 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
         .read("slotOfTexel", in.clusters.slotOfTexel)
         .read("candidates", in.clusters.candidates)
         .read("noise", noise)
+        .read("skyTexels", in.sky ? in.sky.texels : in.rsm.texels)  // compiled out without
+        .read("skyUpTo", in.sky ? in.sky.upTo : noise)
+        .constant("kSky", bool(in.sky))
         .write("sent", sent.drawn)
         .write("sentNear", sent.near)
         .readWrite("found", choice.found)

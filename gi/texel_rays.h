@@ -10,6 +10,7 @@
 #include "engine/core/setting_fields.h"
 #include "gi/cluster_members.h"
 #include "gi/settling.h"
+#include "gi/sky.h"
 #include "gi/val_shading.h"
 
 namespace ag::gi {
@@ -62,6 +63,7 @@ struct TexelRaysInputs {
     const Clusters& clusters;
     const ClusterMembers& members;
     const Occluders& occluders;
+    const SkyOnDevice& sky;  // that later bounces have light of; none: they have not
     const Versions& versions;
     uint32_t turn = 0;    // of the pixels of a square (gather_grid.h)
     uint32_t frames = 0;  // with new rays after anything last changed

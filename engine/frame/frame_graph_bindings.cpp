@@ -8,7 +8,7 @@
 namespace ag {
 namespace {
 
-constexpr size_t kMostBindings = 24;  // of a pass
+constexpr size_t kMostBindings = 32;  // of a pass
 constexpr uint32_t kSetsPerPool = 256;
 constexpr size_t kMostSets = 8192;  // then the cache starts anew
 

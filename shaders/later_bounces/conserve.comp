@@ -16,7 +16,7 @@ layout(set = 0, binding = 0) VEC4_TEXELS(texels);
 layout(set = 0, binding = 1) VEC4_TEXELS(vals);
 layout(set = 0, binding = 2) VEC4_TEXELS(sky);
 layout(set = 0, binding = 3) VEC4_TEXELS(straight);
-layout(set = 0, binding = 4, scalar) buffer Irradiance { vec4 items[]; } irradiance;  // a: area lights' share of it
+layout(set = 0, binding = 4, scalar) buffer Irradiance { vec4 items[]; } irradiance;  // a: share that area lights and the sky sent
 
 shared vec3 sentBy[kConserveLanes], arrivedAt[kConserveLanes];  // W
 
@@ -26,10 +26,10 @@ void main() {
     for (uint i = lane; i < push.p.valCount; i += kConserveLanes) sent += fetchTexel(vals, int(i) * 3 + 2).xyz;
     for (uint i = lane; i < push.p.count; i += kConserveLanes) {
         float area = fetchTexel(texels, int(i) * 3).w;
-        vec3 straightOn = kSky ? fetchTexel(sky, int(i)).rgb : vec3(0.0);
+        vec3 straightOn = kSky ? fetchTexel(sky, int(i)).rgb : vec3(0.0), sentHere = irradiance.items[i].xyz + straightOn;
         if (kStraight) straightOn += fetchTexel(straight, int(i)).rgb;
-        vec3 byLights = irradiance.items[i].xyz, all = byLights + straightOn;
-        irradiance.items[i] = vec4(all, luminance(byLights) / max(luminance(all), 1e-20));
+        vec3 all = irradiance.items[i].xyz + straightOn;
+        irradiance.items[i] = vec4(all, luminance(sentHere) / max(luminance(all), 1e-20));
         sent += area * straightOn;
         arrived += area * irradiance.items[i].xyz;
     }

@@ -48,7 +48,7 @@ struct RsmTexel {         // 3 vec4; a texel is a small emitter (method: RSM)
     float weight;         // mean of the flux's channels, W; 0: unlit, no emitter
     vec3 flux;            // reflected, W
     float emitterCosine;  // light to normal at the texel; 0: unlit. Of a point: share of its light that area
-                          // lights sent
+                          // lights and the sky sent
 };
 
 struct RsmAtlas {  // push constants of the passes that walk the atlas

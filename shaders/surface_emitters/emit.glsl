@@ -14,7 +14,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { EmitPush p; } push;
 
 layout(set = 0, binding = 1, scalar) readonly buffer Points { BouncePoint items[]; } points;
-layout(set = 0, binding = 2) VEC4_TEXELS(irradiance);  // W/m²; a: area lights' share of it
+layout(set = 0, binding = 2) VEC4_TEXELS(irradiance);  // W/m²; a: share that area lights and the sky sent
 layout(set = 0, binding = 3, scalar) writeonly buffer Texels { RsmTexel items[]; } texels;
 layout(set = 0, binding = 4, scalar) writeonly buffer Edges { SurfaceEdge items[]; } edges;  // two a point
 #ifdef AG_SKINNED

@@ -10,6 +10,7 @@
 #include "gbuffer/gbuffer.glsl"
 #include "later_bounces/later_bounces_io.h"
 #include "rsm/rsm_io.h"
+#include "sky/sky_io.h"
 #include "texel_rays/texel_rays_io.h"
 #include "val_clustering/val_clustering_io.h"
 #include "val_shading/light_lists.glsl"
@@ -36,12 +37,15 @@ layout(set = 0, binding = 14) UVEC4_TEXELS(treeNodes);
 layout(set = 0, binding = 15, scalar) readonly buffer TreeTriangles { vec4 items[]; } treeTriangles;
 layout(set = 0, binding = 16) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
-layout(set = 0, binding = 18) UINT_TEXELS(noise);  // two 16-bit shares each
+layout(set = 0, binding = 18, scalar) uniform Noise { uvec4 items[1024]; } noise;  // two 16-bit shares each
 // W/m², by the texels drawn; a: 1 + the entry of the light drawn, 0: none.
 layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;
 layout(set = 0, binding = 20, scalar) buffer FoundByLight { RaysFound items[]; } found;  // of each block, by light
 layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;        // W/m², by the hemisphere's ray
 layout(set = 0, binding = 22, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
+layout(set = 0, binding = 23) VEC4_TEXELS(skyTexels);
+layout(set = 0, binding = 24, scalar) uniform SkyUpTo { vec4 items[kSkyCells / 4]; } skyUpTo;
+layout(constant_id = 0) const bool kSky = false;
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
@@ -49,6 +53,8 @@ layout(set = 0, binding = 22, scalar) readonly buffer TileMaps { uint items[]; }
 #include "texel_rays/blocks.glsl"
 #include "texel_rays/met_surface.glsl"
 #include "texel_rays/ray_weights.glsl"
+#define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
+#include "sky/draw.glsl"
 
 const uint kDraws = 8;  // texels that one is resampled from
 
@@ -139,18 +145,43 @@ Way wayOfDraw(Receiver r, Drawn d, Aim aim, vec2 xi, float opaqueFrom) {
     return wayToMiddle(r, v, aim, opaqueFrom);
 }
 
-// What area lights send to a place, W/m², by a ray to one texel.
-vec3 receivedAt(Met met, Receiver from, float opaqueFrom, uint random) {
-    Receiver r = Receiver(met.place, met.normal, met.place + met.normal * from.offset, from.offset, from.tile, from.block);
+// Light drawn for a place.
+struct Incident {
+    vec3 toward;
+    float reach;  // of the ray that asks for it, in lengths of toward
+    vec3 sends;   // W/m², if nothing stands between
+};
+
+Incident fromAreaLights(Receiver r, inout uint random) {
     Drawn d = drawLight(r.tile, r.block, unitOf(random));
-    if (d.likely <= 0.0 || d.memberCount == 0) return vec3(0.0);
+    if (d.likely <= 0.0 || d.memberCount == 0) return Incident(vec3(0.0), 0.0, vec3(0.0));
     MemberDraw drawn = MemberDraw(kNoTexel, 0.0, 0.0);
     AG_DRAW_MEMBER(drawn, fetchTexel(memberRanges, int(d.light * 2)).x, d.memberCount, kDraws, random, factorOf(r, s) * s.weight)
-    if (drawn.texel == kNoTexel) return vec3(0.0);
+    if (drawn.texel == kNoTexel) return Incident(vec3(0.0), 0.0, vec3(0.0));
     RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);
-    BvhRay ray = BvhRay(r.start, before(s) - r.start, 1.0, opaqueFrom, true, 0, 0);
-    if (traceOccluders(ray)) return vec3(0.0);
-    return s.flux * (factorOf(r, s) * weightOf(drawn, d.memberCount, kDraws) / d.likely);
+    return Incident(before(s) - r.start, 1.0, s.flux * (factorOf(r, s) * weightOf(drawn, d.memberCount, kDraws) / d.likely));
+}
+
+Incident fromSky(Receiver r, inout uint random) {
+    vec3 xi;
+    [[unroll]] for (int i = 0; i < 3; ++i) random = hashUint(random), xi[i] = unitOf(random);
+    SkyDraw d = drawSky(xi);
+    float cosine = max(dot(r.normal, d.direction), 0.0);
+    return Incident(d.direction, 1e20, d.density > 0.0 ? d.radiance * (cosine / d.density) : vec3(0.0));
+}
+
+// W/m², by a ray to one texel and one to the sky.
+vec3 receivedAt(Met met, Receiver from, float opaqueFrom, uint random) {
+    Receiver r = Receiver(met.place, met.normal, met.place + met.normal * from.offset, from.offset, from.tile, from.block);
+    vec3 e = vec3(0.0);
+    for (uint kind = 0; kind < (kSky ? 2 : 1); ++kind) {
+        Incident light;
+        if (kind == 0) light = fromAreaLights(r, random);
+        else light = fromSky(r, random);
+        BvhRay ray = BvhRay(r.start, light.toward, light.reach, opaqueFrom, true, 0, 0);
+        if (light.sends != vec3(0.0) && !traceOccluders(ray)) e += light.sends;
+    }
+    return e;
 }
 
 // What goes on from what the hemisphere's ray met, W/m².
@@ -182,7 +213,8 @@ Found sentAlong(Receiver r, Way w, uint random) {
 }
 
 vec2 noiseAt(uvec2 pixel, uint aside) {
-    return unpackUnorm2x16(fetchTexel(noise, int((pixel.y & 63u) * 64u + (pixel.x + aside & 63u))).x);
+    uint i = (pixel.y & 63u) * 64u + (pixel.x + aside & 63u);
+    return unpackUnorm2x16(noise.items[i / 4][i % 4]);
 }
 
 // Of a block: four by two for each eight invocations in a row.

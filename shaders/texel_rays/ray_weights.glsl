@@ -43,7 +43,7 @@ float factorOf(Receiver r, RsmSurface s) {
 // The same of draws alone.
 float drawnFactorOf(Receiver r, uint map, RsmSurface s) {
     float reach = map == push.p.emissiveMap ? push.p.emissiveReach : map == push.p.laterMap ? push.p.laterReach : 0.0;
-    float ofNear = map == push.p.laterMap ? s.cosine : 1.0;  // where the hemisphere's ray ends it finds area lights' light alone
+    float ofNear = map == push.p.laterMap ? s.cosine : 1.0;  // where the hemisphere's ray ends, that of lights without maps is not asked for
     return factorOf(r, s) * (1.0 - ofNear * nearShare(distance(s.position, r.position), reach));
 }
 
