@@ -95,7 +95,7 @@ ImageHandle addLight(GraphScope scope, const GBuffer& gbuffer, const SceneView& 
     const PunctualLights lights{
         addPunctualLists(scope, scene, surfaces, clusters, s.punctualLighting.tiles, h.punctualLists),
         f.punctual.shadows};
-    direct = addPunctualLighting(scope, scene, surfaces, lights, direct, glossy, s.punctualLighting);
+    direct = addPunctualLighting(scope, scene, surfaces, lights, direct, nullptr, glossy, s.punctualLighting);
     const gi::Occluders occluders = occludersOf(scene);
     const gi::SkyLight sky = gi::addSkyLight(scope, surfaces, s.bounce.spacing,
                                              {scene.sky, occluders, versionsOf(scene)}, s.bounce.sky, h.sky);

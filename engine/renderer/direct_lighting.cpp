@@ -34,6 +34,10 @@ void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy,
     }
 }
 
+io::RayOffsets shadowRayOffsets(const gi::Occluders& traced) {
+    return {.least = io::kRayOffset * traced.extent, .ofPixel = traced.trees.snapping};
+}
+
 DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
                            const ShadowMaps& shadows, const gi::Occluders* traced, bool glossy) {
     DirectLight result;
@@ -51,8 +55,7 @@ DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::S
                           .firstView = shadows.suns[i].firstView,
                           .irradiance = light.intensity,
                           .viewCount = shadows.suns[i].viewCount,
-                          .rayOffset = io::kRayOffset * scene.extent,
-                          .pixelOffset = traced ? traced->trees.snapping : 0,
+                          .offsets = traced ? shadowRayOffsets(*traced) : io::RayOffsets{},
                           .rayReach = gi::kRayReaches * scene.extent})
             .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
         if (shadow) pass.read("shadowViews", shadows.views).sample("shadowAtlas", shadows.atlas);

@@ -4,6 +4,7 @@
 #include "engine/renderer/shadow_maps.h"
 #include "gi/surfaces.h"
 #include "gi/val_shading.h"
+#include "shaders/direct_lighting/direct_lighting_io.h"
 
 namespace ag::render {
 
@@ -16,6 +17,9 @@ struct DirectLight {
 // asked for.
 void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy, PassBuilder& pass,
                      DirectLight& light);
+
+// Of shadow rays through trees.
+io::RayOffsets shadowRayOffsets(const gi::Occluders& traced);
 
 // `traced`: occluders that have trees, if shadows are found by rays.
 DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,

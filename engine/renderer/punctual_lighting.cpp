@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "gi/occluder_trees.h"
+
 namespace ag::render {
 namespace {
 
@@ -52,22 +54,28 @@ PunctualQuads addPunctualQuads(GraphScope scope, const SceneView& scene, const g
 }  // namespace
 
 DirectLight addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                                const PunctualLights& lights, DirectLight before, bool glossy,
-                                const PunctualLightingSettings& settings) {
+                                const PunctualLights& lights, DirectLight before, const gi::Occluders* traced,
+                                bool glossy, const PunctualLightingSettings& settings) {
     const auto& [lists, shadows] = lights;
     if (!lists.lights) return before;
     const bool shadowed = bool(shadows.atlas);
-    const bool quads = shadowed && settings.quads && shadows.places > kFewClusters;
+    const bool rays = shadowed && traced;
+    const bool quads = shadowed && settings.quads && shadows.places > kFewClusters && !rays;
     const PunctualQuads from =
         quads ? addPunctualQuads(scope, scene, gbuffer, lights, settings) : PunctualQuads{};
     PassBuilder shade = beginShading(scope, "punctual_lighting.shade",
                                      quads      ? "direct_lighting/spread_punctual_shadows.comp"
+                                     : rays     ? "direct_lighting/shade_punctual_traced.comp"
                                      : shadowed ? "direct_lighting/shade_punctual.comp"
                                                 : "direct_lighting/shade_punctual_unshadowed.comp",
                                      scene, gbuffer, lists);
     shade.dispatchGroups(lists.tiles.x * lists.tiles.y);
     if (quads) shade.sample("shadowed", from.shadowed).sample("unshadowed", from.unshadowed);
     if (shadowed && !quads) bindShadows(shade, shadows, settings);
+    if (rays) {
+        shade.push(shadowRayOffsets(*traced));
+        gi::readTrees(shade, traced->trees);
+    }
     bindDirectLight(scope, gbuffer, glossy, shade, before);
     return before;
 }

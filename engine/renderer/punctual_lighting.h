@@ -40,9 +40,10 @@ struct PunctualLights {
     PunctualShadows shadows;
 };
 
-// Adds to `before`, or starts anew where that has no image.
+// Adds to `before`, or starts anew where that has no image. `traced`: where shadow maps are not sure, rays
+// through these.
 DirectLight addPunctualLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
-                                const PunctualLights& lights, DirectLight before, bool glossy,
-                                const PunctualLightingSettings& settings);
+                                const PunctualLights& lights, DirectLight before, const gi::Occluders* traced,
+                                bool glossy, const PunctualLightingSettings& settings);
 
 }  // namespace ag::render

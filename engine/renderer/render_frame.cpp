@@ -31,7 +31,8 @@ RenderFrame addFrame(GraphScope scope, const SceneView& scene, const RenderSetti
         addPunctualShadows(scope, scene, lights, s.lightClusters.most, s.punctualShadows, h.punctualShadows);
     f.punctual.lists =
         addPunctualLists(scope, scene, surfaces, lights, s.punctualLighting.tiles, h.punctualLists);
-    f.direct = addPunctualLighting(scope, scene, surfaces, f.punctual, f.direct, glossy, s.punctualLighting);
+    f.direct =
+        addPunctualLighting(scope, scene, surfaces, f.punctual, f.direct, traced, glossy, s.punctualLighting);
     if (s.lightClusters.strongFirst)
         addPunctualRelevance(scope, f.bounce.viewPoints, f.punctual.lists, h.punctualRelevance);
 

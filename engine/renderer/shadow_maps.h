@@ -28,8 +28,10 @@ struct ShadowMapSettings {
                 "part of the way to the scene's end that cascades share out; the last one goes on to it"},
             SettingField{"cascade_split", &ShadowMapSettings::cascadeSplit, 0, 1, "",
                          "0 uniform, 1 logarithmic"},
-            SettingField{"rays", &ShadowMapSettings::rays, 0, 0, "",
-                         "while nothing changes suns' shadows are found by rays, where texel_rays are on"}};
+            SettingField{
+                "rays", &ShadowMapSettings::rays, 0, 0, "",
+                "while nothing changes suns' shadows are found by rays, lamps' where maps are not sure; "
+                "where texel_rays are on"}};
     }
 
     bool operator==(const ShadowMapSettings&) const = default;

@@ -13,14 +13,18 @@ const uint kMaxPunctualLightsPerTile = 1024;  // further ones, in the order of c
 const uint kPunctualTileSize = 16;            // pixels
 const uint kNoLightCluster = 0xffffffffu;
 
+struct RayOffsets {  // so far before surfaces shadow rays leave
+    float least;     // m
+    float ofPixel;   // of a pixel's width: a rasteriser draws between corners it has moved
+};
+
 struct Sun {
-    vec3 direction;     // the way the light travels, unit
-    uint firstView;     // index into the shadow views
-    vec3 irradiance;    // W/m² on a plane facing the light
-    uint viewCount;     // 0: casts no shadow
-    float rayOffset;    // m: shadow rays leave surfaces so far before them at least
-    float pixelOffset;  // the same in pixels: a rasteriser draws between corners it has moved
-    float rayReach;     // m: beyond it nothing stands
+    vec3 direction;   // the way the light travels, unit
+    uint firstView;   // index into the shadow views
+    vec3 irradiance;  // W/m² on a plane facing the light
+    uint viewCount;   // 0: casts no shadow
+    RayOffsets offsets;
+    float rayReach;  // m: beyond it nothing stands
 };
 
 struct PunctualLight {    // 4 vec4; sorted by cluster

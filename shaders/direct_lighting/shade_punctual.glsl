@@ -30,6 +30,10 @@ layout(set = 0, binding = 4) VEC4_TEXELS(clusters);
 layout(set = 0, binding = 6) uniform sampler2D shadowAtlas;
 #include "direct_lighting/punctual_shadow.glsl"
 #endif
+#ifdef AG_TRACED
+layout(push_constant, scalar) uniform Push { RayOffsets offsets; } push;
+#include "direct_lighting/traced_shadow.glsl"
+#endif
 
 uint lightIndex(uint entry) { return fetchTexel(lists, int(entry)).x; }
 
@@ -51,6 +55,32 @@ vec4 clusterShares(uint cluster, Receiver r[kPixels]) {
 #endif
     return shares;
 }
+
+#ifdef AG_TRACED
+// A ray to the light where its cluster's map says neither 0 nor 1. `shares` by that map; `lit`: what it makes of the light.
+vec4 tracedShares(PunctualLight light, Receiver r[kPixels], ivec2 origin, vec4 shares, vec4 lit) {
+    int count = light.cluster != kNoLightCluster ? kPixels : 0;
+    float near = light.cluster != kNoLightCluster ? fetchCluster(light.cluster).nearDistance : 0.0;
+    [[dont_unroll]] for (int p = 0; p < count; ++p) {
+        Receiver at = r[0];
+        float share = shares[0];
+        [[unroll]] for (int q = 1; q < kPixels; ++q) {
+            at.position = p == q ? r[q].position : at.position;
+            at.normal = p == q ? r[q].normal : at.normal;
+            at.depth = p == q ? r[q].depth : at.depth;
+            share = p == q ? shares[q] : share;
+        }
+        bool sure = share <= 0.0 || share >= 1.0 || at.depth <= 0.0 || dot(at.normal, light.position - at.position) <= 0.0;
+        if (sure) continue;
+        vec3 start = shadowRayStart(at.position, at.normal, origin + ivec2(p & 1, p >> 1), at.depth, push.offsets);
+        vec3 toLight = light.position - start;
+        uint blocker = blockerAlong(start, toLight, max(1.0 - near / length(toLight), 0.0));
+        [[unroll]] for (int q = 0; q < kPixels; ++q)
+            lit[q] = p != q || blocker == kMaskedAlone ? lit[q] : blocker == kOpaque ? 0.0 : 1.0;
+    }
+    return lit;
+}
+#endif
 
 void main() {
     uvec2 size = camera.camera.size, tiles = (size + kPunctualTileSize - 1) / kPunctualTileSize;
@@ -79,14 +109,22 @@ void main() {
         for (; i < end; ++i) {
             PunctualLight light = punctualLightAt(lightIndex(i));
             if (light.cluster != cluster) break;
+            vec3 from[kPixels];
+            vec4 lit;
             [[unroll]] for (int p = 0; p < kPixels; ++p) {
                 float distance2;
-                vec3 from = irradianceFrom(light, r[p].position, r[p].normal, distance2);
-                all[p] += from;
-                from *= 1.0 - (1.0 - shares[p]) * shadowWeight(light, distance2, kShadowReach);
-                e[p] += from;
+                from[p] = irradianceFrom(light, r[p].position, r[p].normal, distance2);
+                lit[p] = 1.0 - (1.0 - shares[p]) * shadowWeight(light, distance2, kShadowReach);
+            }
+#ifdef AG_TRACED
+            lit = tracedShares(light, r, ivec2(origin), shares, lit);
+#endif
+            [[unroll]] for (int p = 0; p < kPixels; ++p) {
+                all[p] += from[p];
+                vec3 arrives = from[p] * lit[p];
+                e[p] += arrives;
 #ifndef AG_QUADS
-                if (kGlossy) shine[p] += highlightOf(lobe[p], r[p].normal, normalize(light.position - r[p].position), from);
+                if (kGlossy) shine[p] += highlightOf(lobe[p], r[p].normal, normalize(light.position - r[p].position), arrives);
 #endif
             }
         }

@@ -25,29 +25,11 @@ float sunShare(vec3 position, vec3 normal, float viewDepth) {
 }
 #endif
 #ifdef AG_TRACED
-#include "common/texels.glsl"
-layout(set = 0, binding = 20) UVEC4_TEXELS(treeNodes);
-layout(set = 0, binding = 21) UVEC4_TEXELS(moverNodes);
-layout(set = 0, binding = 22) UVEC4_TEXELS(treePlaces);
-layout(set = 0, binding = 23, scalar) readonly buffer TreeTriangles { vec4 items[]; } treeTriangles;
-#define AG_BVH_MOVERS
-#define AG_BVH_SHARE(opaqueFrom, triangle) (opaqueFrom)
-#include "bvh/trace.glsl"
+#include "direct_lighting/traced_shadow.glsl"
 
-const float kAll = 0.0, kUnmasked = 0.999;  // opacity of triangles that rays meet
-
-// Trees know the mean opacity of masked triangles alone. Where nothing else is in the way, the shadow maps are asked.
-float tracedShare(vec3 position, vec3 normal, float pixelWidth, float viewDepth) {
-    float offset = max(push.sun.rayOffset, push.sun.pixelOffset * pixelWidth);
-    vec3 start = position + (normal + normalize(camera.camera.position - position)) * offset;
-    bool masked = false;
-    for (int i = 0; i < 2; ++i) {
-        BvhRay ray = BvhRay(start, -push.sun.direction, push.sun.rayReach, masked ? kUnmasked : kAll, true, 0, 0);
-        if (!traceOccluders(ray)) break;
-        masked = treeTriangles.items[ray.triangle * 3].w < 1.0;
-        if (!masked) return 0.0;
-    }
-    return masked ? sunShare(position, normal, viewDepth) : 1.0;
+float tracedShare(vec3 start, vec3 position, vec3 normal, float viewDepth) {
+    uint blocker = blockerAlong(start, -push.sun.direction, push.sun.rayReach);
+    return blocker == kMaskedAlone ? sunShare(position, normal, viewDepth) : blocker == kOpaque ? 0.0 : 1.0;
 }
 #endif
 
@@ -62,8 +44,8 @@ void main() {
     vec3 e = push.sun.irradiance * max(dot(normal, -push.sun.direction), 0.0);
 #if defined(AG_TRACED)
     bool faces = depth > 0.0 && e != vec3(0.0);
-    float pixelWidth = distance(position, worldFromPixel(camera.camera.worldFromClip, size, pixel + ivec2(1, 0), depth));
-    e *= faces ? tracedShare(position, normal, pixelWidth, camera.camera.near / max(depth, 1e-9)) : 0.0;
+    vec3 start = shadowRayStart(position, normal, pixel, depth, push.sun.offsets);
+    e *= faces ? tracedShare(start, position, normal, camera.camera.near / max(depth, 1e-9)) : 0.0;
 #elif defined(AG_SHADOW)
     e *= sunShare(position, normal, camera.camera.near / max(depth, 1e-9));
 #endif
