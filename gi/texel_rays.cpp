@@ -68,10 +68,8 @@ uint32_t emissiveMapOf(const Vals& vals, const RsmSet& rsm) {
     return vals.first < rsm.emissiveCount ? rsm.lightRsmCount : ~0u;
 }
 
-// None either where the lights are not those that its points had their light from.
 uint32_t laterMapOf(const Vals& vals, const TexelRaysInputs& in) {
-    const bool all = vals.first == 0 && vals.count > in.rsm.firstLater;
-    return all && in.endless ? in.rsm.atlas.mapCount - 1 : ~0u;
+    return vals.count > in.rsm.firstLater && in.endless ? in.rsm.atlas.mapCount - 1 : ~0u;
 }
 
 // Points that are nearer are no even surface.

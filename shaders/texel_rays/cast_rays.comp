@@ -56,7 +56,7 @@ layout(constant_id = 0) const bool kSky = false;
 #define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
 #include "sky/draw.glsl"
 
-const uint kDraws = 8;  // texels that one is resampled from
+const uint kDraws = 8, kNearDraws = 16;  // texels that one is resampled from: of a light; of all for what is near
 
 struct Drawn {
     uint entry, light;
@@ -65,19 +65,26 @@ struct Drawn {
     float chance;  // of one of its texels
 };
 
+uint entriesOfLists() { return push.p.tiles.valCount - push.p.tiles.firstVal; }
+
+Drawn lightOfEntry(uint tile, uint block, uint entry) {
+    uint valCount = push.p.tiles.valCount;
+    bool some = entriesOfLists() > 0;
+    uint light = some ? fetchTexel(lists, int(listEntry(tile, entry, counts.items[tile], valCount))).x : 0;
+    float likely_ = some ? fetchTexel(likely, int(block * valCount + light)).x : 0.0;
+    uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
+    return Drawn(entry, light, likely_, memberCount, chanceOfTexel(likely_, memberCount));
+}
+
 Drawn drawLight(uint tile, uint block, float xi) {
-    uint valCount = push.p.tiles.valCount, first = block * valCount, entries = valCount - push.p.tiles.firstVal;
-    uint low = 0, high = max(entries, 1) - 1;
+    uint first = block * push.p.tiles.valCount, low = 0, high = max(entriesOfLists(), 1) - 1;
     while (low < high) {
         uint middle = (low + high) / 2;
         bool after = xi >= fetchTexel(upTo, int(first + middle)).x;
         low = after ? middle + 1 : low;
         high = after ? high : middle;
     }
-    uint light = entries > 0 ? fetchTexel(lists, int(listEntry(tile, low, counts.items[tile], valCount))).x : 0;
-    float ofLight = entries > 0 ? fetchTexel(likely, int(first + light)).x : 0.0;
-    uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
-    return Drawn(low, light, ofLight, memberCount, chanceOfTexel(ofLight, memberCount));
+    return lightOfEntry(tile, block, low);
 }
 
 struct Aim {
@@ -152,20 +159,54 @@ struct Incident {
     vec3 sends;   // W/m², if nothing stands between
 };
 
+float next(inout uint random) {
+    random = hashUint(random);
+    return unitOf(random);
+}
+
+uint memberAt(uint first, uint count, float xi) { return fetchTexel(members, int(first + min(uint(xi * float(count)), count - 1))).x; }
+
+uint firstMember(uint light) { return fetchTexel(memberRanges, int(light * 2)).x; }
+
+struct Candidate {
+    uint texel;
+    float likely;
+};
+
+// A texel that may light a place near the pixel: of one of the pixel's lights, by what is likely for the pixel or any; or of
+// those before them, which the layer leaves out.
+Candidate candidateFor(Receiver r, inout uint random) {
+    const float kEven = 0.5;
+    uint before_ = push.p.tiles.firstVal > 0 ? firstMember(push.p.tiles.firstVal) - firstMember(0) : 0, entries = entriesOfLists();
+    float ofBefore = before_ > 0 ? 0.5 : 0.0;
+    if (next(random) < ofBefore) return Candidate(memberAt(firstMember(0), before_, next(random)), ofBefore / float(before_));
+    bool even = next(random) < kEven;
+    float xi = next(random);
+    Drawn d = even ? lightOfEntry(r.tile, r.block, min(uint(xi * float(entries)), max(entries, 1) - 1)) : drawLight(r.tile, r.block, xi);
+    if (entries == 0 || d.memberCount == 0) return Candidate(kNoTexel, 0.0);
+    float ofLight = mix(d.likely, 1.0 / float(entries), kEven);
+    return Candidate(memberAt(firstMember(d.light), d.memberCount, next(random)), (1.0 - ofBefore) * ofLight / float(d.memberCount));
+}
+
 Incident fromAreaLights(Receiver r, inout uint random) {
-    Drawn d = drawLight(r.tile, r.block, unitOf(random));
-    if (d.likely <= 0.0 || d.memberCount == 0) return Incident(vec3(0.0), 0.0, vec3(0.0));
     MemberDraw drawn = MemberDraw(kNoTexel, 0.0, 0.0);
-    AG_DRAW_MEMBER(drawn, fetchTexel(memberRanges, int(d.light * 2)).x, d.memberCount, kDraws, random, factorOf(r, s) * s.weight)
+    for (uint i = 0; i < kNearDraws; ++i) {
+        Candidate c = candidateFor(r, random);
+        if (c.texel == kNoTexel) continue;
+        RsmSurface s = AG_RSM_FETCH(texels, c.texel);
+        float want = factorOf(r, s) * s.weight, weight = want / c.likely;
+        drawn.sum += weight;
+        if (weight <= 0.0 || (1.0 - next(random)) * drawn.sum > weight) continue;
+        drawn.texel = c.texel, drawn.wanted = want;
+    }
     if (drawn.texel == kNoTexel) return Incident(vec3(0.0), 0.0, vec3(0.0));
     RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);
-    return Incident(before(s) - r.start, 1.0, s.flux * (factorOf(r, s) * weightOf(drawn, d.memberCount, kDraws) / d.likely));
+    return Incident(before(s) - r.start, 1.0, s.flux * (factorOf(r, s) * weightOf(drawn, 1, kNearDraws)));
 }
 
 Incident fromSky(Receiver r, inout uint random) {
-    vec3 xi;
-    [[unroll]] for (int i = 0; i < 3; ++i) random = hashUint(random), xi[i] = unitOf(random);
-    SkyDraw d = drawSky(xi);
+    float x = next(random), y = next(random), z = next(random);
+    SkyDraw d = drawSky(vec3(x, y, z));
     float cosine = max(dot(r.normal, d.direction), 0.0);
     return Incident(d.direction, 1e20, d.density > 0.0 ? d.radiance * (cosine / d.density) : vec3(0.0));
 }
