@@ -1,6 +1,6 @@
 // Irradiance straight from a tile's punctual lights. They come sorted by cluster, so that each cluster's visibility is
 // found once a pixel for all of its lights. Four pixels an invocation share the loads. AG_QUADS: for one pixel in each
-// 2 x 2, and beside it what arrived if nothing cast shadows.
+// 2 x 2, and beside it what arrived if nothing cast shadows. AG_TRACED: rays find the edges of shadows.
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 

@@ -27,7 +27,7 @@ layout(set = 0, binding = 10, scalar) writeonly buffer Means { PointMeans items[
 
 const uint kDraws = 16;        // texels that one is resampled from
 const float kTrust = 2.0;      // frames: rays of fewer say little
-const float kMostTimes = 4.0;  // so far area lights may be below rays; what is beyond is added
+const float kMostTimes = 4.0;  // so far area lights may be below rays
 
 uint firstMember(uint light) { return fetchTexel(memberRanges, int(light * 2)).x; }
 
@@ -81,6 +81,5 @@ void main() {
     means.items[i].byLights = lights;
     means.items[i].frames = frames;
     vec3 trusted = lights * (kTrust / frames);
-    vec3 found = rays + trusted, sent = lights + trusted;
-    irradiance.items[i].rgb = byLights * min(found / max(sent, vec3(1e-20)), vec3(kMostTimes)) + max(found - kMostTimes * sent, vec3(0.0));
+    irradiance.items[i].rgb = byLights * min((rays + trusted) / max(lights + trusted, vec3(1e-20)), vec3(kMostTimes));
 }

@@ -35,7 +35,7 @@ void main() {
     c *= push.p.dimming;
     c.rgb *= stillTrue(luminance(lights.rgb), c.a);
     if (any(greaterThanEqual(pixel, size))) return;
-    imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c.rgb, vec3(0.0), vec3(kMostHalf)), lights.a));
+    imageStore(irradiance, pixel, vec4(clamp(lights.rgb + c.rgb, vec3(0.0), vec3(kMostHalf)), 0.0));
     imageStore(correction, pixel, c);
     imageStore(surface, pixel, vec4(normal, depth));
 }

@@ -3,7 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 // Light that reaches a pixel, by two rays: one to a texel of one area light, drawn by what these are likely to send
 // (resampling, Talbot et al. 2005); one into the hemisphere, not far. Within the reach of the second, both count the light of
-// the surface they meet, and a third ray asks whether the light gets there.
+// the surface they meet, and a further ray asks whether the light gets there. Near points of later bounces, the light of area
+// lights and of the sky goes on from where the second ends, by a ray to either.
 #include "common/pixel_rays.h"
 #include "common/sampling.h"
 #include "common/texels.glsl"
@@ -38,7 +39,7 @@ layout(set = 0, binding = 15, scalar) readonly buffer TreeTriangles { vec4 items
 layout(set = 0, binding = 16) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 17) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 18, scalar) uniform Noise { uvec4 items[1024]; } noise;  // two 16-bit shares each
-// W/m², by the texels drawn; a: 1 + the entry of the light drawn, 0: none.
+// W/m², by what was drawn; a: 1 + the entry of the light drawn, 0: none.
 layout(set = 0, binding = 19, rgba32f) uniform writeonly image2D sent;
 layout(set = 0, binding = 20, scalar) buffer FoundByLight { RaysFound items[]; } found;  // of each block, by light
 layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;        // W/m², by the hemisphere's ray
@@ -126,11 +127,11 @@ Way wayOfNear(Receiver r, vec2 xi, float opaqueFrom) {
 }
 
 // Where a ray to a texel's middle ends.
-vec3 before(RsmSurface s) { return s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)); }
+vec3 endBefore(RsmSurface s) { return s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)); }
 
 // To a texel's middle: all it sends if nothing stands between.
 Way wayToMiddle(Receiver r, TexelView v, Aim aim, float opaqueFrom) {
-    BvhRay ray = BvhRay(r.start, before(v.s) - r.start, 1.0, opaqueFrom, true, 0, 0);
+    BvhRay ray = BvhRay(r.start, endBefore(v.s) - r.start, 1.0, opaqueFrom, true, 0, 0);
     return Way(ray, 0, 0, aim.texel, 0.0, v.s.flux * (drawnFactorOf(r, aim.map, v.s) * aim.weight));
 }
 
@@ -177,13 +178,14 @@ struct Candidate {
 // those before them, which the layer leaves out.
 Candidate candidateFor(Receiver r, inout uint random) {
     const float kEven = 0.5;
-    uint before_ = push.p.tiles.firstVal > 0 ? firstMember(push.p.tiles.firstVal) - firstMember(0) : 0, entries = entriesOfLists();
-    float ofBefore = before_ > 0 ? 0.5 : 0.0;
-    if (next(random) < ofBefore) return Candidate(memberAt(firstMember(0), before_, next(random)), ofBefore / float(before_));
+    uint others = push.p.tiles.firstVal > 0 ? firstMember(push.p.tiles.firstVal) - firstMember(0) : 0, entries = entriesOfLists();
+    float ofBefore = others > 0 ? 0.5 : 0.0;
+    if (next(random) < ofBefore) return Candidate(memberAt(firstMember(0), others, next(random)), ofBefore / float(others));
     bool even = next(random) < kEven;
     float xi = next(random);
     Drawn d = even ? lightOfEntry(r.tile, r.block, min(uint(xi * float(entries)), max(entries, 1) - 1)) : drawLight(r.tile, r.block, xi);
-    if (entries == 0 || d.memberCount == 0) return Candidate(kNoTexel, 0.0);
+    // Where nothing is likely yet no light is drawn by that.
+    if (entries == 0 || d.memberCount == 0 || !even && d.likely <= 0.0) return Candidate(kNoTexel, 0.0);
     float ofLight = mix(d.likely, 1.0 / float(entries), kEven);
     return Candidate(memberAt(firstMember(d.light), d.memberCount, next(random)), (1.0 - ofBefore) * ofLight / float(d.memberCount));
 }
@@ -201,7 +203,7 @@ Incident fromAreaLights(Receiver r, inout uint random) {
     }
     if (drawn.texel == kNoTexel) return Incident(vec3(0.0), 0.0, vec3(0.0));
     RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);
-    return Incident(before(s) - r.start, 1.0, s.flux * (factorOf(r, s) * weightOf(drawn, 1, kNearDraws)));
+    return Incident(endBefore(s) - r.start, 1.0, s.flux * (factorOf(r, s) * weightOf(drawn, 1, kNearDraws)));
 }
 
 Incident fromSky(Receiver r, inout uint random) {

@@ -10,7 +10,8 @@ const float kAlike = 0.8;  // least cosine between normals of a texel and a tria
 struct Met {
     vec3 place, normal;  // on the ray's side, unit
     bool front;          // it reflects light to where the ray came from
-    vec3 reflectance;    // 0 of a masked triangle and of one that shines
+    vec3 reflectance;    // 0 of a triangle that shines
+    bool masked;
     vec3 shines;         // W/m²
 };
 
@@ -22,7 +23,7 @@ Met surfaceMet(BvhRay ray) {
     bool behind = dot(normal, ray.direction) > 0.0;
     bool whole = treeTriangles.items[ray.triangle * 3].w >= 1.0;
     return Met(ray.origin + ray.direction * ray.reach, behind ? -normal : normal, front == 0.0 || (front < 0.0) == behind,
-               whole && !shines ? unpackReflectance(sends) : vec3(0.0), shines ? unpackRadiance(sends) * kPi : vec3(0.0));
+               shines ? vec3(0.0) : unpackReflectance(sends), !whole, shines ? unpackRadiance(sends) * kPi : vec3(0.0));
 }
 
 // Whether a map's light reaches a place: a texel says it only about its middle.
@@ -46,8 +47,8 @@ Sender senderAt(uint map, Met met, uint atlasWidth) {
     texel = texel != kNoTexel && fetchTexel(slotOfTexel, int(texel)).x == kNoCluster ? kNoTexel : texel;
     if (texel != kNoTexel) {
         RsmSurface s = AG_RSM_FETCH(texels, texel);
-        if (dot(s.normal, met.normal) >= kAlike || met.reflectance == vec3(0.0)) return Sender(texel, s.flux / s.area);
+        if (dot(s.normal, met.normal) >= kAlike || met.masked || met.reflectance == vec3(0.0)) return Sender(texel, s.flux / s.area);
     }
-    return Sender(texel, irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance);
+    return Sender(texel, met.masked ? vec3(0.0) : irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance);
 }
 #endif

@@ -1,5 +1,5 @@
 // Rays to texels of reflective shadow maps: what area lights and their imperfect shadow maps get wrong,
-// measured at each pixel with a ray or two.
+// measured at each pixel with some rays.
 #ifndef AG_TEXEL_RAYS_IO_H
 #define AG_TEXEL_RAYS_IO_H
 

@@ -71,7 +71,13 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     settings.gi.bounce.stochasticRsm.interpolate = c.preset == "rsm-400";
     settings.gi.bounce.valClustering.count = 64;
     settings.gi.bounce.rsm.resolution = 128;
-    if (c.rests) settings.warmUp = 3;  // trees and what was asked for are as in the frame before
+    if (c.rests) {
+        settings.warmUp = 3;  // trees and what was asked for are as in the frame before
+        // The first pixels' turn is over in these frames.
+        settings.gi.bounce.texelRays.settleFrames = settings.gi.bounce.valClustering.settleFrames = 2;
+        settings.frames = 4;
+        settings.gi.bounce.denoiser.enabled = false;  // pixels of all turns are joined
+    }
     if (c.waits) {
         settings.gi.bounce.valClustering.settleFrames = 0;
         settings.gi.bounce.refresh.small = 1;

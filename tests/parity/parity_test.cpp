@@ -215,11 +215,13 @@ TEST(Parity, FirstBounceThroughImperfectShadowMaps) {
         for (const uint32_t spacing : {1u, 2u}) {
             RenderSettings settings;
             settings.bounce.spacing = spacing;
-            const ImageDifference d = differ(truth, p.render(Layer::kBounce1, settings, 34));
-            std::printf("%s, every %u. pixel: mean ratio %.4f, relative RMSE %.3f\n", name, spacing,
-                        d.meanRatio, d.relativeRmse);
+            const ImageDifference d = differ(truth, p.render(Layer::kBounce1, settings, 64));
+            std::printf("%s, every %u. pixel: mean ratio %.4f, relative RMSE %.3f, %.3f of most\n", name,
+                        spacing, d.meanRatio, d.relativeRmse, d.trimmedRelativeRmse);
             EXPECT_NEAR(d.meanRatio, 1, 0.03) << name;
-            EXPECT_LT(d.relativeRmse, spacing == 1 ? 0.18 : 0.2) << name;
+            // A dozen pixels in creases are most of it, and other arithmetic moves those.
+            EXPECT_LT(d.relativeRmse, spacing == 1 ? 0.18 : 0.25) << name;
+            EXPECT_LT(d.trimmedRelativeRmse, spacing == 1 ? 0.06 : 0.08) << name;
         }
     }
 }
@@ -359,7 +361,7 @@ TEST(Parity, HolesBetweenDisksAreClosed) {
     Parity p("occluder");
     const Image truth = p.trace({.paths = {.bounces = 1}, .samplesPerPixel = 192}).bounces[1];
     const auto leak = [&](const RenderSettings& settings) {
-        const Image image = p.render(Layer::kBounce1, settings, 34);
+        const Image image = p.render(Layer::kBounce1, settings, 64);
         double dark = 0, all = 0;
         for (size_t i = 0; i < image.pixels.size(); ++i) {
             const double e = glm::dot(glm::dvec3(image.pixels[i]), glm::dvec3(1));
