@@ -73,7 +73,8 @@ Drawn lightOfEntry(uint tile, uint block, uint entry) {
     bool some = entriesOfLists() > 0;
     uint light = some ? fetchTexel(lists, int(listEntry(tile, entry, counts.items[tile], valCount))).x : 0;
     float likely_ = some ? fetchTexel(likely, int(block * valCount + light)).x : 0.0;
-    uint memberCount = fetchTexel(memberRanges, int(light * 2 + 1)).x;
+    // Lights that stand for no cluster send nothing, and have no members.
+    uint memberCount = fetchTexel(memberRanges, int(likely_ > 0.0 ? light * 2 + 1 : 1)).x;
     return Drawn(entry, light, likely_, memberCount, chanceOfTexel(likely_, memberCount));
 }
 
@@ -184,8 +185,7 @@ Candidate candidateFor(Receiver r, inout uint random) {
     bool even = next(random) < kEven;
     float xi = next(random);
     Drawn d = even ? lightOfEntry(r.tile, r.block, min(uint(xi * float(entries)), max(entries, 1) - 1)) : drawLight(r.tile, r.block, xi);
-    // Where nothing is likely yet no light is drawn by that.
-    if (entries == 0 || d.memberCount == 0 || !even && d.likely <= 0.0) return Candidate(kNoTexel, 0.0);
+    if (entries == 0 || d.memberCount == 0 || d.likely <= 0.0) return Candidate(kNoTexel, 0.0);
     float ofLight = mix(d.likely, 1.0 / float(entries), kEven);
     return Candidate(memberAt(firstMember(d.light), d.memberCount, next(random)), (1.0 - ofBefore) * ofLight / float(d.memberCount));
 }

@@ -138,7 +138,8 @@ TEST_F(NullGraph, BarriersByKindOfUse) {
     ASSERT_EQ(record("first.read").barriers.size(), 1u);
     EXPECT_EQ(record("first.read").barriers[0].resource, "buffer");
     EXPECT_EQ(record("first.read").barriers[0].srcAccess, VK_ACCESS_2_SHADER_WRITE_BIT);
-    EXPECT_EQ(record("first.read").barriers[0].dstAccess, VK_ACCESS_2_SHADER_READ_BIT);
+    EXPECT_EQ(record("first.read").barriers[0].dstAccess,
+              VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT);
     bool bufferAgain = false, colorSampled = false;
     for (const BarrierRecord& b : record("second.read").barriers) {
         bufferAgain |= b.resource == "buffer";

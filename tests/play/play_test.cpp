@@ -14,17 +14,29 @@ namespace {
 
 constexpr uint32_t kTicksPerFrame = 12;
 
-std::unique_ptr<Stage> playRecording(const std::string& path) {
-    auto stage = std::make_unique<Stage>(test::device(), shippedLevel(), kTicksPerFrame);
-    const auto inputs = loadReplay(path);
-    EXPECT_TRUE(inputs) << inputs.error().message;
-    for (const Input& input : inputs->ticks)
+std::unique_ptr<Stage> makeStage() {
+    return std::make_unique<Stage>(test::device(), shippedLevel(), kTicksPerFrame);
+}
+
+std::unique_ptr<Stage> play(std::span<const Input> inputs) {
+    auto stage = makeStage();
+    for (const Input& input : inputs)
         stage->tick(input);
     return stage;
 }
 
 std::unique_ptr<Stage> playWrong(const std::string& name) {
-    return playRecording(AFTERGLOW_SOURCE_DIR "/tests/play/recordings/" + name + ".replay");
+    const auto replay = loadReplay(AFTERGLOW_SOURCE_DIR "/tests/play/recordings/" + name + ".replay");
+    EXPECT_TRUE(replay) << replay.error().message;
+    return play(replay->ticks);
+}
+
+// Plays by script: what it waits for may come later than in the recording.
+std::vector<Input> recordAnew() {
+    const auto stage = makeStage();
+    Bot bot(*stage, false);
+    EXPECT_TRUE(playWalkthrough(bot));
+    return bot.inputs();
 }
 
 constexpr size_t kBySign[] = {13, 14}, kShy = 15;
@@ -35,25 +47,37 @@ constexpr uint32_t kBounces = 8;    // what more are there is less than a thousa
 class Walkthrough : public testing::Test {
   protected:
     static void SetUpTestSuite() {
-        stage_ = std::make_unique<Stage>(test::device(), shippedLevel(), kTicksPerFrame);
-        const auto inputs = loadReplay(kRecording);
-        ASSERT_TRUE(inputs) << inputs.error().message;
-        lit_ = litFlowers(*stage_, inputs->ticks);
+        const auto replay = loadReplay(kRecording);
+        ASSERT_TRUE(replay) << replay.error().message;
+        inputs_ = replay->ticks;
+        playInputs();
+        if (stage_->game.progress().won) return;
+        // A software device's arithmetic is its CPU's, and some flowers have just enough light.
+        std::printf("the recording does not finish the level on this machine: it is played by script\n");
+        inputs_ = recordAnew();
+        playInputs();
     }
     static void TearDownTestSuite() {
+        inputs_.clear();
         lit_.clear();
         stage_.reset();
     }
     static void row(const char* name, const render::RenderSettings& settings, std::span<const size_t> flowers,
                     uint32_t frames = 24);
 
+    static void playInputs() {
+        stage_ = makeStage();
+        lit_ = litFlowers(*stage_, inputs_);
+    }
+
     static constexpr const char* kRecording = AFTERGLOW_SOURCE_DIR "/game/level/walkthrough.replay";
+    static inline std::vector<Input> inputs_;
     static inline std::unique_ptr<Stage> stage_;
     static inline std::vector<LitFlower> lit_;
 };
 
 TEST_F(Walkthrough, OpensEveryFlowerAndEndsTheSameWayTwice) {
-    const auto again = playRecording(kRecording);
+    const auto again = play(inputs_);
     for (Stage* stage : {stage_.get(), again.get()}) {
         const Progress& p = stage->game.progress();
         EXPECT_EQ(p.flowers, 19u);
