@@ -29,8 +29,6 @@ const uint kDraws = 16;        // texels that one is resampled from
 const float kTrust = 2.0;      // frames: rays of fewer say little
 const float kMostTimes = 4.0;  // so far area lights may be below rays
 
-uint firstMember(uint light) { return fetchTexel(memberRanges, int(light * 2)).x; }
-
 uint endOfMembers(uint endLight) { return firstMember(endLight - 1) + fetchTexel(memberRanges, int(endLight * 2 - 1)).x; }
 
 float factorOf(vec3 x, vec3 n, RsmSurface s) {

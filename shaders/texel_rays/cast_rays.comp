@@ -97,7 +97,7 @@ struct Aim {
 Aim aimAt(Receiver r, Drawn d, inout uint random) {
     Aim aim = Aim(kNoTexel, 0, 0.0);
     if (d.likely <= 0.0 || d.memberCount == 0) return aim;
-    uint first = fetchTexel(memberRanges, int(d.light * 2)).x;
+    uint first = firstMember(d.light);
     aim.map = tileMaps.items[fetchTexel(members, int(first)).x / (kRsmTileSize * kRsmTileSize)];
     MemberDraw drawn = MemberDraw(kNoTexel, 0.0, 0.0);
     AG_DRAW_MEMBER(drawn, first, d.memberCount, kDraws, random, wantOf(r, aim.map, s, d.chance))
@@ -168,8 +168,6 @@ float next(inout uint random) {
 
 uint memberAt(uint first, uint count, float xi) { return fetchTexel(members, int(first + min(uint(xi * float(count)), count - 1))).x; }
 
-uint firstMember(uint light) { return fetchTexel(memberRanges, int(light * 2)).x; }
-
 struct Candidate {
     uint texel;
     float likely;
@@ -196,10 +194,8 @@ Incident fromAreaLights(Receiver r, inout uint random) {
         Candidate c = candidateFor(r, random);
         if (c.texel == kNoTexel) continue;
         RsmSurface s = AG_RSM_FETCH(texels, c.texel);
-        float want = factorOf(r, s) * s.weight, weight = want / c.likely;
-        drawn.sum += weight;
-        if (weight <= 0.0 || (1.0 - next(random)) * drawn.sum > weight) continue;
-        drawn.texel = c.texel, drawn.wanted = want;
+        float want = factorOf(r, s) * s.weight;
+        take(drawn, c.texel, want, want / c.likely, random);
     }
     if (drawn.texel == kNoTexel) return Incident(vec3(0.0), 0.0, vec3(0.0));
     RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-// Pixels of different turns have noise of their own, which the filter of each turn cannot see: side by side it is a grid of
-// dots. One round of the filter over all of them.
+// Each turn filters its own pixels alone, so neighbours of different turns differ by noise, in a grid of dots. One more
+// round of the filter over all pixels.
 #include "common/pixel_rays.h"
 #include "texel_rays/texel_rays_io.h"
 

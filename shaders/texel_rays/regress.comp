@@ -64,7 +64,7 @@ void main() {
     vec3 lights = texelFetch(areaLights, at, 0).rgb, control = lights + texelFetch(controlMean, at, 0).rgb;
     float share = w.central.z > 0.0 ? clamp(w.central.y / w.central.z, 0.0, 1.0) : 1.0;
     float n = max(sent.a, 1.0), few = kFew / n, e2 = w.mean.y * w.mean.y;
-    // A rare find stands out of the pixels about, and of the pixel's own rays.
+    // A firefly has a large variance of its own; narrow real light has not.
     vec2 means = vec2(luminance(sent.rgb), luminance(control));
     vec3 own = max(texelFetch(moments, at, 0).xyz - means.xxy * means.xyy, vec3(0.0)) * (n / max(n - 1.0, 1.0));
     float spread = max(spreadOf(w.central, share), spreadOf(own, share));
