@@ -250,7 +250,7 @@ struct FrameGraph::Impl {
     std::vector<AliasBucket> buckets;
     bool bucketsStale = false;
     bool placedAliased = true;  // options.alias when scratch was placed
-    std::array<VkSampler, 4> samplers{};
+    std::array<VkSampler, kSamplers> samplers{};
     std::unordered_map<uint64_t, VkDescriptorSet> sets;
     std::vector<VkDescriptorPool> pools;
     std::unique_ptr<FrameTimer> timer;     // made when passes are timed first

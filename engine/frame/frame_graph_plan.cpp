@@ -84,6 +84,7 @@ uint64_t FrameGraph::Impl::ownKey(const Pass& pass) const {
         key = combineHash(combineHash(key, part.key), part.firstGroup);
     for (const Use& use : usesOf(pass)) {
         if (writes(use.kind)) key = hashValue(use.clear, combineHash(key, use.mip));
+        if (use.sampler != Sampler::kNearestClamp) key = combineHash(key, uint64_t(use.sampler));
     }
     return key;
 }

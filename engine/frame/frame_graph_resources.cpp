@@ -27,12 +27,15 @@ gpu::BufferDesc descOf(const Slot& slot, const BufferInfo& info) {
             .texelFormat = info.texelFormat};
 }
 
+constexpr float kMostAnisotropy = 16;  // texels along a pixel's longer side
+
 VkSampler makeSampler(gpu::Context& context, Sampler kind) {
-    const bool repeat = kind == Sampler::kLinearRepeat || kind == Sampler::kTrilinearRepeat;
+    const bool repeat = kind >= Sampler::kLinearRepeat, mips = kind >= Sampler::kTrilinearRepeat;
     const VkFilter filter = kind == Sampler::kNearestClamp ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
     const VkSamplerAddressMode mode =
         repeat ? VK_SAMPLER_ADDRESS_MODE_REPEAT : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    const bool mips = kind == Sampler::kTrilinearRepeat;
+    const float anisotropy =
+        kind == Sampler::kAnisotropicRepeat ? std::min(kMostAnisotropy, context.info().mostAnisotropy) : 1;
     const VkSamplerCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
         .magFilter = filter,
@@ -41,11 +44,14 @@ VkSampler makeSampler(gpu::Context& context, Sampler kind) {
         .addressModeU = mode,
         .addressModeV = mode,
         .addressModeW = mode,
+        .anisotropyEnable = anisotropy > 1,
+        .maxAnisotropy = anisotropy,
         .maxLod = mips ? VK_LOD_CLAMP_NONE : 0.25f};
     VkSampler sampler = VK_NULL_HANDLE;
     AG_VK(context.vk().CreateSampler(context.handle(), &info, context.hostAllocation(), &sampler));
-    constexpr const char* kNames[] = {"sampler.nearest_clamp", "sampler.linear_clamp",
-                                      "sampler.linear_repeat", "sampler.trilinear_repeat"};
+    constexpr const char* kNames[kSamplers] = {"sampler.nearest_clamp", "sampler.linear_clamp",
+                                               "sampler.linear_repeat", "sampler.trilinear_repeat",
+                                               "sampler.anisotropic_repeat"};
     context.setDebugName(VK_OBJECT_TYPE_SAMPLER, sampler, kNames[size_t(kind)]);
     return sampler;
 }

@@ -49,7 +49,14 @@ struct HistoryImage {
     bool valid = false;
 };
 
-enum class Sampler : uint32_t { kNearestClamp, kLinearClamp, kLinearRepeat, kTrilinearRepeat };
+enum class Sampler : uint32_t {
+    kNearestClamp,
+    kLinearClamp,
+    kLinearRepeat,
+    kTrilinearRepeat,
+    kAnisotropicRepeat,  // trilinear where the device cannot
+};
+constexpr size_t kSamplers = 5;
 
 // A host's image or buffer that passes may write. The host is done with it, in any stage, before the graph's
 // commands; after them it may use it in any.

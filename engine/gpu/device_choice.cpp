@@ -59,15 +59,16 @@ bool sharesClock(const Functions& vk, VkPhysicalDevice physical) {
            std::ranges::count(domains, VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT) > 0;
 }
 
-constexpr const char* kTimestamps = "timestamps";
+// Done without where they are lacking.
+constexpr const char *kTimestamps = "timestamps", *kAnisotropy = "samplerAnisotropy";
 
 bool isFeature(std::string_view name) {
-    return name == kTimestamps || name == kSubgroupOperations ||
+    return name == kTimestamps || name == kAnisotropy || name == kSubgroupOperations ||
            std::ranges::any_of(requiredFeatures(), [&](const RequiredFeature& f) { return name == f.name; });
 }
 
 std::string knownNames() {
-    std::string names = std::string(kTimestamps) + ", " + kSubgroupOperations;
+    std::string names = std::string(kTimestamps) + ", " + kAnisotropy + ", " + kSubgroupOperations;
     for (const RequiredFeature& f : requiredFeatures())
         names += std::string(", ") + f.name;
     for (const DeviceLimit& limit : deviceLimits())
@@ -105,6 +106,8 @@ void leaveOut(std::span<const std::string> features, DeviceInfo& info) {
     for (const std::string& name : features) {
         if (name == kTimestamps)
             info.timestampPeriodNs = 0;  // passes then have no times of their own
+        else if (name == kAnisotropy)
+            info.mostAnisotropy = 1;
         else if (std::erase(info.enabled, name) > 0)
             info.missing.push_back(name);
     }

@@ -91,6 +91,7 @@ void listFeatures(const Functions& vk, VkPhysicalDevice physical, DeviceInfo& in
         (feature.field(has) ? info.enabled : info.missing).push_back(feature.name);
     info.counts = has.core.features.pipelineStatisticsQuery;  // done without where not
     if (info.counts) info.enabled.push_back("pipelineStatisticsQuery");
+    info.mostAnisotropy = has.core.features.samplerAnisotropy ? info.limits.maxSamplerAnisotropy : 1;
 }
 
 }  // namespace
@@ -103,6 +104,7 @@ void enable(DeviceFeatures& features, const DeviceInfo& info) {
     for (const RequiredFeature& feature : kRequired)
         feature.field(features) = VK_TRUE;
     features.core.features.pipelineStatisticsQuery = info.counts;
+    features.core.features.samplerAnisotropy = info.mostAnisotropy > 1;
     if (!info.lanes.requested) return;
     features.subgroupSizes.subgroupSizeControl = features.subgroupSizes.computeFullSubgroups = VK_TRUE;
     features.maintenance.pNext = &features.subgroupSizes;

@@ -22,6 +22,7 @@ struct DeviceInfo {
     float timestampPeriodNs = 0;  // 0: no timestamps
     bool calibrated = false;      // the device's clock can be read together with the host's
     bool counts = false;          // pipeline statistics
+    float mostAnisotropy = 1;     // texels along a pixel's longer side that a sampler averages; 1: it cannot
     bool isCpu = false;           // lavapipe and its like: kernels take their lane-parallel shape
     VkPhysicalDeviceLimits limits{};
     bool storageTexels = false;        // shaders read storage buffers where they would texel buffers

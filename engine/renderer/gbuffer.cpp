@@ -1,5 +1,8 @@
 #include "engine/renderer/gbuffer.h"
 
+#include <utility>
+
+#include "engine/core/hash.h"
 #include "engine/renderer/scene_draws.h"
 
 namespace ag::render {
@@ -33,8 +36,12 @@ GBuffer targets(GraphScope scope, const SceneView& scene, bool emissive, bool gl
 void drawCameras(PassBuilder& pass, const SceneView& scene, const ViewDraws& draws,
                  std::span<const std::byte> push) {
     pass.geometry(scene.geometry).read("instances", scene.instances).read("drawnRows", scene.drawnRows);
-    bindMaterials(pass, scene);
+    bindMaterials(pass, scene, scene.sharp ? Sampler::kAnisotropicRepeat : Sampler::kTrilinearRepeat);
     drawView(pass, scene, draws, push, {.viewer = Viewer::kCamera});
+}
+
+const ViewDraws& seenByCamera(const SceneView& scene) {
+    return scene.draws->cull(*scene.scene, scene.slots.camera, scene.eye.clipFromWorld);
 }
 
 PassBuilder fillPass(GraphScope scope, const GBuffer& g, std::string_view shader) {
@@ -49,9 +56,15 @@ PassBuilder fillPass(GraphScope scope, const GBuffer& g, std::string_view shader
 
 }  // namespace
 
+bool Standstill::next(const SceneView& scene) {
+    const uint64_t now = combineHash(scene.scene->cameraVersion, seenByCamera(scene).version);
+    const uint64_t before = std::exchange(before_, now);
+    return before == 0 || before == now;
+}
+
 GBuffer addGBuffer(GraphScope scope, const SceneView& scene) {
     const GBuffer g = targets(scope, scene, scene.hasEmissive, scene.hasGlossy);
-    const ViewDraws& draws = scene.draws->cull(*scene.scene, scene.slots.camera, scene.eye.clipFromWorld);
+    const ViewDraws& draws = seenByCamera(scene);
     PassBuilder pass = fillPass(scope, g, fillShader(scene));
     drawCameras(pass, scene, draws, std::as_bytes(std::span(&scene.eye.clipFromWorld, 1)));
     return g;
@@ -81,9 +94,7 @@ BlendedSurfaces addBlendedSurfaces(GraphScope scope, const SceneView& scene, con
 
 ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfaces& surfaces) {
     if (scene.moved.empty()) return {};
-    const glm::mat4& clipFromWorld = scene.eye.clipFromWorld;
-    const ViewDraws& all = scene.draws->cull(*scene.scene, scene.slots.camera, clipFromWorld);
-    const ViewDraws& moved = scene.draws->pick(scene.slots.moved, all, scene.moved);
+    const ViewDraws& moved = scene.draws->pick(scene.slots.moved, seenByCamera(scene), scene.moved);
     if (moved.rows.empty()) return {};
     const ImageHandle motion = scope.image("gbuffer.motion", scope.info(surfaces.normal));
     const char* const vertexShader = scene.skin ? "gbuffer/motion_skinned.vert" : "gbuffer/motion.vert";
@@ -98,7 +109,7 @@ ImageHandle addMotion(GraphScope scope, const SceneView& scene, const gi::Surfac
             .read("skinnedMeshes", scene.skin.skinnedMeshes)
             .read("skin", scene.skin.skin)
             .read("modelled", scene.skin.positions);
-    drawView(pass, scene, moved, clipFromWorld, {.filter = DrawFilter::kShapes});
+    drawView(pass, scene, moved, scene.eye.clipFromWorld, {.filter = DrawFilter::kShapes});
     return motion;
 }
 

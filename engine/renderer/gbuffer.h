@@ -14,6 +14,16 @@ struct GBuffer {
 
 GBuffer addGBuffer(GraphScope scope, const SceneView& scene);
 
+// Whether the camera sees everything where it saw it in the frame before.
+class Standstill {
+  public:
+    // Once a frame; true in the first.
+    bool next(const SceneView& scene);
+
+  private:
+    uint64_t before_ = 0;  // 0: there was no frame
+};
+
 struct BlendedSurfaces {
     GBuffer gbuffer;   // as if they were opaque, but that what passes through glass is not reflected
     ImageHandle veil;  // rgba16f: what they let through of the light behind them; how much they cover

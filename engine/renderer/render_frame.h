@@ -27,6 +27,7 @@ struct RenderHistory {
     gi::SkyHistory sky;
     gi::Settling exposure;
     PictureVersion picture;
+    Standstill standstill;
     AntialiasingHistory antialiasing;
     SunShadowHistory sunShadows;
     LightClusterHistory lightClusters;

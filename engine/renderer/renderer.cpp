@@ -129,6 +129,8 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
         scene_.import(graph_, scene, grid, tracedBy(asked, given), asked.bounce.valShading.glossy);
     view.units = units_;
     view.extent = extent_ = gi::steadyExtent(scene.bounds, extent_);
+    // Anisotropic filtering without hardware takes the pass three times as long.
+    view.sharp = history_.standstill.next(view) || !device_.info().isCpu;
     const RenderFrame frame = addFrame(graph_, view, asked, history_);
     finish(graph_, view, frame);
     moments_.declared = steadyNs();

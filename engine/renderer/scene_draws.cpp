@@ -64,13 +64,13 @@ bool hasMasked(const SceneView& scene) {
     return std::ranges::any_of(scene.draws->buckets(), [](const DrawBucket& b) { return b.alphaMask; });
 }
 
-void bindMaterials(PassBuilder& pass, const SceneView& scene) {
+void bindMaterials(PassBuilder& pass, const SceneView& scene, Sampler sampler) {
     static constexpr std::array kSrgb = {"srgb256", "srgb512", "srgb1024", "srgb2048"};
     static constexpr std::array kLinear = {"linear256", "linear512", "linear1024", "linear2048"};
     pass.read("materials", scene.materials);
     for (size_t c = 0; c < 4; ++c) {
-        pass.sample(kSrgb[c], scene.srgbTextures[c], Sampler::kTrilinearRepeat);
-        pass.sample(kLinear[c], scene.linearTextures[c], Sampler::kTrilinearRepeat);
+        pass.sample(kSrgb[c], scene.srgbTextures[c], sampler);
+        pass.sample(kLinear[c], scene.linearTextures[c], sampler);
     }
 }
 

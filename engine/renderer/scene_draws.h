@@ -29,6 +29,6 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
               std::span<const std::byte> push, const DrawOptions& options);
 bool hasMasked(const SceneView& scene);  // any alpha-masked surface
 // The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
-void bindMaterials(PassBuilder& pass, const SceneView& scene);
+void bindMaterials(PassBuilder& pass, const SceneView& scene, Sampler sampler = Sampler::kTrilinearRepeat);
 
 }  // namespace ag::render

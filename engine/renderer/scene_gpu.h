@@ -53,9 +53,10 @@ struct SceneView {
     BufferHandle drawnRows;  // the instances that they draw: a texel buffer of uint
     std::array<ImageHandle, 4> srgbTextures, linearTextures;  // classes 256, 512, 1024, 2048
     PixelGrid grid;                                           // the camera's pixels
-    RenderCamera eye;                                         // the scene's camera as those see
-    RenderUnits units;                                        // of everything above
-    float extent = 0;                                         // see steadyExtent()
+    bool sharp = true;  // it sees textures averaged over no more than a pixel
+    RenderCamera eye;   // the scene's camera as those see
+    RenderUnits units;  // of everything above
+    float extent = 0;   // see steadyExtent()
     bool hasEmissive = false;
     bool hasGlossy = false;       // a material that is not Lambert
     float leastRoughness = 1;     // of those that are not

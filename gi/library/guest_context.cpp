@@ -35,7 +35,9 @@ gpu::DeviceInfo describe(const gpu::Functions& vk, VkPhysicalDevice physical) {
     gpu::DeviceInfo info = gpu::describeDevice(vk, physical);
     if (const std::string missing = gpu::whatIsMissing(info); !missing.empty())
         fail(FailureKind::kUnsupported, missing);
-    info.counts = false;  // the host may not have switched it on
+    // The host may not have switched these on.
+    info.counts = false;
+    info.mostAnisotropy = 1;
     return info;
 }
 

@@ -29,6 +29,11 @@ AG_FUNCTION float luminance(vec3 linear) {  // Rec. 709
     return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
+// Mean over the channels of their products: second moments of light that differs by colour alone are not 0.
+AG_FUNCTION float meanProduct(vec3 a, vec3 b) {
+    return dot(a, b) / 3.0f;
+}
+
 // 1 on one plane and facing one way, else less. `apart`: m between two surface points; `footprint`: m a pixel
 // covers.
 AG_FUNCTION float likeness(vec3 normal, vec3 apart, float footprint, vec3 otherNormal) {

@@ -18,9 +18,9 @@ layout(set = 0, binding = 4) uniform sampler2D previousSquare;
 layout(set = 0, binding = 5) uniform sampler2D previousSurface;
 layout(set = 0, binding = 6, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D meanOf;   // rgb: W/m²; a: frames it stands for
-layout(set = 0, binding = 8, r32f) uniform writeonly image2D squareOf;    // second moment of the luminance
+layout(set = 0, binding = 8, r32f) uniform writeonly image2D squareOf;    // second moment, mean of its channels
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D surface;  // normal; m along the axis, 0: none
-layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D rest;    // rgb: W/m²; a: variance of its luminance
+layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D rest;    // rgb: W/m²; a: variance, mean of its channels
 layout(set = 0, binding = 11) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
 layout(constant_id = 0) const bool kMotion = false;
 
@@ -69,16 +69,16 @@ void main() {
     float square;
     known(size, normal, place + motion, depth, mean, square);
     vec3 e = texelFetch(sent, at, 0).rgb;
-    float l = luminance(e), before = luminance(mean.rgb);
+    float before = luminance(mean.rgb);
     bool counts = mean.a > 0.0 && depth > 0.0 && all(lessThan(pixel, size));
-    float off = surprise(counts ? l : 0.0, counts ? before : 0.0, counts ? max(square - before * before, 0.0) : 0.0);
+    float off = surprise(counts ? luminance(e) : 0.0, counts ? before : 0.0, counts ? max(square - meanProduct(mean.rgb, mean.rgb), 0.0) : 0.0);
     if (push.p.moving == 1) mean.a *= clamp(2.0 - off / 3.0, 0.0, 1.0);
     float length_ = min(mean.a, push.p.mostLength - 1.0) + 1.0, share = 1.0 / length_;
     mean = vec4(mix(mean.rgb, e, share), length_);
-    square = mix(square, l * l, share);
+    square = mix(square, meanProduct(e, e), share);
     bool seen = depth > 0.0;
     // A few samples know little of their spread: as if one more had been as far off as the mean is bright.
-    float bright = luminance(mean.rgb), variance = max(square - bright * bright, 0.0) + bright * bright / length_;
+    float bright = meanProduct(mean.rgb, mean.rgb), variance = max(square - bright, 0.0) + bright / length_;
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(meanOf, pixel, seen ? mean : vec4(0.0));
     imageStore(squareOf, pixel, vec4(seen ? square : 0.0));

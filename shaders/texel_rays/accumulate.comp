@@ -57,10 +57,10 @@ void main() {
     p *= kept, q *= kept;
     p += texelFetch(sentNear, at, 0).rgb;  // at most what surfaces send: needs no limit
     m.sent.a = min(m.sent.a, push.p.mostLength - 1.0) + 1.0;
-    float share = 1.0 / m.sent.a, lp = luminance(p), lq = luminance(q);
+    float share = 1.0 / m.sent.a;
     m.sent.rgb = mix(m.sent.rgb, p, share);
     m.control.rgb = mix(m.control.rgb, q - all, share);
-    m.moments.xyz = mix(m.moments.xyz, vec3(lp * lp, lp * lq, lq * lq), share);
+    m.moments.xyz = mix(m.moments.xyz, vec3(meanProduct(p, p), meanProduct(p, q), meanProduct(q, q)), share);
     bool seen = depth > 0.0;
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(sentMean, pixel, seen ? m.sent : vec4(0.0));

@@ -33,7 +33,7 @@ void main() {
             ivec2 there = clamp(at + ivec2(x, y) * kStride, ivec2(0), size - 1);
             vec4 r = texelFetch(rest, there, 0);
             vec3 c = correctionAt(there, texelFetch(areaLights, there, 0).rgb, r.rgb);
-            found += dot(c, c) / 3.0, noise += r.a;
+            found += meanProduct(c, c), noise += r.a;
         }
     vec4 lights = texelFetch(areaLights, at, 0), known = texelFetch(previousCarried, at, 0);
     vec3 measured = correctionAt(at, lights.rgb, texelFetch(rest, at, 0).rgb);

@@ -16,7 +16,7 @@ layout(set = 0, binding = 2) uniform sampler2D controlMean;  // less the area li
 layout(set = 0, binding = 3) uniform sampler2D moments;
 layout(set = 0, binding = 4) uniform sampler2D surface;
 layout(set = 0, binding = 5, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
-layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D rest;  // rgb: W/m²; a: variance of its luminance
+layout(set = 0, binding = 6, rgba32f) uniform writeonly image2D rest;  // rgb: W/m²; a: variance, mean of its channels
 layout(set = 0, binding = 7, r32f) uniform writeonly image2D shareOf;  // of the area lights' sum to add to it
 
 const int kReach = 2;             // pixels about
@@ -25,15 +25,25 @@ const float kFew = 14.0;          // frames: the variance of so few is not to be
 const float kMostSurprise = 0.3;  // how far the share of detail may be from what moments say, as a deviation
 
 struct Window {
-    vec3 central;           // second moments about each pixel's means: of rays; both; of control
-    vec3 mean, withLights;  // of area lights, rays, control; each times area lights
+    vec3 central;                // second moments about each pixel's means: of rays; both; of control
+    vec3 lights, sent, control;  // means, W/m²
+    vec3 withLights;             // of the mean products of each and area lights
     float total, count;
 };
+
+// Central second moments of a pixel: of rays; both; of control.
+vec3 centralAt(ivec2 at, vec3 sent, vec3 control) {
+    return texelFetch(moments, at, 0).xyz - vec3(meanProduct(sent, sent), meanProduct(sent, control), meanProduct(control, control));
+}
+
+vec3 productsWith(vec3 lights, vec3 sent, vec3 control) {
+    return vec3(meanProduct(lights, lights), meanProduct(sent, lights), meanProduct(control, lights));
+}
 
 Window windowAbout(ivec2 at, vec4 s, ivec2 size) {
     vec3 place = placeOf(cameras.c.now, vec2(at), s.w);
     float footprint = cameras.c.pixelSize * max(s.w, 1e-3) * 2.0;
-    Window w = Window(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
+    Window w = Window(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0);
     [[unroll]] for (int y = -kReach; y <= kReach; ++y)
         [[unroll]] for (int x = -kReach; x <= kReach; ++x) {
             ivec2 there = clamp(at + ivec2(x, y), ivec2(0), size - 1);
@@ -41,15 +51,14 @@ Window windowAbout(ivec2 at, vec4 s, ivec2 size) {
             float like = likeness(s.xyz, placeOf(cameras.c.now, vec2(there), other.w) - place, footprint, other.xyz);
             float weight = other.w > 0.0 ? like * sent.a : 0.0;
             vec3 lights = texelFetch(areaLights, there, 0).rgb, control = lights + texelFetch(controlMean, there, 0).rgb;
-            vec3 means = vec3(luminance(lights), luminance(sent.rgb), luminance(control));
-            w.central += weight * (texelFetch(moments, there, 0).xyz - means.yyz * means.yzz);
-            w.mean += weight * means;
-            w.withLights += weight * means * means.x;
+            w.central += weight * centralAt(there, sent.rgb, control);
+            w.lights += weight * lights, w.sent += weight * sent.rgb, w.control += weight * control;
+            w.withLights += weight * productsWith(lights, sent.rgb, control);
             w.total += weight;
             w.count += other.w > 0.0 ? like : 0.0;
         }
     float share = 1.0 / max(w.total, 1e-20);
-    w.mean *= share, w.withLights *= share;
+    w.lights *= share, w.sent *= share, w.control *= share, w.withLights *= share;
     w.central = max(w.central, vec3(0.0)) / max(w.total - w.count, 1e-20);  // of n samples n - 1 are free
     return w;
 }
@@ -63,14 +72,13 @@ void main() {
     vec4 sent = texelFetch(sentMean, at, 0);
     vec3 lights = texelFetch(areaLights, at, 0).rgb, control = lights + texelFetch(controlMean, at, 0).rgb;
     float share = w.central.z > 0.0 ? clamp(w.central.y / w.central.z, 0.0, 1.0) : 1.0;
-    float n = max(sent.a, 1.0), few = kFew / n, e2 = w.mean.y * w.mean.y;
+    float n = max(sent.a, 1.0), few = kFew / n, e2 = meanProduct(w.sent, w.sent);
     // A firefly has a large variance of its own; narrow real light has not.
-    vec2 means = vec2(luminance(sent.rgb), luminance(control));
-    vec3 own = max(texelFetch(moments, at, 0).xyz - means.xxy * means.xyy, vec3(0.0)) * (n / max(n - 1.0, 1.0));
+    vec3 own = max(centralAt(at, sent.rgb, control), vec3(0.0)) * (n / max(n - 1.0, 1.0));
     float spread = max(spreadOf(w.central, share), spreadOf(own, share));
     float variance = max(spread, kLeastSpread * e2 + 1e-12) / n + few * few * few * few * e2;
     // What is left of the rays follows the lights' sum from pixel to pixel by so much.
-    vec3 together = w.withLights - w.mean * w.mean.x;
+    vec3 together = w.withLights - productsWith(w.lights, w.sent, w.control);
     float sure = w.count / variance, expected = 1.0 / (kMostSurprise * kMostSurprise);
     float detail = ((together.y - share * together.z) * sure + (1.0 - share) * expected) / (together.x * sure + expected);
     detail = clamp(detail, 0.0, 1.0 - share);
