@@ -47,6 +47,7 @@ struct RsmLight {
 // Occluders as trees for rays (shaders/bvh/bvh_io.h); see OccluderTrees.
 struct TracedOccluders {
     BufferHandle nodes, triangles;  // texel buffer of uvec4; io::BvhTriangle
+    BufferHandle masks;             // io::BvhMask of each triangle; invalid: none is masked
     // Texel buffers of uvec4 of this frame: io::BvhPlace; nodes over what moves, invalid where that is left
     // out.
     BufferHandle places, moverNodes;

@@ -18,7 +18,8 @@ struct Triangle {
     std::array<glm::vec3, 3> corners;
     float opacity = 0;  // share that an alpha mask leaves
     SentAt sent;        // mean
-    float front = 0;    // as io::BvhTriangle's
+    io::BvhMask mask{};
+    float front = 0;  // as io::BvhTriangle's
 };
 
 Bounds boundsOf(const Triangle& t) {
@@ -84,13 +85,14 @@ TreeRange append(OccluderTrees& trees, const std::vector<Triangle>& triangles) {
              .sends = emissive ? io::packRadiance(t.sent.radiance) : io::packReflectance(t.sent.reflectance),
              .edge2 = grid(t.corners[2]) - corner,
              .front = t.front + (emissive ? io::kEmissiveFront : 0)});
+        trees.masks.push_back(t.mask);
     }
     return {firstNode, uint32_t(trees.nodes.size()), bvh.nodes[0].bounds};
 }
 
 // Takes what depends on textures from some places on the triangle.
 void lookUp(const SampledScene& scene, uint32_t mesh, const std::array<glm::vec2, 3>& uvs, LookUpSent sentAt,
-            Triangle& t) {
+            LookUpMask maskOf, Triangle& t) {
     constexpr uint32_t kPlaces = 16;
     uint32_t left = 0;
     SentAt sum;
@@ -104,12 +106,14 @@ void lookUp(const SampledScene& scene, uint32_t mesh, const std::array<glm::vec2
         sum.reflectance += sent.reflectance, sum.radiance += sent.radiance;
     }
     t.opacity = float(left) / kPlaces;
+    if (left < kPlaces) t.mask = maskOf(mesh, uvs);
     const float share = 1.0f / float(std::max(left, 1u));
     t.sent = {sum.reflectance * share, sum.radiance * share};
 }
 
 void appendTriangles(const SampledScene& scene, uint32_t meshIndex, const Strided<glm::vec3>& positions,
-                     const glm::mat4x3& transform, LookUpSent sentAt, std::vector<Triangle>& triangles) {
+                     const glm::mat4x3& transform, LookUpSent sentAt, LookUpMask maskOf,
+                     std::vector<Triangle>& triangles) {
     const SampledMesh& mesh = scene.meshes[meshIndex];
     if (!mesh.blocksLight) return;
     const float outside = glm::determinant(glm::mat3(transform)) < 0 ? -1.0f : 1.0f;
@@ -123,10 +127,16 @@ void appendTriangles(const SampledScene& scene, uint32_t meshIndex, const Stride
             if (mesh.colors)
                 tint += glm::vec3(glm::unpackUnorm3x10_1x2(mesh.colors[mesh.indices[i + k]])) / 3.0f;
         }
-        lookUp(scene, meshIndex, uvs, sentAt, t);
+        lookUp(scene, meshIndex, uvs, sentAt, maskOf, t);
         t.sent.reflectance *= tint;
         if (t.opacity > 0) triangles.push_back(t);
     }
+}
+
+OccluderTrees withoutIdleMasks(OccluderTrees trees) {
+    const auto isMasked = [](const io::BvhTriangle& t) { return t.opacity < 1; };
+    if (std::ranges::none_of(trees.triangles, isMasked)) trees.masks = {};
+    return trees;
 }
 
 glm::mat4x3 inverseOf(const glm::mat4x3& m) {
@@ -161,24 +171,25 @@ io::BvhPlace placeOf(const TreeRange& tree, const glm::mat4x3& treeFromWorld) {
     return place;
 }
 
-OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of, LookUpSent sentAt) {
+OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of, LookUpSent sentAt,
+                                 LookUpMask maskOf) {
     OccluderTrees trees;
     trees.ofMesh.resize(scene.meshes.size());
     std::vector<Triangle> triangles;
     for (const SampledInstance& instance : scene.instances)
         if (instance.isPresent && !instance.movable)
             appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions,
-                            instance.worldFromLocal, sentAt, triangles);
+                            instance.worldFromLocal, sentAt, maskOf, triangles);
     trees.everythingStatic = append(trees, triangles);
-    if (of == TreesOf::kStatic) return trees;
+    if (of == TreesOf::kStatic) return withoutIdleMasks(std::move(trees));
     for (const SampledInstance& instance : scene.instances) {
         if (!instance.isPresent || !instance.movable || !trees.ofMesh[instance.mesh].empty()) continue;
         triangles.clear();
         appendTriangles(scene, instance.mesh, scene.meshes[instance.mesh].positions, glm::mat4x3(1), sentAt,
-                        triangles);
+                        maskOf, triangles);
         trees.ofMesh[instance.mesh] = append(trees, triangles);
     }
-    return trees;
+    return withoutIdleMasks(std::move(trees));
 }
 
 MoverTree placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> instances) {

@@ -2,6 +2,7 @@
 // that moves as one of its own, and each frame one over the movable instances' boxes.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "engine/core/function_ref.h"
@@ -22,8 +23,9 @@ struct TreeRange {
 struct OccluderTrees {
     std::vector<glm::uvec4> nodes;
     std::vector<io::BvhTriangle> triangles;
-    TreeRange everythingStatic;     // in the world
-    std::vector<TreeRange> ofMesh;  // in the mesh's own coordinates; empty of those that nothing movable has
+    std::vector<io::BvhMask> masks;  // of each triangle; empty: none is masked
+    TreeRange everythingStatic;      // in the world
+    std::vector<TreeRange> ofMesh;   // in the mesh's own coordinates; empty of those that nothing movable has
 };
 
 enum class TreesOf { kStatic, kAll };
@@ -42,10 +44,14 @@ struct SentAt {
 using LookUpSent = FunctionRef<SentAt(uint32_t mesh, glm::vec2 uv)>;
 constexpr auto kSendsNothing = [](uint32_t, glm::vec2) { return SentAt{}; };
 
+// Where a triangle of a masked mesh is cut out, by its corners' texture coordinates.
+using LookUpMask = FunctionRef<io::BvhMask(uint32_t mesh, const std::array<glm::vec2, 3>& uvs)>;
+constexpr auto kNoMask = [](uint32_t, const std::array<glm::vec2, 3>&) { return io::BvhMask{}; };
+
 // Of all surfaces that block light, or of static ones alone. The cost is that of sorting all triangles some
 // 18 times: half a second for 250,000 on one core; and 16 calls of `sentAt` for each.
 OccluderTrees buildOccluderTrees(const SampledScene& scene, TreesOf of = TreesOf::kAll,
-                                 LookUpSent sentAt = kSendsNothing);
+                                 LookUpSent sentAt = kSendsNothing, LookUpMask maskOf = kNoMask);
 
 // When trees are built: at once for what is new, else when what is static has not changed for some frames, as
 // long as it moves there are none.

@@ -46,8 +46,7 @@ ImGuiPass::ImGuiPass(gpu::Device& device) : device_(device) {
     font_ = std::make_unique<gpu::Image>(
         device,
         gpu::ImageDesc{.name = "imgui.font", .format = VK_FORMAT_R8G8B8A8_UNORM, .size = {width, height}});
-    gpu::uploadImage(device, *font_, 0, std::as_bytes(std::span(texels, size_t(width) * size_t(height) * 4)),
-                     false);
+    gpu::uploadImage(device, *font_, 0, std::as_bytes(std::span(texels, size_t(width) * size_t(height) * 4)));
     const VkSamplerCreateInfo sampler{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                       .magFilter = VK_FILTER_LINEAR,
                                       .minFilter = VK_FILTER_LINEAR};

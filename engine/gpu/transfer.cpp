@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <vector>
 
 #include "engine/gpu/barrier.h"
 
@@ -21,28 +24,18 @@ VkImageSubresourceRange oneLevel(const Image& image, uint32_t layer, uint32_t mi
     return {image.aspect(), mip, 1, layer, 1};
 }
 
-VkOffset3D mipEnd(const ImageDesc& desc, uint32_t mip) {
-    return {int32_t(std::max(desc.size.x >> mip, 1u)), int32_t(std::max(desc.size.y >> mip, 1u)), 1};
-}
-
-// Mip 0 is in TRANSFER_DST; every level ends in SHADER_READ_ONLY.
-void blitMips(const Device& device, VkCommandBuffer commands, const Image& image, uint32_t layer) {
+// Where each mip of one layer lies in tightly packed texels; their size in bytes.
+uint64_t listMips(const Image& image, uint32_t layer, std::vector<VkBufferImageCopy>& regions) {
     const ImageDesc& desc = image.desc();
-    for (uint32_t mip = 1; mip < desc.mips; ++mip) {
-        barrier(device, commands, image, oneLevel(image, layer, mip - 1),
-                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-        VkImageBlit region{.srcSubresource = {image.aspect(), mip - 1, layer, 1},
-                           .dstSubresource = {image.aspect(), mip, layer, 1}};
-        region.srcOffsets[1] = mipEnd(desc, mip - 1);
-        region.dstOffsets[1] = mipEnd(desc, mip);
-        device.vk().CmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                 image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
-                                 VK_FILTER_LINEAR);
-        barrier(device, commands, image, oneLevel(image, layer, mip - 1),
-                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    uint64_t bytes = 0;
+    for (uint32_t mip = 0; mip < desc.mips; ++mip) {
+        const glm::uvec2 size = glm::max(desc.size >> mip, 1u);
+        regions.push_back({.bufferOffset = bytes,
+                           .imageSubresource = {image.aspect(), mip, layer, 1},
+                           .imageExtent = {size.x, size.y, 1}});
+        bytes += uint64_t(size.x) * size.y * texelSizeBytes(desc.format);
     }
-    barrier(device, commands, image, oneLevel(image, layer, desc.mips - 1),
-            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    return bytes;
 }
 
 }  // namespace
@@ -74,24 +67,19 @@ void downloadBuffer(Device& device, const Buffer& buffer, std::span<std::byte> b
     std::memcpy(bytes.data(), staging.mapped(), bytes.size());
 }
 
-void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels,
-                 bool makeMips) {
-    const ImageDesc& desc = image.desc();
-    AG_CHECK_EQ(texels.size(), size_t(desc.size.x) * desc.size.y * texelSizeBytes(desc.format));
+void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels) {
+    std::vector<VkBufferImageCopy> mips;
+    AG_CHECK_EQ(texels.size(), listMips(image, layer, mips));
     Buffer staging(device, {.name = "transfer.upload", .sizeBytes = texels.size(), .hostVisible = true});
     std::memcpy(staging.mapped(), texels.data(), texels.size());
     device.runOnce([&](VkCommandBuffer commands) {
         barrier(device, commands, image, allLevels(image, layer), VK_IMAGE_LAYOUT_UNDEFINED,
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        const VkBufferImageCopy region{.imageSubresource = {image.aspect(), 0, layer, 1},
-                                       .imageExtent = {desc.size.x, desc.size.y, 1}};
         device.vk().CmdCopyBufferToImage(commands, staging.handle(), image.handle(),
-                                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-        if (makeMips)
-            blitMips(device, commands, image, layer);
-        else
-            barrier(device, commands, image, allLevels(image, layer), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+                                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, uint32_t(mips.size()),
+                                         mips.data());
+        barrier(device, commands, image, allLevels(image, layer), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     });
 }
 

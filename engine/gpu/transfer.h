@@ -18,10 +18,9 @@ std::unique_ptr<Buffer> loadBuffer(Device& device, BufferDesc desc, const std::v
     if (!items.empty()) uploadBuffer(device, *buffer, std::as_bytes(std::span(items)));
     return buffer;
 }
-// Texels of mip 0 of one layer, tightly packed rows; fills the remaining mips by blits when `makeMips`.
-// Leaves the image in SHADER_READ_ONLY_OPTIMAL.
-void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels,
-                 bool makeMips);
+// Texels of all mips of one layer, the finest first, tightly packed. Leaves the image in
+// SHADER_READ_ONLY_OPTIMAL.
+void uploadImage(Device& device, Image& image, uint32_t layer, std::span<const std::byte> texels);
 // `layout`: the layout the image is in, and is left in.
 void downloadImage(Device& device, const Image& image, VkImageLayout layout, std::span<std::byte> texels);
 

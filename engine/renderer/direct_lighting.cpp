@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "engine/renderer/scene_draws.h"
 #include "gi/occluder_trees.h"
 #include "shaders/bvh/bvh_io.h"
 #include "shaders/direct_lighting/direct_lighting_io.h"
@@ -38,6 +39,13 @@ io::RayOffsets shadowRayOffsets(const gi::Occluders& traced) {
     return {.least = io::kRayOffset * traced.extent, .ofPixel = traced.trees.snapping};
 }
 
+void readShadowTrees(PassBuilder& pass, const SceneView& scene, const gi::TracedOccluders& trees) {
+    gi::readTrees(pass, trees);
+    // Compiled out where nothing is masked.
+    pass.read("treeMasks", trees.masks ? trees.masks : trees.triangles).constant("kMasks", bool(trees.masks));
+    bindBaseColors(pass, scene, Sampler::kNearestClamp);
+}
+
 DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,
                            const ShadowMaps& shadows, const gi::Occluders* traced, bool glossy) {
     DirectLight result;
@@ -58,8 +66,10 @@ DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::S
                           .offsets = traced ? shadowRayOffsets(*traced) : io::RayOffsets{},
                           .rayReach = gi::kRayReaches * scene.extent})
             .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
-        if (shadow) pass.read("shadowViews", shadows.views).sample("shadowAtlas", shadows.atlas);
-        if (shadow && traced) gi::readTrees(pass, traced->trees);
+        if (shadow && traced)
+            readShadowTrees(pass, scene, traced->trees);
+        else if (shadow)
+            pass.read("shadowViews", shadows.views).sample("shadowAtlas", shadows.atlas);
         bindDirectLight(scope, gbuffer, glossy, pass, result);
     }
     return result;

@@ -20,6 +20,8 @@ void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy,
 
 // Of shadow rays through trees.
 io::RayOffsets shadowRayOffsets(const gi::Occluders& traced);
+// What a pass reads that casts shadow rays: trees, and the textures that cut masked triangles out.
+void readShadowTrees(PassBuilder& pass, const SceneView& scene, const gi::TracedOccluders& trees);
 
 // `traced`: occluders that have trees, if shadows are found by rays.
 DirectLight addSunLighting(GraphScope scope, const SceneView& scene, const gi::Surfaces& gbuffer,

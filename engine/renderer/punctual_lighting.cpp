@@ -74,7 +74,7 @@ DirectLight addPunctualLighting(GraphScope scope, const SceneView& scene, const 
     if (shadowed && !quads) bindShadows(shade, shadows, settings);
     if (rays) {
         shade.push(shadowRayOffsets(*traced));
-        gi::readTrees(shade, traced->trees);
+        readShadowTrees(shade, scene, traced->trees);
     }
     bindDirectLight(scope, gbuffer, glossy, shade, before);
     return before;

@@ -64,14 +64,18 @@ bool hasMasked(const SceneView& scene) {
     return std::ranges::any_of(scene.draws->buckets(), [](const DrawBucket& b) { return b.alphaMask; });
 }
 
-void bindMaterials(PassBuilder& pass, const SceneView& scene, Sampler sampler) {
+void bindBaseColors(PassBuilder& pass, const SceneView& scene, Sampler sampler) {
     static constexpr std::array kSrgb = {"srgb256", "srgb512", "srgb1024", "srgb2048"};
+    for (size_t c = 0; c < kSrgb.size(); ++c)
+        pass.sample(kSrgb[c], scene.srgbTextures[c], sampler);
+}
+
+void bindMaterials(PassBuilder& pass, const SceneView& scene, Sampler sampler) {
     static constexpr std::array kLinear = {"linear256", "linear512", "linear1024", "linear2048"};
     pass.read("materials", scene.materials);
-    for (size_t c = 0; c < 4; ++c) {
-        pass.sample(kSrgb[c], scene.srgbTextures[c], sampler);
+    bindBaseColors(pass, scene, sampler);
+    for (size_t c = 0; c < kLinear.size(); ++c)
         pass.sample(kLinear[c], scene.linearTextures[c], sampler);
-    }
 }
 
 }  // namespace ag::render

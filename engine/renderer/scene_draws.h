@@ -28,6 +28,7 @@ void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
 void drawView(PassBuilder& pass, const SceneView& scene, const ViewDraws& view,
               std::span<const std::byte> push, const DrawOptions& options);
 bool hasMasked(const SceneView& scene);  // any alpha-masked surface
+void bindBaseColors(PassBuilder& pass, const SceneView& scene, Sampler sampler);
 // The bindings of scene/scene.glsl with AG_SCENE_MATERIALS.
 void bindMaterials(PassBuilder& pass, const SceneView& scene, Sampler sampler = Sampler::kTrilinearRepeat);
 

@@ -6,6 +6,7 @@
 #include "engine/core/hash.h"
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/scene_gpu.h"
+#include "engine/scene/mip_chain.h"
 
 namespace ag::render {
 namespace {
@@ -41,20 +42,20 @@ uint8_t leastGreen(std::span<const uint8_t> texels) {
 std::unique_ptr<gpu::Image> loadLayers(gpu::Device& device, const char* name, VkFormat format, uint32_t size,
                                        const std::vector<std::vector<uint8_t>>& layers) {
     const uint32_t side = layers.empty() ? 1 : size;
-    uint32_t mips = 1;
-    while ((side >> mips) > 0)
-        ++mips;
     auto image = std::make_unique<gpu::Image>(
         device, gpu::ImageDesc{.name = name,
                                .format = format,
                                .size = {side, side},
                                .layers = std::max<uint32_t>(uint32_t(layers.size()), 1),
-                               .mips = mips,
+                               .mips = mipCount(side),
                                .array = true});
     const std::array<std::byte, 4> black{};
-    if (layers.empty()) gpu::uploadImage(device, *image, 0, black, false);
-    for (uint32_t layer = 0; layer < layers.size(); ++layer)
-        gpu::uploadImage(device, *image, layer, std::as_bytes(std::span(layers[layer])), true);
+    if (layers.empty()) gpu::uploadImage(device, *image, 0, black);
+    const TexelCodes codes = format == VK_FORMAT_R8G8B8A8_SRGB ? TexelCodes::kSrgb : TexelCodes::kLinear;
+    for (uint32_t layer = 0; layer < layers.size(); ++layer) {
+        const std::vector<uint8_t> mips = mipChain(layers[layer], side, codes);
+        gpu::uploadImage(device, *image, layer, std::as_bytes(std::span(mips)));
+    }
     return image;
 }
 

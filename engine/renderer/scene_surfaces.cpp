@@ -30,6 +30,16 @@ bool isCutOut(const GeometryArrays& g, const Material& m, glm::vec2 vertexUv) {
     return alpha < m.alphaCutoff;
 }
 
+io::BvhMask maskAt(const Material& m, const std::array<glm::vec2, 3>& vertexUvs) {
+    if (m.alphaMode != AlphaMode::kMask || m.baseColorLayer < 0) return {};
+    const auto uv = [&](size_t corner) { return m.uvTransform * glm::vec3(vertexUvs[corner], 1); };
+    return {.uv0 = uv(0),
+            .uv1 = uv(1),
+            .uv2 = uv(2),
+            .imageCode = io::packMask(uint32_t(m.textureClass), uint32_t(m.baseColorLayer)),
+            .leastAlpha = m.alphaCutoff / std::max(m.baseColor.w, 1e-6f)};
+}
+
 glm::vec3 linearOf(const uint8_t* texel) {
     return glm::convertSRGBToLinear(glm::vec3(texel[0], texel[1], texel[2]) / 255.0f);
 }
@@ -219,8 +229,11 @@ gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of, SurfaceLi
         const bool shines = m.emissive != glm::vec3(0);
         return gi::SentAt{albedo(primitive, uv), shines ? emissionAbout(g, m, uv) / sent.unit : glm::vec3(0)};
     };
-    return withSampledScene(scene,
-                            [&](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of, sentAt); });
+    const auto maskOf = [&](uint32_t primitive, const std::array<glm::vec2, 3>& uvs) {
+        return maskAt(g.materials[g.primitives[primitive].material], uvs);
+    };
+    return withSampledScene(
+        scene, [&](const gi::SampledScene& s) { return gi::buildOccluderTrees(s, of, sentAt, maskOf); });
 }
 
 void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers,

@@ -52,10 +52,13 @@ void SceneTrees::build(const RenderScene& scene) {
     trees_ = buildTrees(scene, of_, sent_);
     gpu::retire(device_, std::move(nodes_));
     gpu::retire(device_, std::move(triangles_));
+    gpu::retire(device_, std::move(masks_));
     nodes_ = gpu::loadBuffer(device_, {.name = "scene.tree_nodes", .texelFormat = kWords}, trees_.nodes);
     triangles_ = gpu::loadBuffer(device_, {.name = "scene.tree_triangles"}, trees_.triangles);
+    if (!trees_.masks.empty()) masks_ = gpu::loadBuffer(device_, {.name = "scene.tree_masks"}, trees_.masks);
     trees_.nodes = {};  // the device has them
     trees_.triangles = {};
+    trees_.masks = {};
     ++builds_;
 }
 
@@ -96,6 +99,7 @@ gi::TracedOccluders SceneTrees::import(GraphScope scope, const RenderScene& scen
     }
     return {.nodes = scope.importBuffer("scene.tree_nodes", *nodes_, builds_),
             .triangles = scope.importBuffer("scene.tree_triangles", *triangles_, builds_),
+            .masks = masks_ ? scope.importBuffer("scene.tree_masks", *masks_, builds_) : BufferHandle{},
             .places = scope.importBuffer("scene.tree_places", *places_, placings_),
             .moverNodes = scope.importBuffer("scene.mover_nodes", *moverNodes_, placings_),
             .staticVersion = builds_,
@@ -112,7 +116,8 @@ void SceneTrees::upload(Stage stage) {
 
 uint64_t SceneTrees::deviceBytes() const {
     uint64_t bytes = 0;
-    for (const auto* buffer : {nodes_.get(), triangles_.get(), places_.get(), moverNodes_.get()})
+    for (const auto* buffer :
+         {nodes_.get(), triangles_.get(), masks_.get(), places_.get(), moverNodes_.get()})
         if (buffer) bytes += buffer->sizeBytes();
     return bytes;
 }

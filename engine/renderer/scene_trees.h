@@ -49,7 +49,7 @@ class SceneTrees {
     gi::MoverTree movers_;
     std::vector<bool> movingPrimitives_;  // room for a frame's
     bool uploaded_ = true;
-    std::unique_ptr<gpu::Buffer> nodes_, triangles_, places_, moverNodes_;
+    std::unique_ptr<gpu::Buffer> nodes_, triangles_, masks_, places_, moverNodes_;
 };
 
 }  // namespace ag::render

@@ -63,7 +63,7 @@ void SkyGpu::load(float lightUnit) {
         device_, gpu::ImageDesc{.name = "scene.sky_picture",
                                 .format = VK_FORMAT_R16G16B16A16_SFLOAT,
                                 .size = {uint32_t(radiance.width), uint32_t(radiance.height)}});
-    gpu::uploadImage(device_, *picture_, 0, std::as_bytes(std::span(halves)), false);
+    gpu::uploadImage(device_, *picture_, 0, std::as_bytes(std::span(halves)));
     lightUnit_ = lightUnit;
     version_ = hashBytes(std::as_bytes(std::span(radiance.pixels)), hashValue(lightUnit));
 }

@@ -151,26 +151,41 @@ std::vector<uint8_t> toRgba(const tinygltf::Image& image) {
     return out;
 }
 
-std::vector<uint8_t> resample(const tinygltf::Image& image, int side, bool srgb) {
+enum class TexelsOf { kColors, kNumbers, kNormals };  // kColors: sRGB
+
+std::vector<uint8_t> resample(const tinygltf::Image& image, int side, TexelsOf what) {
     std::vector<uint8_t> source = toRgba(image);
     if (image.width == side && image.height == side) return source;
     std::vector<uint8_t> out(size_t(side) * size_t(side) * 4);
     stbir_resize_uint8_generic(source.data(), image.width, image.height, 0, out.data(), side, side, 0, 4, 3,
                                0, STBIR_EDGE_WRAP, STBIR_FILTER_DEFAULT,
-                               srgb ? STBIR_COLORSPACE_SRGB : STBIR_COLORSPACE_LINEAR, nullptr);
+                               what == TexelsOf::kColors ? STBIR_COLORSPACE_SRGB : STBIR_COLORSPACE_LINEAR,
+                               nullptr);
     return out;
 }
 
-// Layers already made, by image, class and encoding.
+// Many normal maps are not: JPEG shortens normals by some percent. Means over them, whose length tells how
+// bumpy a surface is, would take it for bumps.
+void makeUnitLength(std::vector<uint8_t>& normals) {
+    for (size_t i = 0; i < normals.size(); i += 4) {
+        const glm::vec3 n = glm::vec3(normals[i], normals[i + 1], normals[i + 2]) / 127.5f - 1.0f;
+        const float length = glm::length(n);
+        const glm::vec3 codes = ((length > 0 ? n / length : glm::vec3(0, 0, 1)) + 1.0f) * 127.5f + 0.5f;
+        for (int c = 0; c < 3; ++c)
+            normals[i + size_t(c)] = uint8_t(codes[c]);
+    }
+}
+
+// Layers already made, by image, class and what their texels are.
 class LayerMaker {
   public:
     LayerMaker(const tinygltf::Model& model, SceneAsset& asset, uint64_t texels)
         : model_(model), asset_(asset), texelsLeft_(texels) {}
 
-    int32_t layer(int texture, TextureClass textureClass, bool srgb) {
+    int32_t layer(int texture, TextureClass textureClass, TexelsOf what) {
         const int source = imageOf(model_, texture);
         if (source < 0) return -1;
-        const auto [entry, added] = made_.try_emplace({source, textureClass, srgb}, -1);
+        const auto [entry, added] = made_.try_emplace({source, textureClass, what}, -1);
         if (!added) return entry->second;
         const uint64_t side = textureClassSize(textureClass);
         if (side * side > texelsLeft_) {
@@ -179,8 +194,9 @@ class LayerMaker {
         }
         texelsLeft_ -= side * side;
         TextureLayers& layers = asset_.geometry.textures[size_t(textureClass)];
-        auto& list = srgb ? layers.srgb : layers.linear;
-        list.push_back(resample(model_.images[size_t(source)], int(side), srgb));
+        auto& list = what == TexelsOf::kColors ? layers.srgb : layers.linear;
+        list.push_back(resample(model_.images[size_t(source)], int(side), what));
+        if (what == TexelsOf::kNormals) makeUnitLength(list.back());
         return entry->second = int32_t(list.size() - 1);
     }
 
@@ -191,7 +207,7 @@ class LayerMaker {
     SceneAsset& asset_;
     uint64_t texelsLeft_;
     bool full_ = false;
-    std::map<std::tuple<int, TextureClass, bool>, int32_t> made_;
+    std::map<std::tuple<int, TextureClass, TexelsOf>, int32_t> made_;
 };
 
 }  // namespace
@@ -242,10 +258,10 @@ Fault importTextures(const tinygltf::Model& model, SceneAsset& asset, const Impo
             continue;
         }
         out.textureClass = classFor(side);
-        out.baseColorLayer = maker.layer(base, out.textureClass, true);
-        out.emissiveLayer = maker.layer(emissive, out.textureClass, true);
-        out.normalLayer = maker.layer(normal, out.textureClass, false);
-        out.metallicRoughnessLayer = maker.layer(rough, out.textureClass, false);
+        out.baseColorLayer = maker.layer(base, out.textureClass, TexelsOf::kColors);
+        out.emissiveLayer = maker.layer(emissive, out.textureClass, TexelsOf::kColors);
+        out.normalLayer = maker.layer(normal, out.textureClass, TexelsOf::kNormals);
+        out.metallicRoughnessLayer = maker.layer(rough, out.textureClass, TexelsOf::kNumbers);
         if (isUnlit(m)) makeUnlit(out);
         if (maker.full()) return "its textures together are larger than the limit";
     }

@@ -35,6 +35,12 @@ struct BvhTriangle {  // 3 vec4
 };
 const float kEmissiveFront = 4.0f;
 
+struct BvhMask {         // 2 vec4: where a triangle is cut out
+    vec2 uv0, uv1, uv2;  // of its corners in the texture
+    float imageCode;     // of its class and layer (packMask); 0: it has none
+    float leastAlpha;    // of what is not cut out
+};
+
 // Where rays meet a tree. Read as whole words.
 struct BvhPlace {                                         // 4 uvec4
     vec4 gridFromWorld0, gridFromWorld1, gridFromWorld2;  // rows
@@ -51,6 +57,10 @@ const uint kBvhStatic = 0u, kBvhMovers = 1u, kBvhFirstMover = 2u;
 #endif
 
 AG_BEGIN
+
+AG_FUNCTION float packMask(uint textureClass, uint layer) {
+    return float(layer * 8u + textureClass);
+}
 
 // Eight bits a channel, by their roots, so that dark surfaces keep their colour; a float holds 24 bits.
 AG_FUNCTION float packReflectance(vec3 r) {

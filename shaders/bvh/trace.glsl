@@ -43,9 +43,9 @@ bool meetsBox(BvhGridRay r, uvec4 node, float reach) {
 // Multiples of the golden ratio: one in [0, 1) for each triangle, unlike its neighbours'.
 float drawnFor(int triangle) { return float(uint(triangle) * 0x9e3779b9u >> 8u) / 16777216.0; }
 
-// Triangles of more opacity are met. A pass may define another rule.
-#ifndef AG_BVH_SHARE
-#define AG_BVH_SHARE(opaqueFrom, triangle) fract(opaqueFrom + drawnFor(triangle))
+// Whether a ray is stopped where it meets a triangle. A pass may define another rule.
+#ifndef AG_BVH_STOPS
+#define AG_BVH_STOPS(triangle, opacity, u, v, opaqueFrom) ((opacity) > fract((opaqueFrom) + drawnFor(triangle)))
 #endif
 
 // Möller & Trumbore 1997, both sides; the reach, shorter where the triangle is met before.
@@ -56,8 +56,8 @@ float meetTriangle(BvhGridRay r, int triangle, float reach, float opaqueFrom) {
     float det = dot(edge1, p), inverse = det != 0.0 ? 1.0 / det : 0.0;
     float u = dot(s, p) * inverse, v = dot(r.direction, q) * inverse, t = dot(edge2, q) * inverse;
     const float kSlack = 1e-6;  // no ray slips through where triangles meet
-    bool hit = det != 0.0 && min(u, v) >= -kSlack && u + v <= 1.0 + kSlack && t > 0.0 && corner.w > AG_BVH_SHARE(opaqueFrom, triangle);
-    return hit ? min(t, reach) : reach;
+    bool hit = det != 0.0 && min(u, v) >= -kSlack && u + v <= 1.0 + kSlack && t > 0.0 && t < reach;
+    return hit && AG_BVH_STOPS(triangle, corner.w, u, v, opaqueFrom) ? t : reach;
 }
 
 // Across a triangle of the tree, in the world; of any length.

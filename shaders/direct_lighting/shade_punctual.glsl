@@ -74,9 +74,8 @@ vec4 tracedShares(PunctualLight light, Receiver r[kPixels], ivec2 origin, vec4 s
         if (sure) continue;
         vec3 start = shadowRayStart(at.position, at.normal, origin + ivec2(p & 1, p >> 1), at.depth, push.offsets);
         vec3 toLight = light.position - start;
-        uint blocker = blockerAlong(start, toLight, max(1.0 - near / length(toLight), 0.0));
-        [[unroll]] for (int q = 0; q < kPixels; ++q)
-            lit[q] = p != q || blocker == kMaskedAlone ? lit[q] : blocker == kOpaque ? 0.0 : 1.0;
+        bool blocked = isBlocked(start, toLight, max(1.0 - near / length(toLight), 0.0));
+        [[unroll]] for (int q = 0; q < kPixels; ++q) lit[q] = p != q ? lit[q] : blocked ? 0.0 : 1.0;
     }
     return lit;
 }

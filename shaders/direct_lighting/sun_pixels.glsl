@@ -26,11 +26,6 @@ float sunShare(vec3 position, vec3 normal, float viewDepth) {
 #endif
 #ifdef AG_TRACED
 #include "direct_lighting/traced_shadow.glsl"
-
-float tracedShare(vec3 start, vec3 position, vec3 normal, float viewDepth) {
-    uint blocker = blockerAlong(start, -push.sun.direction, push.sun.rayReach);
-    return blocker == kMaskedAlone ? sunShare(position, normal, viewDepth) : blocker == kOpaque ? 0.0 : 1.0;
-}
 #endif
 
 void main() {
@@ -45,7 +40,7 @@ void main() {
 #if defined(AG_TRACED)
     bool faces = depth > 0.0 && e != vec3(0.0);
     vec3 start = shadowRayStart(position, normal, pixel, depth, push.sun.offsets);
-    e *= faces ? tracedShare(start, position, normal, camera.camera.near / max(depth, 1e-9)) : 0.0;
+    e *= faces && !isBlocked(start, -push.sun.direction, push.sun.rayReach) ? 1.0 : 0.0;
 #elif defined(AG_SHADOW)
     e *= sunShare(position, normal, camera.camera.near / max(depth, 1e-9));
 #endif

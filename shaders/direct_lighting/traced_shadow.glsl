@@ -1,30 +1,42 @@
-// Shadows by a ray. Trees know the mean opacity of masked triangles alone: where nothing else is in the way, a shadow map is to
-// be asked. Needs buffer `camera`.
+// Shadows by a ray, which holes of masked triangles let pass. Needs buffer `camera`.
 #ifndef AG_TRACED_SHADOW_GLSL
 #define AG_TRACED_SHADOW_GLSL
 
 #include "common/texels.glsl"
+#include "scene/alpha.glsl"
 
 layout(set = 0, binding = 20) UVEC4_TEXELS(treeNodes);
 layout(set = 0, binding = 21) UVEC4_TEXELS(moverNodes);
 layout(set = 0, binding = 22) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 23, scalar) readonly buffer TreeTriangles { vec4 items[]; } treeTriangles;
+layout(set = 0, binding = 24, scalar) readonly buffer TreeMasks { vec4 items[]; } treeMasks;  // BvhMask
+layout(set = 0, binding = 25) uniform sampler2DArray srgb256;
+layout(set = 0, binding = 26) uniform sampler2DArray srgb512;
+layout(set = 0, binding = 27) uniform sampler2DArray srgb1024;
+layout(set = 0, binding = 28) uniform sampler2DArray srgb2048;
+layout(constant_id = 20) const bool kMasks = false;
+
+bool isHole(int triangle, float u, float v) {
+    vec4 uv01 = treeMasks.items[triangle * 2], rest = treeMasks.items[triangle * 2 + 1];
+    vec2 uv = uv01.xy * (1.0 - u - v) + uv01.zw * u + rest.xy * v;
+    int code = int(rest.z), layer = code >> 3;
+    float alpha = 1.0;
+    switch (code & 7) {
+    case 1: alpha = finestAlpha(srgb256, uv, layer); break;
+    case 2: alpha = finestAlpha(srgb512, uv, layer); break;
+    case 3: alpha = finestAlpha(srgb1024, uv, layer); break;
+    case 4: alpha = finestAlpha(srgb2048, uv, layer); break;
+    }
+    return alpha < rest.w;
+}
+
 #define AG_BVH_MOVERS
-#define AG_BVH_SHARE(opaqueFrom, triangle) (opaqueFrom)
+#define AG_BVH_STOPS(triangle, opacity, u, v, opaqueFrom) (!kMasks || (opacity) >= 1.0 || !isHole(triangle, u, v))
 #include "bvh/trace.glsl"
 
-const float kAll = 0.0, kUnmasked = 0.999;  // opacity of triangles that rays meet
-const uint kNothing = 0, kMaskedAlone = 1, kOpaque = 2;
-
-uint blockerAlong(vec3 start, vec3 direction, float reach) {
-    bool masked = false;
-    for (int i = 0; i < 2; ++i) {
-        BvhRay ray = BvhRay(start, direction, reach, masked ? kUnmasked : kAll, true, 0, 0);
-        if (!traceOccluders(ray)) break;
-        masked = treeTriangles.items[ray.triangle * 3].w < 1.0;
-        if (!masked) return kOpaque;
-    }
-    return masked ? kMaskedAlone : kNothing;
+bool isBlocked(vec3 start, vec3 direction, float reach) {
+    BvhRay ray = BvhRay(start, direction, reach, 0.0, true, 0, 0);
+    return traceOccluders(ray);
 }
 
 // Before the surface that a pixel sees, by so many m or widths of the pixel, whichever is more.

@@ -4,6 +4,7 @@
 
 #include "common/brdf.h"
 #include "common/texels.glsl"
+#include "scene/alpha.glsl"
 #include "scene/scene_io.h"
 
 // Interpolated normals may cancel: zero stays zero.
@@ -81,24 +82,13 @@ vec4 sampleSrgb(vec2 uv, int layer) {
     return layer < 0 ? vec4(1.0) : texel;
 }
 
-// Bilinear, of the finest mip: a mean of holes and leaves is neither, and what passes the cut-off then covers more or less than
-// they do. By hand: llvmpipe's anisotropic samplers ignore a mip that is asked for.
-#define AG_ALPHA(image)                                                                             \
-    ivec2 size = textureSize(image, 0).xy;                                                          \
-    vec2 at = fract(uv) * vec2(size) - 0.5, f = at - floor(at);                                     \
-    ivec2 low = ivec2(floor(at)) + size;                                                            \
-    vec4 corners;                                                                                   \
-    for (int i = 0; i < 4; ++i)                                                                     \
-        corners[i] = texelFetch(image, ivec3((low + ivec2(i & 1, i >> 1)) % size, layer), 0).a;     \
-    return mix(mix(corners[0], corners[1], f.x), mix(corners[2], corners[3], f.x), f.y);
-
 float sampleAlpha(vec2 uv, int layer) {
-    if (layer < 0) return 1.0;
-    if (kTextureClass == 1) { AG_ALPHA(srgb256) }
-    if (kTextureClass == 2) { AG_ALPHA(srgb512) }
-    if (kTextureClass == 3) { AG_ALPHA(srgb1024) }
-    if (kTextureClass == 4) { AG_ALPHA(srgb2048) }
-    return 1.0;
+    float alpha = 1.0;
+    if (kTextureClass == 1 && layer >= 0) alpha = finestAlpha(srgb256, uv, layer);
+    if (kTextureClass == 2 && layer >= 0) alpha = finestAlpha(srgb512, uv, layer);
+    if (kTextureClass == 3 && layer >= 0) alpha = finestAlpha(srgb1024, uv, layer);
+    if (kTextureClass == 4 && layer >= 0) alpha = finestAlpha(srgb2048, uv, layer);
+    return alpha;
 }
 
 vec4 sampleLinear(vec2 uv, int layer) {

@@ -2,6 +2,7 @@
 #include "engine/core/image_difference.h"
 #include "tests/gi_gpu/bench.h"
 #include "tools/reference/reference.h"
+#include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
@@ -43,6 +44,50 @@ TEST(RaysAtRest, SunsShadowsAreAsTraced) {
 
 TEST(RaysAtRest, EdgesOfLampsShadowsAreAsTraced) {
     EXPECT_LT(raysOverMaps("cornell"), 0.5);
+}
+
+// A lattice of 12 cm over a floor, cut out by its texture's alpha.
+SceneAsset underALattice(bool lamp) {
+    scenegen::SceneBuilder s("lattice");
+    const uint32_t white = s.material("white", glm::vec3(0.5f)),
+                   lattice = s.material("lattice", glm::vec3(0.5f));
+    s.quad("floor", {-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, white);
+    s.quad("lattice", {-4, 1, -4}, {0, 0, 8}, {8, 0, 0}, lattice);
+    if (lamp)
+        s.point("lamp", {0.3f, 4, 0.2f}, glm::vec3(20));
+    else
+        s.sun("sun", {0.2f, -1, 0.3f}, glm::vec3(5));
+    s.camera("camera", {0, 0.9f, 2}, {0, 0, 0}, 60);
+    SceneAsset asset = s.finish();
+    Material& m = asset.geometry.materials[lattice];
+    m.alphaMode = AlphaMode::kMask;
+    m.textureClass = TextureClass::k256;
+    m.baseColorLayer = 0;
+    auto& texels =
+        asset.geometry.textures[size_t(TextureClass::k256)].srgb.emplace_back(256 * 256 * 4, uint8_t(255));
+    for (size_t i = 0; i < 256 * 256; ++i)
+        texels[i * 4 + 3] = i % 8 < 4 && i / 256 % 8 < 4 ? 255 : 0;
+    for (size_t i = 0; i < asset.geometry.positions.size(); ++i)
+        asset.geometry.attributes[i].uv =
+            glm::vec2(asset.geometry.positions[i].x + 4, asset.geometry.positions[i].z + 4) / 8.0f;
+    return asset;
+}
+
+TEST(RaysAtRest, ShadowsOfMaskedSurfacesHaveTheirHoles) {
+    for (const bool lamp : {false, true}) {
+        Bench b(underALattice(lamp), {96, 54});
+        const Image truth = traced(b, Layer::kDirect, 0, 1);
+        const Image rays = atRest(b, Layer::kDirect, 6);
+        b.settings.shadowMaps.rays = false;
+        const Image maps = atRest(b, Layer::kDirect, 6);
+        const double mean = meanOf(truth), off = shareOff(rays, truth, 0.1 * mean),
+                     offByMaps = shareOff(maps, truth, 0.1 * mean);
+        std::printf("through a lattice, %s: %.2f %% of the pixels are off, %.2f %% by maps\n",
+                    lamp ? "lamp" : "sun", 100 * off, 100 * offByMaps);
+        EXPECT_GT(mean, 0.1);
+        EXPECT_LT(off, 0.01);
+        EXPECT_GT(offByMaps, 0.05);
+    }
 }
 
 // Tubes of 6 cm on walls: points on them, far from each other, leave blots.

@@ -175,10 +175,10 @@ void HostCamera::fillGbuffer(const GbufferLayout& layout,
     normal_ = makeImage("host.normal", normalFormat(layout.normals), layout.size);
     baseColor_ = makeImage("host.base_color", VK_FORMAT_R8G8B8A8_UNORM, layout.size);
     material_ = makeImage("host.material", VK_FORMAT_R8G8B8A8_UNORM, layout.size);
-    gpu::uploadImage(device(), *depth_, 0, depths, false);
-    gpu::uploadImage(device(), *normal_, 0, normals, false);
-    gpu::uploadImage(device(), *baseColor_, 0, colors, false);
-    gpu::uploadImage(device(), *material_, 0, materials, false);
+    gpu::uploadImage(device(), *depth_, 0, depths);
+    gpu::uploadImage(device(), *normal_, 0, normals);
+    gpu::uploadImage(device(), *baseColor_, 0, colors);
+    gpu::uploadImage(device(), *material_, 0, materials);
 }
 
 std::vector<glm::vec3> HostCamera::download(const gpu::Image& image) const {

@@ -11,6 +11,7 @@
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/renderer.h"
 #include "engine/scene/gltf_import.h"
+#include "engine/scene/mip_chain.h"
 #include "engine/scene/static_scene.h"
 #include "tests/guest/guest_host.h"
 #include "tools/scenegen/scenes.h"
@@ -115,13 +116,13 @@ class HostScene {
         const std::vector<uint8_t>& texels =
             geometry_.textures[size_t(m.textureClass)].srgb[size_t(m.baseColorLayer)];
         const uint32_t size = textureClassSize(m.textureClass);
-        const uint32_t mips = uint32_t(std::log2(size)) + 1;
         maps_.push_back(
             std::make_unique<gpu::Image>(device(), gpu::ImageDesc{.name = "host.albedo",
                                                                   .format = VK_FORMAT_R8G8B8A8_SRGB,
                                                                   .size = glm::uvec2(size),
-                                                                  .mips = mips}));
-        gpu::uploadImage(device(), *maps_.back(), 0, std::as_bytes(std::span(texels)), true);
+                                                                  .mips = mipCount(size)}));
+        const std::vector<uint8_t> mips = mipChain(texels, size, TexelCodes::kSrgb);
+        gpu::uploadImage(device(), *maps_.back(), 0, std::as_bytes(std::span(mips)));
         out.albedoMap = maps_.back()->view();
         glm::dvec3 sum(0);
         size_t covered = 0;

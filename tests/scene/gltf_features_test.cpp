@@ -214,6 +214,29 @@ TEST(GltfFeatures, GlassAndBlendedSurfaces) {
     EXPECT_EQ(import(leaf).geometry.materials[0].alphaMode, AlphaMode::kBlend) << "covers in part everywhere";
 }
 
+// As compression leaves them: 0.8 and 1.2 long.
+TEST(GltfFeatures, NormalsOfMapsAreMadeOneLong) {
+    std::vector<unsigned char> texels;
+    for (int i = 0; i < 16; ++i)
+        for (const int c : i % 4 < 2 ? std::array{128, 128, 229, 255} : std::array{219, 128, 219, 255})
+            texels.push_back(static_cast<unsigned char>(c));
+    json d = withMaterial({{"normalTexture", {{"index", 0}}},
+                           {"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}});
+    d["images"] = {webpOf(texels)};
+    d["extensionsUsed"] = {"EXT_texture_webp"};
+    d["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
+    const SceneAsset asset = import(d);
+    const Material& m = asset.geometry.materials[0];
+    const auto& layers = asset.geometry.textures[size_t(m.textureClass)].linear;
+    const std::vector<uint8_t>& normals = layers[size_t(m.normalLayer)];
+    for (size_t i = 0; i < normals.size(); i += 4) {
+        const glm::vec3 n = glm::vec3(normals[i], normals[i + 1], normals[i + 2]) / 127.5f - 1.0f;
+        ASSERT_NEAR(glm::length(n), 1, 0.008);
+    }
+    ASSERT_NE(m.metallicRoughnessLayer, m.normalLayer) << "numbers stay as they are";
+    EXPECT_NEAR(layers[size_t(m.metallicRoughnessLayer)][(128 * 256 + 64) * 4 + 2], 229, 4);
+}
+
 TEST(GltfFeatures, TexturesOfOtherFormats) {
     json d = withMaterial({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     d["images"] = {ktxImage(), webpImage()};

@@ -54,7 +54,7 @@ void TruthView::take(std::shared_ptr<const TruthPicture> picture, gpu::Device& d
     std::vector<glm::vec4> texels;
     for (const glm::vec3& p : mean.pixels)
         texels.emplace_back(p, 1);
-    gpu::uploadImage(device, *image_, 0, std::as_bytes(std::span(texels)), false);
+    gpu::uploadImage(device, *image_, 0, std::as_bytes(std::span(texels)));
     mean_ = meanOf(mean);
     picture_ = std::move(picture);
     ++version_;
