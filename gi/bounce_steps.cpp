@@ -1,6 +1,7 @@
 #include "gi/bounce_steps.h"
 
 #include "engine/core/hash.h"
+#include "gi/ray_filter.h"
 #include "gi/texel_rays.h"
 #include "gi/upsampling.h"
 
@@ -93,7 +94,8 @@ void addToPixels(GraphScope scope, const BounceLightInputs& in, const Surfaces& 
     const bool first = f.bounce1.image && !apart;
     f.irradiance = toPixels(f.irradiance, kUpsampling, lightsOf(f.term));
     if (grid.turn > 0 && s.texelRays.rounds > 0 && !s.denoiser.enabled)
-        f.irradiance = addJoinedTurns(scope, in.surfaces, f.irradiance, s.texelRays);
+        f.irradiance.image = addJoinedTurns(scope, in.surfaces, f.irradiance.image, s.texelRays.tolerance,
+                                            {"texel_rays.join", "texel_rays.joined"});
     if (apart) f.bounce1 = toPixels(f.bounce1, kFirstBounceUpsampling, lightsOf(Term::kFirstBounce));
     if (first) f.bounce1 = f.irradiance;
 }

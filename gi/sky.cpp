@@ -9,6 +9,7 @@
 #include "gi/blue_noise.h"
 #include "gi/occluder_trees.h"
 #include "gi/pixel_rays.h"
+#include "gi/ray_filter.h"
 #include "gi/upsampling.h"
 #include "shaders/bvh/bvh_io.h"
 #include "shaders/ray_filter/ray_filter_io.h"
@@ -20,10 +21,12 @@ constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kTexelAngle = 4 * kPi / float(io::kSkySide * io::kSkySide);  // sr
 constexpr float kEvenly = 0.05f;                                             // of the draws within a cell
-constexpr float kKept = 0.9f;             // of what blocks learned, from frame to frame
+// Of what blocks learned, from frame to frame; and while all stands.
+constexpr float kKept = 0.9f, kKeptAtRest = 0.995f;
 constexpr uint32_t kFramesOfChange = 48;  // means are kept short so long
 constexpr float kMostPointRays = 65536;
 constexpr uint32_t kMostRounds = 4;
+constexpr float kOfNeighbours = 8;  // rays that their light counts for where a pixel's turn begins
 // Names are literals, because the graph keeps views of them.
 constexpr std::array<std::string_view, kMostRounds> kFilterNames = {"sky.filter0", "sky.filter1",
                                                                     "sky.filter2", "sky.filter3"};
@@ -47,7 +50,8 @@ constexpr UpsamplingNames kSkyUpsampling = {
     "sky.irradiance",
     {"sky.lacking", "sky.none_lacking", "sky.lacking_groups", "sky.no_lacking_groups"},
     {"sky.alone", "sky.none_alone", "sky.alone_groups", "sky.no_alone_groups"},
-    ""};
+    "",
+    "sky.place"};
 constexpr UpsamplingNames kGlossUpsampling = {
     "sky.upsample_gloss",
     "sky.upsample_gloss_far",
@@ -55,7 +59,8 @@ constexpr UpsamplingNames kGlossUpsampling = {
     {"sky.gloss_lacking", "sky.none_gloss_lacking", "sky.gloss_lacking_groups",
      "sky.no_gloss_lacking_groups"},
     {"sky.gloss_alone", "sky.none_gloss_alone", "sky.gloss_alone_groups", "sky.no_gloss_alone_groups"},
-    ""};
+    "",
+    "sky.place_gloss"};
 constexpr float kWalkingLength = 8;  // frames that reflections stand for while the camera moves
 
 float mean(glm::vec3 v) {
@@ -76,7 +81,7 @@ struct Sent {
     ImageHandle irradiance, gloss;
 };
 
-Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uint32_t step) {
+Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uint32_t step, float keep) {
     const glm::uvec2 along = (gbuffer.size + io::kSkyBlock - 1u) / io::kSkyBlock;
     const uint32_t blocks = along.x * along.y;
     const uint64_t entries = uint64_t(blocks) * io::kSkyCells;
@@ -113,7 +118,7 @@ Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uin
                               .offset = io::kBvhOffset * in.occluders.extent,
                               .reach = kRayReaches * in.occluders.extent,
                               .known = seen.valid,
-                              .keep = kKept})
+                              .keep = keep})
         .step(step)
         .dispatchGroups(blocks);
     readTrees(cast, in.occluders.trees);
@@ -158,12 +163,14 @@ ImageHandle addMeans(GraphScope scope, const Surfaces& gbuffer, ImageHandle sent
         .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
     const std::array<ImageHandle, 2> turns = {scope.image(names.even, info), scope.image(names.odd, info)};
     ImageHandle from = rest;
-    for (uint32_t round = 0; round < std::min(s.rounds, kMostRounds); ++round) {
+    const uint32_t rounds = std::min(s.rounds, kMostRounds);
+    for (uint32_t round = 0; round < rounds; ++round) {
         scope.compute(names.filters[round], "ray_filter/filter.comp")
             .sample("rest", from)
             .sample("surface", surface.current)
             .read("cameras", cameras)
             .write("result", turns[round % 2])
+            .constant("kDeviation", round + 1 == rounds)
             .push(io::RayFilterPush{int(1u << round), s.tolerance})
             .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
         from = turns[round % 2];
@@ -183,6 +190,31 @@ Followed followFrames(const Surfaces& gbuffer, const SkyInputs& in, SkyHistory& 
     history.sinceStep = history.cameraVersion == in.versions.camera ? history.sinceStep + 1 : 0;
     history.cameraVersion = in.versions.camera;
     return before;
+}
+
+// Whose turn it is of a square's pixels.
+struct Turn {
+    Downsampling at;
+    uint32_t number = 0;
+    bool begins = false;
+};
+
+Turn turnOf(uint32_t spacing, const SkySettings& s, uint32_t sinceChange) {
+    const uint32_t turns = s.allPixels ? spacing * spacing : 1;
+    const uint32_t number = std::min(sinceChange / s.settleFrames, turns - 1);
+    const glm::uvec2 aside(number % spacing, number / spacing);
+    return {{spacing, (spacing / 2 + aside) % spacing},
+            number,
+            number > 0 && sinceChange == number * s.settleFrames};
+}
+
+ImageHandle toPixels(GraphScope scope, const Surfaces& all, const Surfaces& gathered, ImageHandle light,
+                     const Turn& turn, const SkySettings& s, const UpsamplingNames& names,
+                     const JoinNames& join) {
+    if (turn.number == 0 || !hasAllPixels(scope, names))
+        return addUpsampling(scope, all, gathered, Irradiance{light}, names).image;
+    const ImageHandle placed = addPlacing(scope, all, gathered, Irradiance{light}, names).image;
+    return s.rounds > 0 ? addJoinedTurns(scope, all, placed, s.tolerance, join) : placed;
 }
 
 }  // namespace
@@ -222,24 +254,29 @@ SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacin
                      const SkySettings& s, SkyHistory& history) {
     if (!s.enabled || !in.sky || !in.occluders.trees.moverNodes) return {};
     const uint64_t seen = combineHash(in.sky.version, combineHash(in.versions.camera, in.versions.instances));
-    const uint32_t step = history.settling.advance(seen, s.settleFrames);
-    Surfaces gbuffer = addDownsampled(scope, surfaces, spacing, kSkyDownsampling);
+    const uint32_t turns = s.allPixels ? spacing * spacing : 1;
+    const uint32_t step = history.settling.advance(seen, turns * s.settleFrames);
+    const Turn turn = turnOf(spacing, s, history.settling.sinceChange);
+    Surfaces gbuffer = addDownsampled(scope, surfaces, turn.at, kSkyDownsampling);
     gbuffer.reflectance = {};
     if (s.glossy && surfaces.reflectance)
         gbuffer.reflectance = spacing == 1 ? surfaces.reflectance
                                            : addDownsampledImage(scope, "sky.downsample_reflectance",
-                                                                 surfaces.reflectance, spacing);
-    const Sent sent = addRays(scope, gbuffer, in, step);
+                                                                 surfaces.reflectance, turn.at);
     const Followed before = followFrames(gbuffer, in, history);
     const bool moving = history.sinceChange < kFramesOfChange, walking = history.sinceStep == 0;
+    const Sent sent = addRays(scope, gbuffer, in, step, moving || walking ? kKept : kKeptAtRest);
     io::SkyMeanPush push{.mostLength = float(moving ? s.movingLength : s.mostLength), .moving = moving};
+    if (turn.begins) push.mostLength = kOfNeighbours;
     const ImageHandle mean =
         addMeans(scope, gbuffer, sent.irradiance, before, push, step, s, kIrradianceMeans);
-    SkyLight light{addUpsampling(scope, surfaces, gbuffer, Irradiance{mean}, kSkyUpsampling).image, {}};
+    SkyLight light{
+        toPixels(scope, surfaces, gbuffer, mean, turn, s, kSkyUpsampling, {"sky.join", "sky.joined"}), {}};
     if (!sent.gloss) return light;
     if (walking) push.mostLength = std::min(push.mostLength, kWalkingLength);
     const ImageHandle gloss = addMeans(scope, gbuffer, sent.gloss, before, push, step, s, kGlossMeans);
-    light.gloss = addUpsampling(scope, surfaces, gbuffer, Irradiance{gloss}, kGlossUpsampling).image;
+    light.gloss = toPixels(scope, surfaces, gbuffer, gloss, turn, s, kGlossUpsampling,
+                           {"sky.join_gloss", "sky.gloss_joined"});
     return light;
 }
 

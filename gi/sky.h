@@ -19,9 +19,10 @@ struct SkySettings {
     bool enabled = true;
     uint32_t mostLength = 1024;   // frames that a pixel's mean stands for while nothing moves,
     uint32_t movingLength = 32;   // and while something does
-    uint32_t settleFrames = 256;  // rays are cast so long after anything last changed
+    uint32_t settleFrames = 256;  // rays are cast so long after anything last changed,
+    bool allPixels = true;        // and then as long at each of the pixels left out
     uint32_t rounds = 3;          // of the filter, each twice as wide
-    float tolerance = 3;          // standard deviations by which the light of taps may differ
+    float tolerance = 1;          // standard deviations by which the light of taps may differ
     bool glossy = true;           // specular lobes reflect it
     uint32_t pointRays = 8;       // of each point that light bounces on from, a frame
 
@@ -34,6 +35,8 @@ struct SkySettings {
                          "that it stands for while something moves"},
             SettingField{"settle_frames", &SkySettings::settleFrames, 1, 1000000, "frames",
                          "rays are cast after anything last changed"},
+            SettingField{"all_pixels", &SkySettings::allPixels, 0, 0, "",
+                         "then cast rays at the pixels left out, too, while nothing changes"},
             SettingField{"rounds", &SkySettings::rounds, 0, 4, "rounds", "of the filter, each twice as wide"},
             SettingField{"tolerance", &SkySettings::tolerance, 0.1, 1000, "deviations",
                          "by which the light of the filter's taps may differ"},
@@ -83,7 +86,7 @@ struct SkyLight {
     ImageHandle gloss;  // what specular lobes reflect of it, W/(m² sr); invalid: no material has one
 };
 
-// On each pixel of `surfaces`, gathered at every spacing-th.
+// On each pixel of `surfaces`, gathered at every spacing-th; while nothing changes at all, one after another.
 SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,
                      const SkySettings& settings, SkyHistory& history);
 

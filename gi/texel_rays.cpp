@@ -324,17 +324,4 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     return addCorrection(t, areaLights, means, seen, s, history.settling, in.turn);
 }
 
-Irradiance addJoinedTurns(GraphScope scope, const Surfaces& all, const Irradiance& placed,
-                          const TexelRaysSettings& s) {
-    const ImageHandle result = scope.image("texel_rays.joined", {.format = kHalf4, .size = all.size});
-    scope.compute("texel_rays.join", "texel_rays/join.comp")
-        .sample("normalMap", all.normal)
-        .sample("depthMap", all.depth)
-        .sample("light", placed.image)
-        .write("result", result)
-        .push(io::JoinPush{pixelRays(all.view, all.size), all.view.near, {1, s.tolerance}})
-        .dispatchThreads(all.size.x, all.size.y);
-    return {result, placed.toward};
-}
-
 }  // namespace ag::gi

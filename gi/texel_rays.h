@@ -81,8 +81,4 @@ Irradiance addTexelRays(const ValTiles& tiles, const Irradiance& areaLights, con
                         const ValShadingSettings& shading, const TexelRaysSettings& settings,
                         TexelRaysHistory& history);
 
-// `placed`: pixels of all turns, each by rays of its own, at `all`; the noise between them smoothed.
-Irradiance addJoinedTurns(GraphScope scope, const Surfaces& all, const Irradiance& placed,
-                          const TexelRaysSettings& settings);
-
 }  // namespace ag::gi

@@ -17,9 +17,10 @@ vec4 lightOf(ivec2 at) { return texelFetch(rest, at, 0); }
 #include "ray_filter/filter.glsl"
 
 layout(push_constant, scalar) uniform Push { RayFilterPush p; } push;
+layout(constant_id = 0) const bool kDeviation = false;  // the result's alpha, else variance
 
 void main() {
     ivec2 size = imageSize(result), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
     vec4 mean = filtered(at, size, cameras.c.now, cameras.c.pixelSize, push.p);
-    if (all(lessThan(pixel, size))) imageStore(result, pixel, mean);
+    if (all(lessThan(pixel, size))) imageStore(result, pixel, vec4(mean.rgb, kDeviation ? sqrt(mean.a) : mean.a));
 }

@@ -4,7 +4,6 @@
 #define AG_TEXEL_RAYS_IO_H
 
 #include "common/pixel_rays.h"
-#include "ray_filter/ray_filter_io.h"
 #include "val_shading/val_shading_io.h"
 
 #ifdef __cplusplus
@@ -57,12 +56,6 @@ struct CarryPush {
 struct CorrectPush {
     uint valid;    // 0: there is no frame before
     float fading;  // share of what is carried that stays, a frame
-};
-
-struct JoinPush {
-    PixelRays rays;
-    float near;  // m
-    RayFilterPush filterBy;
 };
 
 #ifdef __cplusplus

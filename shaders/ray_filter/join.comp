@@ -5,7 +5,7 @@
 // Each turn filters its own pixels alone, so neighbours of different turns differ by noise, in a grid of dots. One more
 // round of the filter over all pixels.
 #include "common/pixel_rays.h"
-#include "texel_rays/texel_rays_io.h"
+#include "ray_filter/ray_filter_io.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { JoinPush p; } push;
