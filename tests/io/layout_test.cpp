@@ -34,9 +34,9 @@ const std::map<std::string, Layout>& layouts() {
 
 // What shaders read by the word, from texel buffers: the loader beside the struct knows where its members
 // lie.
-const std::set<std::string> kLoadedByWord = {"BvhPlace",        "BvhTriangle", "Instance",
-                                             "LightClusterRow", "Material",    "PunctualLight",
-                                             "SkinnedSample",   "SkyTexel",    "SurfaceSample"};
+const std::set<std::string> kLoadedByWord = {
+    "BvhMask",  "BvhPlace",      "BvhTriangle",   "Instance", "LightClusterRow",
+    "Material", "PunctualLight", "SkinnedSample", "SkyTexel", "SurfaceSample"};
 
 // Those of the repository, and as they are compiled for storage buffers.
 std::vector<gpu::ShaderModule> allShaders() {
