@@ -12,16 +12,12 @@ uint32_t turnsOf(const BounceLightSettings& s) {
     return s.texelRays.allPixels ? s.spacing * s.spacing : 1;
 }
 
-// While clusters change, what they send does: without new rays the old ones would count again.
+// While clusters or later bounces change, what they send does, and means are made anew: without new rays the
+// last ones would count again and again. Light of the sky on points goes on to later bounces.
 uint32_t raysOfTurn(const BounceLightSettings& s, uint32_t turn) {
-    return turn == 0 ? std::max(s.texelRays.settleFrames, s.valClustering.settleFrames)
-                     : s.texelRays.settleFrames;
-}
-
-// In the first turn later bounces come to rest, too: light of the sky on points goes on to them.
-uint32_t framesOfTurn(const BounceLightSettings& s, uint32_t turn) {
-    const bool waits = turn == 0 && s.laterBounces.enabled;
-    return std::max(raysOfTurn(s, turn), waits ? s.laterBounces.settleFrames + s.sky.settleFrames : 0);
+    if (turn > 0) return s.texelRays.settleFrames;
+    const uint32_t bounces = s.laterBounces.enabled ? s.laterBounces.settleFrames + s.sky.settleFrames : 0;
+    return std::max({s.texelRays.settleFrames, s.valClustering.settleFrames, bounces});
 }
 
 // A frame in which the surfaces are new comes before the rays.
@@ -32,7 +28,7 @@ constexpr uint32_t kBegins = 1;
 uint32_t framesToRest(const BounceLightSettings& s) {
     uint32_t frames = 0;
     for (uint32_t turn = 0; turn < turnsOf(s); ++turn)
-        frames += kBegins + framesOfTurn(s, turn);
+        frames += kBegins + raysOfTurn(s, turn);
     return frames;
 }
 
@@ -50,8 +46,8 @@ GatherGrid chooseGatherGrid(uint64_t light, uint64_t camera, bool castsRays, con
                     .change = h.restarts};
     const uint32_t turns = castsRays ? turnsOf(s) : 1;
     uint32_t since = h.settling.sinceChange;
-    while (grid.turn + 1 < turns && since >= kBegins + framesOfTurn(s, grid.turn))
-        since -= kBegins + framesOfTurn(s, grid.turn++);
+    while (grid.turn + 1 < turns && since >= kBegins + raysOfTurn(s, grid.turn))
+        since -= kBegins + raysOfTurn(s, grid.turn++);
     grid.begins = since == 0;
     grid.frames = raysOfTurn(s, grid.turn);
     grid.place = (grid.place + glm::uvec2(grid.turn % s.spacing, grid.turn / s.spacing)) % s.spacing;

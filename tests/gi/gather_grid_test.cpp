@@ -103,7 +103,8 @@ TEST(GatherGrid, TheFirstTurnLastsUntilAllLightRests) {
     EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).frames, 20u);
     s.laterBounces = {.enabled = true, .settleFrames = 30};
     s.sky.settleFrames = 10;
-    EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).frames, 20u) << "of rays";
+    EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).frames, 40u)
+        << "the last ray would count in each frame in which later bounces change";
     for (int frame = 1; frame <= 40; ++frame)
         EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).turn, 0u);
     EXPECT_EQ(chooseGatherGrid(1, 0, true, s, history).turn, 1u);
