@@ -66,8 +66,10 @@ GatherGrid gatherGridOf(GraphScope scope, const BounceLightInputs& in, const Bou
     for (const uint64_t part : {v.scene, v.instances, v.lights, v.view, v.origin, in.sky.version,
                                 in.occluders.trees.staticVersion, hashValue(in.surfaces.size), wanted})
         light = combineHash(light, part);
+    BounceLightSettings waitsFor = s;
+    if (!in.sky || !s.sky.enabled) waitsFor.sky.settleFrames = 0;
     return chooseGatherGrid(light, v.camera,
-                            !valsOf(f, s.term).empty() && castsTexelRays(s.texelRays, in.occluders), s,
+                            !valsOf(f, s.term).empty() && castsTexelRays(s.texelRays, in.occluders), waitsFor,
                             h.gatherGrid);
 }
 

@@ -26,7 +26,8 @@ struct GatherGridHistory {
     uint64_t restarts = 0;         // by whatever changed
 };
 
-// Of a scene in which rays are cast: frames from the last change on until nothing is made anew.
+// Of a scene in which rays are cast: frames from the last change on until nothing is made anew, at most (less
+// without a sky).
 uint32_t framesToRest(const BounceLightSettings& settings);
 
 // `light`: of all that light depends on but the settings and `camera`, which anti-aliasing moves within a

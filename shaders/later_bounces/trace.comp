@@ -27,7 +27,7 @@ layout(set = 0, binding = 10, scalar) writeonly buffer Means { PointMeans items[
 
 const uint kDraws = 16;        // texels that one is resampled from
 const float kTrust = 2.0;      // frames: rays of fewer say little
-const float kMostTimes = 4.0;  // so far area lights may be below rays
+const float kMostTimes = 4.0;  // so far area lights may be below rays; what is beyond is added
 
 uint endOfMembers(uint endLight) { return firstMember(endLight - 1) + fetchTexel(memberRanges, int(endLight * 2 - 1)).x; }
 
@@ -79,5 +79,6 @@ void main() {
     means.items[i].byLights = lights;
     means.items[i].frames = frames;
     vec3 trusted = lights * (kTrust / frames);
-    irradiance.items[i].rgb = byLights * min((rays + trusted) / max(lights + trusted, vec3(1e-20)), vec3(kMostTimes));
+    vec3 found = rays + trusted, sent = lights + trusted;
+    irradiance.items[i].rgb = byLights * min(found / max(sent, vec3(1e-20)), vec3(kMostTimes)) + max(found - kMostTimes * sent, vec3(0.0));
 }
