@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/core/hash.h"
+#include "gi/surfaces.h"
 
 namespace ag::gi {
 namespace {
@@ -40,8 +41,7 @@ GatherGrid chooseGatherGrid(uint64_t light, uint64_t camera, bool castsRays, con
     h.settling.advance(combineHash(inputs, camera), framesToRest(s));
     const bool changed = h.light.sinceChange == 0;
     h.restarts += changed;
-    GatherGrid grid{.place = glm::uvec2(s.spacing / 2),
-                    .still = castsRays && !changed,
+    GatherGrid grid{.still = castsRays && !changed,
                     .grows = s.laterBounces.enabled && h.light.sinceChange <= s.laterBounces.settleFrames,
                     .change = h.restarts};
     const uint32_t turns = castsRays ? turnsOf(s) : 1;
@@ -50,7 +50,7 @@ GatherGrid chooseGatherGrid(uint64_t light, uint64_t camera, bool castsRays, con
         since -= kBegins + raysOfTurn(s, grid.turn++);
     grid.begins = since == 0;
     grid.frames = raysOfTurn(s, grid.turn);
-    grid.place = (grid.place + glm::uvec2(grid.turn % s.spacing, grid.turn / s.spacing)) % s.spacing;
+    grid.place = Downsampling::ofTurn(s.spacing, grid.turn).place;
     return grid;
 }
 

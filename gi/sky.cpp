@@ -192,20 +192,19 @@ Followed followFrames(const Surfaces& gbuffer, const SkyInputs& in, SkyHistory& 
     return before;
 }
 
+uint32_t turnsOf(uint32_t spacing, const SkySettings& s) {
+    return s.allPixels ? spacing * spacing : 1;
+}
+
 // Whose turn it is of a square's pixels.
 struct Turn {
-    Downsampling at;
     uint32_t number = 0;
-    bool begins = false;
+    bool begins = false;  // and others came before
 };
 
-Turn turnOf(uint32_t spacing, const SkySettings& s, uint32_t sinceChange) {
-    const uint32_t turns = s.allPixels ? spacing * spacing : 1;
+Turn turnOf(uint32_t turns, const SkySettings& s, uint32_t sinceChange) {
     const uint32_t number = std::min(sinceChange / s.settleFrames, turns - 1);
-    const glm::uvec2 aside(number % spacing, number / spacing);
-    return {{spacing, (spacing / 2 + aside) % spacing},
-            number,
-            number > 0 && sinceChange == number * s.settleFrames};
+    return {number, number > 0 && sinceChange == number * s.settleFrames};
 }
 
 ImageHandle toPixels(GraphScope scope, const Surfaces& all, const Surfaces& gathered, ImageHandle light,
@@ -254,15 +253,16 @@ SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacin
                      const SkySettings& s, SkyHistory& history) {
     if (!s.enabled || !in.sky || !in.occluders.trees.moverNodes) return {};
     const uint64_t seen = combineHash(in.sky.version, combineHash(in.versions.camera, in.versions.instances));
-    const uint32_t turns = s.allPixels ? spacing * spacing : 1;
+    const uint32_t turns = turnsOf(spacing, s);
     const uint32_t step = history.settling.advance(seen, turns * s.settleFrames);
-    const Turn turn = turnOf(spacing, s, history.settling.sinceChange);
-    Surfaces gbuffer = addDownsampled(scope, surfaces, turn.at, kSkyDownsampling);
+    const Turn turn = turnOf(turns, s, history.settling.sinceChange);
+    const Downsampling at = Downsampling::ofTurn(spacing, turn.number);
+    Surfaces gbuffer = addDownsampled(scope, surfaces, at, kSkyDownsampling);
     gbuffer.reflectance = {};
     if (s.glossy && surfaces.reflectance)
-        gbuffer.reflectance = spacing == 1 ? surfaces.reflectance
-                                           : addDownsampledImage(scope, "sky.downsample_reflectance",
-                                                                 surfaces.reflectance, turn.at);
+        gbuffer.reflectance =
+            spacing == 1 ? surfaces.reflectance
+                         : addDownsampledImage(scope, "sky.downsample_reflectance", surfaces.reflectance, at);
     const Followed before = followFrames(gbuffer, in, history);
     const bool moving = history.sinceChange < kFramesOfChange, walking = history.sinceStep == 0;
     const Sent sent = addRays(scope, gbuffer, in, step, moving || walking ? kKept : kKeptAtRest);

@@ -29,6 +29,10 @@ struct Downsampling {
 
     Downsampling(uint32_t n) : spacing(n), place(n / 2) {}  // its middle
     Downsampling(uint32_t n, glm::uvec2 at) : spacing(n), place(at) {}
+    // Of the square's pixels one after another, its middle first.
+    static Downsampling ofTurn(uint32_t n, uint32_t turn) {
+        return {n, (n / 2 + glm::uvec2(turn % n, turn / n)) % n};
+    }
 };
 
 // Those pixels, as if the camera had no others. Depth, normal and motion only; itself with a spacing of 1.

@@ -89,6 +89,33 @@ struct Bench {
     std::function<void(GraphScope, const RenderFrame&)> output;  // what a test reads besides
 };
 
+// Gives a material a texture: `texelOf` by column and row, of 256 x 256; `uvOf` by position.
+template <class Texel, class Uv>
+void addTexture(SceneAsset& asset, uint32_t material, Texel&& texelOf, Uv&& uvOf) {
+    constexpr uint32_t kSide = 256;
+    Material& m = asset.geometry.materials[material];
+    auto& layers = asset.geometry.textures[size_t(TextureClass::k256)].srgb;
+    m.textureClass = TextureClass::k256;
+    m.baseColorLayer = int32_t(layers.size());
+    std::vector<uint8_t>& texels = layers.emplace_back();
+    for (uint32_t y = 0; y < kSide; ++y)
+        for (uint32_t x = 0; x < kSide; ++x) {
+            const glm::u8vec4 texel = texelOf(x, y);
+            texels.insert(texels.end(), {texel.x, texel.y, texel.z, texel.w});
+        }
+    for (size_t i = 0; i < asset.geometry.positions.size(); ++i)
+        asset.geometry.attributes[i].uv = uvOf(asset.geometry.positions[i]);
+}
+// White, and cut out where `covers` is false.
+template <class Covers, class Uv>
+void cutOut(SceneAsset& asset, uint32_t material, Covers&& covers, Uv&& uvOf) {
+    asset.geometry.materials[material].alphaMode = AlphaMode::kMask;
+    const auto texelOf = [&](uint32_t x, uint32_t y) {
+        return glm::u8vec4(255, 255, 255, covers(x, y) ? 255 : 0);
+    };
+    addTexture(asset, material, texelOf, uvOf);
+}
+
 inline double meanOf(const Image& image) {
     double sum = 0;
     for (const glm::vec3& p : image.pixels)

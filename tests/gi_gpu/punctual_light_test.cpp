@@ -212,16 +212,9 @@ TEST(PunctualShadows, CutOutPartsLetLightThrough) {
     s.point("lamp", {0, 3, 0}, glm::vec3(20));
     s.camera("camera", {0, 0.8f, 0}, {0.001f, 0, 0}, 80);
     SceneAsset asset = s.finish();
-    Material& m = asset.geometry.materials[screen];
-    m.alphaMode = AlphaMode::kMask;
-    m.textureClass = TextureClass::k256;
-    m.baseColorLayer = 0;
-    auto& texels =
-        asset.geometry.textures[size_t(TextureClass::k256)].srgb.emplace_back(256 * 256 * 4, uint8_t(255));
-    for (size_t i = 0; i < 256 * 256; ++i)
-        texels[i * 4 + 3] = i % 256 < 128 ? 0 : 255;  // u < 1/2 is cut out
-    for (size_t i = 0; i < asset.geometry.positions.size(); ++i)
-        asset.geometry.attributes[i].uv = {asset.geometry.positions[i].x / 8 + 0.5f, 0.5f};
+    cutOut(
+        asset, screen, [](uint32_t x, uint32_t) { return x >= 128; },  // u < 1/2 is cut out
+        [](glm::vec3 p) { return glm::vec2(p.x / 8 + 0.5f, 0.5f); });
     const auto b = directBench(std::move(asset), {64, 64});
     const Image lit = directImage(*b);
     int open = 0, shut = 0;

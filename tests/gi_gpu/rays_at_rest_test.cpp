@@ -59,17 +59,9 @@ SceneAsset underALattice(bool lamp) {
         s.sun("sun", {0.2f, -1, 0.3f}, glm::vec3(5));
     s.camera("camera", {0, 0.9f, 2}, {0, 0, 0}, 60);
     SceneAsset asset = s.finish();
-    Material& m = asset.geometry.materials[lattice];
-    m.alphaMode = AlphaMode::kMask;
-    m.textureClass = TextureClass::k256;
-    m.baseColorLayer = 0;
-    auto& texels =
-        asset.geometry.textures[size_t(TextureClass::k256)].srgb.emplace_back(256 * 256 * 4, uint8_t(255));
-    for (size_t i = 0; i < 256 * 256; ++i)
-        texels[i * 4 + 3] = i % 8 < 4 && i / 256 % 8 < 4 ? 255 : 0;
-    for (size_t i = 0; i < asset.geometry.positions.size(); ++i)
-        asset.geometry.attributes[i].uv =
-            glm::vec2(asset.geometry.positions[i].x + 4, asset.geometry.positions[i].z + 4) / 8.0f;
+    cutOut(
+        asset, lattice, [](uint32_t x, uint32_t y) { return x % 8 < 4 && y % 8 < 4; },
+        [](glm::vec3 p) { return glm::vec2(p.x + 4, p.z + 4) / 8.0f; });
     return asset;
 }
 

@@ -9,32 +9,19 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-constexpr uint32_t kSide = 256;  // texels
-
-// A floor before a wall, both 16 m wide. `texelOf`: of the floor's texture, by column and row.
-template <class F>
-SceneAsset texturedFloor(float repeats, F&& texelOf) {
+// A floor, the first material's, before a wall; both 16 m wide.
+SceneAsset floorAndWall() {
     scenegen::SceneBuilder s("floor");
-    const uint32_t floor = s.material("floor", glm::vec3(0.9f));
-    s.quad("floor", {-8, 0, -12}, {0, 0, 12}, {16, 0, 0}, floor);
+    s.quad("floor", {-8, 0, -12}, {0, 0, 12}, {16, 0, 0}, s.material("floor", glm::vec3(0.9f)));
     s.quad("wall", {-8, -1, -12}, {16, 0, 0}, {0, 8, 0}, s.material("wall", glm::vec3(0.2f)));
     s.point("lamp", {0, 4, -4}, glm::vec3(20));
     s.camera("camera", {0, 1, 3}, {0, 0.5f, -6}, 50);
-    SceneAsset asset = s.finish();
-    Material& m = asset.geometry.materials[floor];
-    m.textureClass = TextureClass::k256;
-    m.baseColorLayer = 0;
-    auto& texels = asset.geometry.textures[size_t(TextureClass::k256)].srgb.emplace_back();
-    for (uint32_t y = 0; y < kSide; ++y)
-        for (uint32_t x = 0; x < kSide; ++x) {
-            const glm::u8vec4 texel = texelOf(x, y);
-            texels.insert(texels.end(), {texel.x, texel.y, texel.z, texel.w});
-        }
-    for (size_t i = 0; i < asset.geometry.positions.size(); ++i) {
-        const glm::vec3 p = asset.geometry.positions[i];
-        asset.geometry.attributes[i].uv = glm::vec2(p.x + 8, p.z + 12) * (repeats / 16);
-    }
-    return asset;
+    return s.finish();
+}
+
+// The texture so many times from side to side.
+auto repeated(float times) {
+    return [times](glm::vec3 p) { return glm::vec2(p.x + 8, p.z + 12) * (times / 16); };
 }
 
 Image traced(const Bench& b, const char* layer) {
@@ -53,10 +40,9 @@ Image rendered(Bench& b, Layer layer, uint32_t frames = 1) {
 
 // A quarter of each 4 x 4 texels covers; a pixel sees up to hundreds. Their mean alpha passes no cut-off.
 TEST(TextureSampling, MaskedSurfacesCoverWhatTheirTexelsDo) {
-    SceneAsset asset = texturedFloor(8, [](uint32_t x, uint32_t y) {
-        return glm::u8vec4(200, 200, 200, x % 4 < 2 && y % 4 < 2 ? 255 : 0);
-    });
-    asset.geometry.materials[0].alphaMode = AlphaMode::kMask;
+    SceneAsset asset = floorAndWall();
+    cutOut(
+        asset, 0, [](uint32_t x, uint32_t y) { return x % 4 < 2 && y % 4 < 2; }, repeated(8));
     Bench b(std::move(asset), {160, 96});
     const Image depth = rendered(b, Layer::kDepth), truth = traced(b, "depth");
     size_t covered = 0, coveredTruth = 0, others = 0;
@@ -74,9 +60,12 @@ TEST(TextureSampling, MaskedSurfacesCoverWhatTheirTexelsDo) {
 // Stripes that run away from the camera are as fine along a pixel's row as they are coarse along its column.
 TEST(TextureSampling, StripesSeenAtASlantStaySharpWhereNothingMoves) {
     if (test::device().info().mostAnisotropy < 2) GTEST_SKIP() << "the device has no anisotropic filtering";
-    Bench b(texturedFloor(4, [](uint32_t x,
-                                uint32_t) { return glm::u8vec4(glm::u8vec3(x % 32 < 16 ? 255 : 60), 255); }),
-            {160, 96});
+    SceneAsset asset = floorAndWall();
+    const auto stripes = [](uint32_t x, uint32_t) {
+        return glm::u8vec4(glm::u8vec3(x % 32 < 16 ? 255 : 60), 255);
+    };
+    addTexture(asset, 0, stripes, repeated(4));
+    Bench b(std::move(asset), {160, 96});
     const Image truth = traced(b, "albedo");
     const auto errorOf = [&](const Image& image) { return compareImages(truth, image)->relativeRmse; };
     const double still = errorOf(rendered(b, Layer::kAlbedo, 2));
