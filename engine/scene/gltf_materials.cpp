@@ -164,8 +164,8 @@ std::vector<uint8_t> resample(const tinygltf::Image& image, int side, TexelsOf w
     return out;
 }
 
-// Many normal maps are not: JPEG shortens normals by some percent. Means over them, whose length tells how
-// bumpy a surface is, would take it for bumps.
+// JPEG shortens normals by some percent. The length of a mean normal tells how bumpy a surface is, so that
+// short ones would pass for bumps.
 void makeUnitLength(std::vector<uint8_t>& normals) {
     for (size_t i = 0; i < normals.size(); i += 4) {
         const glm::vec3 n = glm::vec3(normals[i], normals[i + 1], normals[i + 2]) / 127.5f - 1.0f;

@@ -1,5 +1,5 @@
-// The mips of a texture, exact to half of a code: blits of devices may round down at each level, and normals
-// lean by a degree then.
+// The mips of a texture, exact to half a code. Blits may round down at each level (llvmpipe), which tilts
+// normals of coarse levels by a degree.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Alpha of a texture's finest mip, bilinearly: a mean of holes and leaves is neither, and what passes the cut-off then covers more
-// or less than they do. By hand: llvmpipe's anisotropic samplers ignore a mip that is asked for.
+// Alpha of a texture's finest mip, bilinearly. Coarser mips average holes and leaves; testing that mean against the cut-off changes
+// how much the surface covers. Filtered by hand: llvmpipe's anisotropic samplers ignore textureLod's level.
 #ifndef AG_ALPHA_GLSL
 #define AG_ALPHA_GLSL
 

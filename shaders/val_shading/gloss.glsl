@@ -49,10 +49,11 @@ vec3 specularRadiance(Specular c, vec3 x, vec3 n, AreaLight l, vec3 e) {
     // The lobe's two squared widths.
     float a2 = min(c.alpha2 + kBell * wideInPlane, 1.0), b2 = min(c.alpha2 + kBell * wideAcross / (vh * vh), 1.0);
     float na = dot(n, inPlane), nb = dot(n, across), nh = dot(n, h);
-    float bell = na * na / a2 + nb * nb / b2 + nh * nh;
-    float lobe = nh > 0.0 ? kInvPi * inversesqrt(a2 * b2) / (bell * bell) : 0.0;
-    float nv = max(dot(n, c.toViewer), 0.0), nl = max(dot(n, toLight), 0.5 * sqrt(wideInPlane));
-    lobe *= maskingOver(nv, c.alpha2) * maskingOver(nl, c.alpha2);
+    float bell = na * na / a2 + nb * nb / b2 + nh * nh, nv = dot(n, c.toViewer);
+    // Where a normal map's normal turns from the viewer, no lobe reaches it.
+    float lobe = nh > 0.0 && nv > 0.0 ? kInvPi * inversesqrt(a2 * b2) / (bell * bell) : 0.0;
+    float nl = max(dot(n, toLight), 0.5 * sqrt(wideInPlane));
+    lobe *= maskingOver(max(nv, 0.0), c.alpha2) * maskingOver(nl, c.alpha2);
     return e * fresnelSchlick(c.f0, vec3(c.f90), vh) * (lobe - c.lambert);
 }
 #endif

@@ -215,7 +215,7 @@ TEST(GltfFeatures, GlassAndBlendedSurfaces) {
 }
 
 // As compression leaves them: 0.8 and 1.2 long.
-TEST(GltfFeatures, NormalsOfMapsAreMadeOneLong) {
+TEST(GltfFeatures, NormalMapsAreNormalised) {
     std::vector<unsigned char> texels;
     for (int i = 0; i < 16; ++i)
         for (const int c : i % 4 < 2 ? std::array{128, 128, 229, 255} : std::array{219, 128, 219, 255})
