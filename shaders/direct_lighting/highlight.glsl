@@ -26,6 +26,7 @@ Lobe lobeAt(ivec2 pixel, vec3 position, float roughness) {
 // Radiance toward the viewer, of the irradiance `e` that comes from `toLight`; less than nothing where the lobe keeps light
 // from what is under it.
 vec3 highlightOf(Lobe c, vec3 n, vec3 toLight, vec3 e) {
+    n = normalize(n);  // half floats are up to 0.0005 off, which is as much as narrow lobes
     float nv = dot(n, c.toViewer), nl = dot(n, toLight);
     if (c.f90 <= 0.0 || nv <= 0.0 || nl <= 0.0) return vec3(0.0);
     vec3 h = normalize(c.toViewer + toLight), f = fresnelSchlick(c.f0, vec3(c.f90), dot(c.toViewer, h));

@@ -97,7 +97,7 @@ void main() {
     vec3 normal = normalAndRoughness.xyz, xi = fract(vec3(noiseAt(at), noiseAt(at + 32u).x) + push.p.shift);
     vec3 surface = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), place = surface + normal * push.p.offset;
     float alpha = max(normalAndRoughness.w * normalAndRoughness.w, kLeastAlpha);
-    Lobe lobe = Lobe(normal, normalize(camera.camera.position - surface), reflectance.rgb, reflectance.w, alpha);
+    Lobe lobe = Lobe(normalize(normal), normalize(camera.camera.position - surface), reflectance.rgb, reflectance.w, alpha);
     bool glossy = kGlossy && there && depth > 0.0 && reflectance.w > 0.0;
     SkyDraw d = drawSky(xi);
     float cosine = dot(normal, d.direction);

@@ -13,13 +13,21 @@ namespace {
 const glm::vec3 kBase(0.5f, 0.4f, 0.3f),
     kLampAt(0.4f, 1.2f, -0.3f), kSun = glm::normalize(glm::vec3(0.3f, -1, -0.5f));
 
-SceneAsset polishedFloor(float roughness, float metallic, bool sun, uint32_t lamps) {
+// A plane through the origin.
+struct Plane {
+    glm::vec3 normal{0, 1, 0};
+    glm::vec3 right() const { return glm::normalize(glm::cross(normal, glm::vec3(0, 0, 1))); }
+    glm::vec3 down() const { return glm::cross(right(), normal); }
+};
+
+SceneAsset polishedFloor(float roughness, float metallic, bool sun, uint32_t lamps, const Plane& plane = {}) {
     scenegen::SceneBuilder b("floor");
     const uint32_t m = b.material("polish", kBase);
     b.materialAt(m).roughness = roughness;
     b.materialAt(m).metallic = metallic;
     b.materialAt(m).specular = 1;
-    b.quad("floor", {-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, m);
+    const glm::vec3 right = 6.0f * plane.right(), down = 6.0f * plane.down();
+    b.quad("floor", -0.5f * (right + down), down, right, m);
     if (sun) b.sun("sun", kSun, glm::vec3(7));
     for (uint32_t i = 0; i < lamps; ++i)
         b.point("lamp", kLampAt + glm::vec3(0.01f * float(i), 0, 0), glm::vec3(4));
@@ -28,12 +36,12 @@ SceneAsset polishedFloor(float roughness, float metallic, bool sun, uint32_t lam
 }
 
 // Relative to the brightest pixel.
-double worstDifference(float roughness, float metallic, bool sun, uint32_t lamps) {
-    Bench b(polishedFloor(roughness, metallic, sun, lamps), {64, 36});
+double worstDifference(float roughness, float metallic, bool sun, uint32_t lamps, const Plane& plane = {}) {
+    Bench b(polishedFloor(roughness, metallic, sun, lamps, plane), {64, 36});
     b.settings.technique = Technique::kNone;
     const Image got = renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kRadiance, 2);
     double worst = 0, most = 0;
-    const glm::vec3 n(0, 1, 0);
+    const glm::vec3 n = plane.normal;
     for (int y = 0; y < 36; ++y)
         for (int x = 0; x < 64; ++x) {
             const RenderCamera& c = b.scene.camera;
@@ -41,11 +49,12 @@ double worstDifference(float roughness, float metallic, bool sun, uint32_t lamps
                 c.worldFromClip *
                 glm::vec4((glm::vec2(x, y) + 0.5f) / glm::vec2(b.size) * 2.0f - 1.0f, 0.5f, 1);
             const glm::vec3 d = glm::normalize(glm::vec3(h) / h.w - c.position);
-            const glm::vec3 place = c.position - d * (c.position.y / d.y);
-            if (!(d.y < 0) || std::abs(place.x) > 2.9f || std::abs(place.z) > 2.9f) continue;
+            const glm::vec3 place = c.position - d * (glm::dot(n, c.position) / glm::dot(n, d));
+            const glm::vec2 in(glm::dot(place, plane.right()), glm::dot(place, plane.down()));
+            if (glm::dot(n, d) >= 0 || glm::length(in) > 2.9f) continue;
             glm::vec3 truth(0);
             const auto add = [&](glm::vec3 toLight, float irradiance) {
-                truth += irradiance * std::max(toLight.y, 0.0f) *
+                truth += irradiance * std::max(glm::dot(n, toLight), 0.0f) *
                          io::metallicRoughnessBrdf(n, -d, toLight, kBase, metallic, roughness, 1);
             };
             if (sun) add(-kSun, 7);
@@ -70,6 +79,15 @@ TEST(Highlights, AreTheMaterialsBrdf) {
         }
     // So many that shadows are found at one pixel of four: no shadow, no difference.
     EXPECT_LT(worstDifference(0.4f, 0, false, 12), 0.01);
+}
+
+// Half floats make a normal longer or shorter by about as much as a narrow lobe is wide.
+TEST(Highlights, OfNarrowLobesAreSharpOnAnySurface) {
+    const glm::vec3 mirrors = glm::normalize(-kSun + glm::normalize(glm::vec3(0, 1.1f, 2)));
+    for (const float turn : {-0.02f, 0.0f, 0.03f}) {
+        const Plane plane{glm::normalize(mirrors + turn * glm::vec3(1, 0.5f, 0.3f))};
+        EXPECT_LT(worstDifference(0.1f, 1, true, 0, plane), 0.1) << turn;
+    }
 }
 
 TEST(Highlights, CostNothingWhereNothingIsGlossy) {
