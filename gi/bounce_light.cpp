@@ -58,7 +58,8 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     // Light that goes on
     const BufferHandle sky =
         addSkyOnPoints(scope, f.emitters, {in.sky, in.occluders, in.world.versions}, s.sky, h.skyOnPoints);
-    const BufferHandle others = addLightsOnPoints(scope, f.emitters, in.world.otherLights, in.occluders);
+    const OtherLights otherLights = addOtherLights(scope, in.world.otherLights);
+    const BufferHandle others = addLightsOnPoints(scope, f.emitters, otherLights, in.occluders);
     const PointRays pointRays{
         f.rsm, members, in.occluders, f.clusters.count, grid.still, h.laterBounces.step};
     addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces,
@@ -66,6 +67,12 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, gathered, s, h, f, grid);
+    if (rays && s.term == Term::kAll)
+        f.gloss = addGlossRays(
+            scope, in.surfaces, gathered,
+            {f.rsm, f.clusters, members, in.occluders, s.sky.enabled ? in.sky : SkyOnDevice{}, in.world, grid,
+             otherLights, s.laterBounces.feedback, f.firstCount, f.irradiance.image, f.gloss},
+            s.glossRays, h.glossRays);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;
 }

@@ -31,6 +31,7 @@ struct BounceLightHistory {
     ValClusteringHistory valClustering;
     GatherGridHistory gatherGrid;
     TexelRaysHistory texelRays;
+    GlossRaysHistory glossRays;
     Settling stochasticRsm;
     Settling laterBounces;
     Settling skyOnPoints;

@@ -62,7 +62,7 @@ GatherGrid gatherGridOf(GraphScope scope, const BounceLightInputs& in, const Bou
     const Versions& v = in.world.versions;
     uint64_t light = f.rsm.inputsVersion;
     // Nobody may have asked for the light yet: then the pixels of earlier turns have none.
-    const uint64_t wanted = hasAllPixels(scope, kUpsampling);
+    const uint64_t wanted = hasAllPixels(scope, kUpsampling) + 2 * scope.wasWanted("gloss_rays.mix");
     for (const uint64_t part : {v.scene, v.instances, v.lights, v.view, v.origin, in.sky.version,
                                 in.occluders.trees.staticVersion, hashValue(in.surfaces.size), wanted})
         light = combineHash(light, part);

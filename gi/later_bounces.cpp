@@ -26,6 +26,8 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
         .read("texels", in.rsm.texels)
         .read("memberRanges", in.members.ranges)
         .read("members", in.members.texels)
+        .read("maps", in.rsm.maps)
+        .read("tileMaps", in.rsm.tileMaps)
         .readWrite("irradiance", emitters.irradiance.current)
         .readPrevious("before", means)
         .write("means", means.current)
@@ -37,9 +39,11 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
                             .valid = means.valid,
                             .mostLength = in.still ? kStillLength : kMovingLength,
                             .offset = io::kRayOffset * in.occluders.extent,
-                            .texelOffset = in.occluders.trees.snapping})
+                            .texelOffset = in.occluders.trees.snapping,
+                            .atlasWidth = in.rsm.atlas.size.x})
         .step(in.step)
         .dispatchThreads(count);
+    readTexelLobes(trace, in.rsm);
     readTrees(trace, in.occluders.trees);
 }
 

@@ -23,10 +23,8 @@ io::PointLight rowOf(const RsmLight& light) {
 
 }  // namespace
 
-BufferHandle addLightsOnPoints(GraphScope scope, const SurfaceEmitters& emitters,
-                               std::span<const RsmLight> lights, const Occluders& occluders) {
-    const uint32_t count = emitters.reflecting.count();
-    if (count == 0 || lights.empty() || !occluders.trees.moverNodes) return {};
+OtherLights addOtherLights(GraphScope scope, std::span<const RsmLight> lights) {
+    if (lights.empty()) return {};
     static thread_local std::vector<io::PointLight> rows;  // keeps its memory from frame to frame
     rows.clear();
     for (const RsmLight& light : lights)
@@ -34,15 +32,22 @@ BufferHandle addLightsOnPoints(GraphScope scope, const SurfaceEmitters& emitters
     const auto bytes = std::as_bytes(std::span(rows));
     const BufferHandle buffer = scope.buffer("later_bounces.point_lights", {.sizeBytes = bytes.size()});
     scope.upload("later_bounces.point_lights", buffer, bytes);
+    return {buffer, uint32_t(rows.size())};
+}
+
+BufferHandle addLightsOnPoints(GraphScope scope, const SurfaceEmitters& emitters, const OtherLights& lights,
+                               const Occluders& occluders) {
+    const uint32_t count = emitters.reflecting.count();
+    if (count == 0 || !lights.rows || !occluders.trees.moverNodes) return {};
     const BufferHandle irradiance =
         scope.buffer("later_bounces.straight",
                      {.sizeBytes = count * sizeof(glm::vec4), .texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT});
     PassBuilder pass = scope.compute("later_bounces.lights", "later_bounces/lights.comp");
     pass.read("texels", emitters.texels)
-        .read("lights", buffer)
+        .read("lights", lights.rows)
         .write("irradiance", irradiance)
         .push(io::PointLightsPush{.count = count,
-                                  .lightCount = uint32_t(rows.size()),
+                                  .lightCount = lights.count,
                                   .offset = io::kBvhOffset * occluders.extent,
                                   .reach = kRayReaches * occluders.extent})
         .dispatchThreads(count);

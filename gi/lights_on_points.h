@@ -7,8 +7,15 @@
 
 namespace ag::gi {
 
+// The lights without a reflective shadow map, as rays read them.
+struct OtherLights {
+    BufferHandle rows;  // io::PointLight; invalid: there are none
+    uint32_t count = 0;
+};
+OtherLights addOtherLights(GraphScope scope, std::span<const RsmLight> lights);
+
 // vec4 a point, W/m². Invalid: there are no such lights, no points, or nothing to cast rays into yet.
-BufferHandle addLightsOnPoints(GraphScope scope, const SurfaceEmitters& emitters,
-                               std::span<const RsmLight> lights, const Occluders& occluders);
+BufferHandle addLightsOnPoints(GraphScope scope, const SurfaceEmitters& emitters, const OtherLights& lights,
+                               const Occluders& occluders);
 
 }  // namespace ag::gi

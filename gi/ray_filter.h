@@ -1,13 +1,50 @@
-// The filter of light that rays found at pixels, once all of them have had their turn (see GatherGrid).
+// What rays found at pixels, a frame after another: means over frames, their filter over the screen, and how
+// they come to all pixels when these have their turns (see GatherGrid).
 #pragma once
 
+#include <array>
 #include <string_view>
 
 #include "gi/surfaces.h"
+#include "gi/upsampling.h"
 
 namespace ag::gi {
 
-struct JoinNames {  // literals, because the graph keeps views of them
+constexpr uint32_t kMostFilterRounds = 4;
+constexpr float kOfNeighbours = 8;  // frames that their means count for where a pixel's turn begins
+
+// Passes and resources; literals, because the graph keeps views of them.
+struct RayMeanNames {
+    std::string_view pass, mean, square, surface, rest, cameras, even, odd;
+    std::array<std::string_view, kMostFilterRounds> filters;
+};
+
+struct RayFilter {
+    uint32_t rounds;  // each twice as wide
+    float tolerance;  // standard deviations by which the light of taps may differ
+};
+
+// The camera of the frame before.
+struct FollowedCamera {
+    RenderCamera camera;
+    bool known;  // there was such a frame, about the same origin
+};
+
+struct RayMeans {
+    ImageHandle sent;  // what this frame's rays found
+    FollowedCamera before;
+    float mostLength;  // frames that a mean stands for
+    bool moving;       // something may have changed what rays find: blocks that see it forget
+    uint32_t step;
+    RayFilter filter;
+};
+
+// At the pixels of `surfaces`: averaged over frames on the same surface, filtered by how uncertain the means
+// are. Alpha: standard deviation of the noise left; with no rounds variance.
+ImageHandle addRayMeans(GraphScope scope, const Surfaces& surfaces, const RayMeans& in,
+                        const RayMeanNames& names);
+
+struct JoinNames {
     std::string_view pass, result;
 };
 
@@ -16,5 +53,14 @@ struct JoinNames {  // literals, because the graph keeps views of them
 // deviations.
 ImageHandle addJoinedTurns(GraphScope scope, const Surfaces& all, ImageHandle placed, float tolerance,
                            const JoinNames& names);
+
+struct TurnNames {
+    const UpsamplingNames& upsampling;
+    JoinNames join;
+};
+
+// Means of the pixels of one turn, to all: upsampled in the first turn, then to just those pixels.
+ImageHandle addTurn(GraphScope scope, const Surfaces& all, const Surfaces& gathered, ImageHandle means,
+                    uint32_t turn, const RayFilter& filter, const TurnNames& names);
 
 }  // namespace ag::gi

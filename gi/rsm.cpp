@@ -48,6 +48,10 @@ void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& em
         .dispatchIndirect(creased.groups);
 }
 
+void readTexelLobes(PassBuilder& pass, const RsmSet& rsm) {
+    pass.sample("rsmNormals", rsm.normal).sample("rsmAlbedos", rsm.albedo).constant("kTexelLobes", rsm.lobes);
+}
+
 RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings, uint32_t clusterBudget,
                const SurfaceEmitters& emitters, ClusterShares& shares) {
     RsmSet rsm;

@@ -32,6 +32,7 @@ struct RsmSettings {
 
 struct RsmSet {
     ImageHandle normal, albedo, depth;  // of the atlas, as rasterised
+    bool lobes = false;     // alphas of normal and albedo tell of specular lobes (shaders/rsm/render.frag)
     BufferHandle texels;    // io::RsmTexel, tile by tile; also a texel buffer of vec4. See addRsmTexels
     BufferHandle faces;     // io::RsmFace
     BufferHandle maps;      // io::RsmMap
@@ -71,5 +72,8 @@ RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings
 
 // Texels of the maps that were drawn, and of `emitters`.
 void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters);
+
+// What a pass reads of where texels send their light: rsmNormals, rsmAlbedos, kTexelLobes.
+void readTexelLobes(PassBuilder& pass, const RsmSet& rsm);
 
 }  // namespace ag::gi

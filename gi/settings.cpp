@@ -58,6 +58,7 @@ void registerSettings(Settings& settings, BounceLightSettings& s) {
     registerFields(settings, "later_bounces", s.laterBounces);
     registerFields(settings, "val_shading", s.valShading);
     registerFields(settings, "texel_rays", s.texelRays);
+    registerFields(settings, "gloss_rays", s.glossRays);
     registerFields(settings, "stochastic_rsm", s.stochasticRsm);
     registerFields(settings, "denoiser", s.denoiser);
     registerFields(settings, "probes", s.probes);

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "gi/denoiser.h"
+#include "gi/gloss_rays.h"
 #include "gi/importance.h"
 #include "gi/ism_atlas.h"
 #include "gi/later_bounces.h"
@@ -31,6 +32,7 @@ struct BounceLightSettings {
     LaterBouncesSettings laterBounces;
     ValShadingSettings valShading;
     TexelRaysSettings texelRays;
+    GlossRaysSettings glossRays;
     StochasticRsmSettings stochasticRsm;
     DenoiserSettings denoiser;
     ProbeSettings probes;

@@ -1,23 +1,20 @@
 #include "gi/sky.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
 #include "gi/occluder_trees.h"
-#include "gi/pixel_rays.h"
 #include "gi/ray_filter.h"
 #include "gi/upsampling.h"
 #include "shaders/bvh/bvh_io.h"
-#include "shaders/ray_filter/ray_filter_io.h"
 
 namespace ag::gi {
 namespace {
 
-constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kSkyFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kTexelAngle = 4 * kPi / float(io::kSkySide * io::kSkySide);  // sr
 constexpr float kEvenly = 0.05f;                                             // of the draws within a cell
@@ -25,23 +22,20 @@ constexpr float kEvenly = 0.05f;                                             // 
 constexpr float kKept = 0.9f, kKeptAtRest = 0.995f;
 constexpr uint32_t kFramesOfChange = 48;  // means are kept short so long
 constexpr float kMostPointRays = 65536;
-constexpr uint32_t kMostRounds = 4;
-constexpr float kOfNeighbours = 8;  // rays that their light counts for where a pixel's turn begins
-// Names are literals, because the graph keeps views of them.
-constexpr std::array<std::string_view, kMostRounds> kFilterNames = {"sky.filter0", "sky.filter1",
-                                                                    "sky.filter2", "sky.filter3"};
-constexpr std::array<std::string_view, kMostRounds> kGlossFilterNames = {
-    "sky.gloss_filter0", "sky.gloss_filter1", "sky.gloss_filter2", "sky.gloss_filter3"};
-// Of irradiance, and of what specular lobes reflect.
-struct MeanNames {
-    std::string_view pass, mean, square, surface, rest, cameras, even, odd;
-    const std::array<std::string_view, kMostRounds>& filters;
-};
-constexpr MeanNames kIrradianceMeans = {"sky.accumulate", "sky.mean", "sky.square", "sky.surface", "sky.rest",
-                                        "sky.cameras",    "sky.even", "sky.odd",    kFilterNames};
-constexpr MeanNames kGlossMeans = {"sky.accumulate_gloss", "sky.gloss_mean", "sky.gloss_square",
-                                   "sky.gloss_surface",    "sky.gloss_rest", "sky.gloss_cameras",
-                                   "sky.gloss_even",       "sky.gloss_odd",  kGlossFilterNames};
+constexpr RayMeanNames kIrradianceMeans = {
+    "sky.accumulate", "sky.mean", "sky.square",
+    "sky.surface",    "sky.rest", "sky.cameras",
+    "sky.even",       "sky.odd",  {"sky.filter0", "sky.filter1", "sky.filter2", "sky.filter3"}};
+constexpr RayMeanNames kGlossMeans = {
+    "sky.accumulate_gloss",
+    "sky.gloss_mean",
+    "sky.gloss_square",
+    "sky.gloss_surface",
+    "sky.gloss_rest",
+    "sky.gloss_cameras",
+    "sky.gloss_even",
+    "sky.gloss_odd",
+    {"sky.gloss_filter0", "sky.gloss_filter1", "sky.gloss_filter2", "sky.gloss_filter3"}};
 constexpr DownsamplingNames kSkyDownsampling = {"sky.downsample_depth", "sky.downsample_normal",
                                                 "sky.downsample_camera", "sky.downsample_motion"};
 constexpr UpsamplingNames kSkyUpsampling = {
@@ -77,11 +71,11 @@ uint32_t texelOf(glm::vec3 d) {
            in.x;
 }
 
-struct Sent {
+struct SkySent {
     ImageHandle irradiance, gloss;
 };
 
-Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uint32_t step, float keep) {
+SkySent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uint32_t step, float keep) {
     const glm::uvec2 along = (gbuffer.size + io::kSkyBlock - 1u) / io::kSkyBlock;
     const uint32_t blocks = along.x * along.y;
     const uint64_t entries = uint64_t(blocks) * io::kSkyCells;
@@ -96,9 +90,10 @@ Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uin
         .push(io::SkyChoosePush{seen.valid})
         .step(step)
         .dispatchGroups(blocks);
-    Sent sent{.irradiance = scope.image("sky.sent", {.format = kFloat4, .size = gbuffer.size}), .gloss = {}};
+    SkySent sent{.irradiance = scope.image("sky.sent", {.format = kSkyFormat, .size = gbuffer.size}),
+                 .gloss = {}};
     if (gbuffer.reflectance)
-        sent.gloss = scope.image("sky.sent_gloss", {.format = kFloat4, .size = gbuffer.size});
+        sent.gloss = scope.image("sky.sent_gloss", {.format = kSkyFormat, .size = gbuffer.size});
     const BufferHandle noise = addBlueNoise(scope);
     PassBuilder cast = scope.compute("sky.cast", "sky/cast.comp");
     cast.sample("normalMap", gbuffer.normal)
@@ -125,63 +120,10 @@ Sent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, uin
     return sent;
 }
 
-struct Followed {  // from the frame before
-    RenderCamera camera;
-    bool known;
-};
-
-// Averaged over frames and filtered over the screen.
-ImageHandle addMeans(GraphScope scope, const Surfaces& gbuffer, ImageHandle sent, const Followed& before,
-                     io::SkyMeanPush push, uint32_t step, const SkySettings& s, const MeanNames& names) {
-    const ImageInfo info{.format = kFloat4, .size = gbuffer.size};
-    const HistoryImage mean = scope.historyImage(names.mean, info),
-                       square = scope.historyImage(names.square,
-                                                   {.format = VK_FORMAT_R32_SFLOAT, .size = gbuffer.size}),
-                       surface = scope.historyImage(
-                           names.surface, {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .size = gbuffer.size});
-    const ImageHandle rest = scope.image(names.rest, info);
-    const BufferHandle cameras =
-        addReprojectionCameras(scope, names.cameras, gbuffer.view, before.camera, gbuffer.size);
-    push.near = gbuffer.view.near;
-    push.valid = before.known && mean.valid;
-    scope.compute(names.pass, "sky/accumulate.comp")
-        .sample("normalMap", gbuffer.normal)
-        .sample("depthMap", gbuffer.depth)
-        .sample("sent", sent)
-        .samplePrevious("previousMean", mean, Sampler::kNearestClamp)
-        .samplePrevious("previousSquare", square, Sampler::kNearestClamp)
-        .samplePrevious("previousSurface", surface, Sampler::kNearestClamp)
-        .read("cameras", cameras)
-        .write("meanOf", mean.current)
-        .write("squareOf", square.current)
-        .write("surface", surface.current)
-        .write("rest", rest)
-        .sample("motionMap", gbuffer.motion ? gbuffer.motion : gbuffer.normal)
-        .constant("kMotion", bool(gbuffer.motion))
-        .push(push)
-        .step(step)
-        .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
-    const std::array<ImageHandle, 2> turns = {scope.image(names.even, info), scope.image(names.odd, info)};
-    ImageHandle from = rest;
-    const uint32_t rounds = std::min(s.rounds, kMostRounds);
-    for (uint32_t round = 0; round < rounds; ++round) {
-        scope.compute(names.filters[round], "ray_filter/filter.comp")
-            .sample("rest", from)
-            .sample("surface", surface.current)
-            .read("cameras", cameras)
-            .write("result", turns[round % 2])
-            .constant("kDeviation", round + 1 == rounds)
-            .push(io::RayFilterPush{int(1u << round), s.tolerance})
-            .dispatchThreads(gbuffer.size.x, gbuffer.size.y);
-        from = turns[round % 2];
-    }
-    return from;
-}
-
 // Where the camera was; and notes how long ago what is seen of the sky may have changed.
-Followed followFrames(const Surfaces& gbuffer, const SkyInputs& in, SkyHistory& history) {
+FollowedCamera followFrames(const Surfaces& gbuffer, const SkyInputs& in, SkyHistory& history) {
     const bool known = history.originVersion == in.versions.origin;
-    const Followed before{known ? history.camera : gbuffer.view, known};
+    const FollowedCamera before{known ? history.camera : gbuffer.view, known};
     history.camera = gbuffer.view;
     history.originVersion = in.versions.origin;
     const uint64_t light = combineHash(in.sky.version, in.versions.instances);
@@ -205,15 +147,6 @@ struct Turn {
 Turn turnOf(uint32_t turns, const SkySettings& s, uint32_t sinceChange) {
     const uint32_t number = std::min(sinceChange / s.settleFrames, turns - 1);
     return {number, number > 0 && sinceChange == number * s.settleFrames};
-}
-
-ImageHandle toPixels(GraphScope scope, const Surfaces& all, const Surfaces& gathered, ImageHandle light,
-                     const Turn& turn, const SkySettings& s, const UpsamplingNames& names,
-                     const JoinNames& join) {
-    if (turn.number == 0 || !hasAllPixels(scope, names))
-        return addUpsampling(scope, all, gathered, Irradiance{light}, names).image;
-    const ImageHandle placed = addPlacing(scope, all, gathered, Irradiance{light}, names).image;
-    return s.rounds > 0 ? addJoinedTurns(scope, all, placed, s.tolerance, join) : placed;
 }
 
 }  // namespace
@@ -263,20 +196,25 @@ SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacin
         gbuffer.reflectance =
             spacing == 1 ? surfaces.reflectance
                          : addDownsampledImage(scope, "sky.downsample_reflectance", surfaces.reflectance, at);
-    const Followed before = followFrames(gbuffer, in, history);
+    const FollowedCamera before = followFrames(gbuffer, in, history);
     const bool moving = history.sinceChange < kFramesOfChange, walking = history.sinceStep == 0;
-    const Sent sent = addRays(scope, gbuffer, in, step, moving || walking ? kKept : kKeptAtRest);
-    io::SkyMeanPush push{.mostLength = float(moving ? s.movingLength : s.mostLength), .moving = moving};
-    if (turn.begins) push.mostLength = kOfNeighbours;
-    const ImageHandle mean =
-        addMeans(scope, gbuffer, sent.irradiance, before, push, step, s, kIrradianceMeans);
-    SkyLight light{
-        toPixels(scope, surfaces, gbuffer, mean, turn, s, kSkyUpsampling, {"sky.join", "sky.joined"}), {}};
+    const SkySent sent = addRays(scope, gbuffer, in, step, moving || walking ? kKept : kKeptAtRest);
+    RayMeans means{.sent = sent.irradiance,
+                   .before = before,
+                   .mostLength = float(moving ? s.movingLength : s.mostLength),
+                   .moving = moving,
+                   .step = step,
+                   .filter = {s.rounds, s.tolerance}};
+    if (turn.begins) means.mostLength = kOfNeighbours;
+    const auto lightOf = [&](const RayMeanNames& names, const TurnNames& toPixels) {
+        const ImageHandle mean = addRayMeans(scope, gbuffer, means, names);
+        return addTurn(scope, surfaces, gbuffer, mean, turn.number, means.filter, toPixels);
+    };
+    SkyLight light{lightOf(kIrradianceMeans, {kSkyUpsampling, {"sky.join", "sky.joined"}}), {}};
     if (!sent.gloss) return light;
-    if (walking) push.mostLength = std::min(push.mostLength, kWalkingLength);
-    const ImageHandle gloss = addMeans(scope, gbuffer, sent.gloss, before, push, step, s, kGlossMeans);
-    light.gloss = toPixels(scope, surfaces, gbuffer, gloss, turn, s, kGlossUpsampling,
-                           {"sky.join_gloss", "sky.gloss_joined"});
+    means.sent = sent.gloss;
+    if (walking) means.mostLength = std::min(means.mostLength, kWalkingLength);
+    light.gloss = lightOf(kGlossMeans, {kGlossUpsampling, {"sky.join_gloss", "sky.gloss_joined"}});
     return light;
 }
 
@@ -288,7 +226,7 @@ BufferHandle addSkyOnPoints(GraphScope scope, const SurfaceEmitters& emitters, c
     const uint32_t step = settling.advance(seen, s.settleFrames);
     const bool moving = settling.sinceChange < kFramesOfChange;
     const HistoryBuffer irradiance = scope.historyBuffer(
-        "sky.on_points", {.sizeBytes = count * sizeof(glm::vec4), .texelFormat = kFloat4});
+        "sky.on_points", {.sizeBytes = count * sizeof(glm::vec4), .texelFormat = kSkyFormat});
     PassBuilder pass = scope.compute("sky.points", "sky/points.comp");
     pass.read("texels", emitters.texels)
         .read("skyTexels", in.sky.texels)

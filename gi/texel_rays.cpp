@@ -120,6 +120,7 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
                            .emissiveReach = reachOfPoints(in.occluders.emissivePointArea, most),
                            .laterReach = reachOfPoints(in.occluders.bouncePointArea, most)})
         .dispatchGroups(choice.blocks);
+    readTexelLobes(cast, in.rsm);
     readTrees(cast, in.occluders.trees);
     return sent;
 }

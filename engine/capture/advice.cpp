@@ -16,9 +16,10 @@ namespace {
 constexpr double kWorthSaying = 0.01;  // of the frame
 constexpr uint32_t kMapOfALight =
     512;  // texels: what rsm.resolution=0 stands for unless a light says otherwise
-constexpr std::array<std::string_view, 12> kIndirect = {
-    "rsm",         "importance", "val_clustering", "val_fit",    "ism_atlas",     "surface_points",
-    "val_shading", "val_gloss",  "texel_rays",     "upsampling", "later_bounces", "denoiser"};
+constexpr std::array<std::string_view, 13> kIndirect = {
+    "rsm",         "importance", "val_clustering", "val_fit",    "ism_atlas",  "surface_points",
+    "val_shading", "val_gloss",  "texel_rays",     "gloss_rays", "upsampling", "later_bounces",
+    "denoiser"};
 
 double msOf(const Span& pass) {
     return double(pass.endNs - pass.beginNs) * 1e-6;

@@ -18,6 +18,8 @@ constexpr std::array kMeanings = {
     Meaning{"scene.camera", "the camera moved"},
     Meaning{"gbuffer.downsample_camera", "the camera moved"},
     Meaning{"texel_rays.cameras", "the camera moved"},
+    Meaning{"gloss_rays.cameras", "the camera moved"},
+    Meaning{"gloss_rays.all_cameras", "the camera moved"},
     Meaning{"scene.materials", "materials changed"},
     Meaning{"scene.surface_samples", "surfaces were sampled anew"},
     Meaning{"scene.tree_nodes", "what rays meet was built anew"},

@@ -13,6 +13,7 @@ void drawRsm(GraphScope scope, const SceneView& scene, gi::RsmSet& rsm) {
     pass.geometry(scene.geometry).read("instances", scene.instances).read("drawnRows", scene.drawnRows);
     bindMaterials(pass, scene);
     pass.constant("kWholeMaterials", scene.wholeMaterials);
+    rsm.lobes = scene.wholeMaterials;
     const uint32_t slot = scene.slots.firstRsm;
     std::array<ViewRequest, io::kMaxRsmFaces> views;
     for (uint32_t f = 0; f < rsm.lightFaceCount; ++f)

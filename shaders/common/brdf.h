@@ -35,6 +35,14 @@ AG_FUNCTION vec3 fresnelSchlick(vec3 f0, vec3 f90, float cosine) {
     return f0 + (f90 - f0) * (m * m * m * m * m);
 }
 
+// Mean of Fresnel's term over light from everywhere, weighted by its cosine: what the lobe keeps from what is
+// under it. The polynomial is the mean of Schlick's (1 - v·h)^5 (within 0.0002, by quadrature). `cosine`: to
+// the viewer.
+AG_FUNCTION vec3 meanFresnel(vec3 f0, vec3 f90, float cosine) {
+    float c = clamp(cosine, 0.0f, 1.0f);
+    return f0 + (f90 - f0) * (0.02805f + c * (-0.07738f + c * (0.07501f - c * 0.02571f)));
+}
+
 // What a thin sheet lets through of the light behind it: past it where alpha (coverage) leaves it open,
 // tinted where it transmits (KHR_materials_transmission), but for what it reflects.
 AG_FUNCTION vec3 sheetTransmits(vec3 baseColor, float metallic, float coverage, float transmission,
@@ -43,15 +51,20 @@ AG_FUNCTION vec3 sheetTransmits(vec3 baseColor, float metallic, float coverage, 
     return vec3(1.0f) - coverage * (vec3(1.0f) - glass);
 }
 
-// Share of light from everywhere that the whole surface reflects, lobe and base, for light that goes on from
-// it as if all of it were diffuse. The polynomials are the lobe's means over all directions of Fresnel's term
-// at 0 and at 1 (within 0.003, by quadrature).
-AG_FUNCTION vec3 wholeReflectance(vec3 baseColor, float metallic, float roughness, float specular) {
+// Share of light from everywhere that a lobe reflects, of Fresnel's term at 0 and at 1: its means over all
+// directions (within 0.003, by quadrature).
+AG_FUNCTION vec2 lobeMeans(float roughness) {
     float r = roughness;
     float headOn = 0.95292f + r * (-0.06587f + r * (0.81978f + r * (-2.90110f + r * 1.57043f)));
     float grazing = max(0.04941f + r * (-0.01769f + r * (-0.13879f + r * 0.11117f)), 0.0f);
+    return vec2(headOn, grazing);
+}
+
+// The same of the whole surface, lobe and base, for light that goes on from it as if all of it were diffuse.
+AG_FUNCTION vec3 wholeReflectance(vec3 baseColor, float metallic, float roughness, float specular) {
     vec3 f0 = specularF0(baseColor, metallic, specular);
-    vec3 lobe = f0 * headOn + vec3(specularF90(metallic, specular) * grazing);
+    vec2 means = lobeMeans(roughness);
+    vec3 lobe = f0 * means.x + vec3(specularF90(metallic, specular) * means.y);
     return (vec3(1.0f) - f0) * diffuseAlbedo(baseColor, metallic) + lobe;
 }
 
@@ -96,6 +109,28 @@ AG_FUNCTION vec3 metallicRoughnessBrdf(vec3 n, vec3 v, vec3 l, vec3 baseColor, f
     float lobe = ggxDistribution(dot(n, h), alpha) * smithMasking(nv, alpha) * smithMasking(nl, alpha) /
                  (4.0f * nv * nl);
     return (vec3(1.0f) - f) * diffuseAlbedo(baseColor, metallic) * kInvPi + f * lobe;
+}
+
+// BRDF over that of a diffuse surface of the same reflectance. `whole`: wholeReflectance; a: the lobe's head
+// on, mean of the channels, above 0. Where the lobe makes up the whole it has the colour of that, as a
+// metal's; else it is white. n, v (to where light goes), l (to where it comes from): unit.
+AG_FUNCTION vec3 shareOfDirection(vec4 whole, float roughness, vec3 n, vec3 v, vec3 l) {
+    float nv = dot(n, v), nl = dot(n, l);
+    if (nv <= 0.0f || nl <= 0.0f) return vec3(1.0f);
+    vec3 reflectance = max(vec3(whole.x, whole.y, whole.z), vec3(1e-6f)), h = normalize(v + l);
+    vec2 means = lobeMeans(roughness);
+    float f90 = min(25.0f * whole.w, 1.0f), alpha = max(roughness * roughness, kLeastAlpha);
+    float ofLobe =
+        (whole.w * means.x + f90 * means.y) * 3.0f / (reflectance.x + reflectance.y + reflectance.z);
+    vec3 asMetal = max(reflectance - vec3(f90 * means.y), vec3(0.0f)) / means.x;
+    float metal = min(ofLobe * ofLobe * ofLobe * ofLobe, 1.0f);
+    metal *= metal;
+    vec3 f0 = mix(vec3(whole.w), asMetal, metal), f = fresnelSchlick(f0, vec3(f90), dot(v, h));
+    vec3 under = max(reflectance - f0 * means.x - vec3(f90 * means.y), vec3(0.0f)) * (vec3(1.0f) - f) /
+                 max(vec3(1.0f) - f0, vec3(1e-3f));
+    float lobe = ggxDistribution(dot(n, h), alpha) * smithMasking(nv, alpha) * smithMasking(nl, alpha) /
+                 (4.0f * nv * nl);
+    return (under + f * (lobe * kPi)) / reflectance;
 }
 
 AG_END

@@ -22,5 +22,5 @@ void main() {
     bool reflects = gl_FrontFacing || push.p.doubleSided != 0;
     vec3 n = unitNormal(normal);
     outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
-    outAlbedo = vec4(reflects ? push.p.albedo * texel.rgb : vec3(0.0), 1.0);
+    outAlbedo = vec4(reflects ? push.p.albedo * texel.rgb : vec3(0.0), 0.0);
 }

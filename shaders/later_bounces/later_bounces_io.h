@@ -61,6 +61,7 @@ struct TracePush {
     float mostLength;   // frames that means stand for
     float offset;       // m: rays leave and reach surfaces so far before them at least
     float texelOffset;  // the same in texels
+    uint atlasWidth;    // texels, of reflective shadow maps
 };
 
 const uint kRunPoints = 64;  // one after another, which share lists of near and far lights

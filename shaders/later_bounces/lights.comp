@@ -3,7 +3,6 @@
 #extension GL_EXT_scalar_block_layout : require
 // Straight light on the points of lights that have no reflective shadow map: by rays, so that nothing leaks. Of many faint
 // lights some are drawn, and count for the others.
-#include "common/lights.h"
 #include "common/sampling.h"
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
@@ -21,26 +20,9 @@ layout(set = 0, binding = 5) UVEC4_TEXELS(treePlaces);
 layout(set = 0, binding = 6, scalar) readonly buffer Triangles { vec4 items[]; } treeTriangles;
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
+#include "later_bounces/arriving.glsl"
 
 const float kSureShare = 1.0 / 16.0;  // of all unshadowed light, from which a light is always asked for
-
-struct Arriving {
-    vec3 irradiance;  // unshadowed
-    vec3 toLight;     // unit
-    float distance;
-};
-
-Arriving arrivingFrom(PointLight l, vec3 place, vec3 normal) {
-    if (l.directional != 0)
-        return Arriving(l.intensity * max(-dot(normal, l.direction), 0.0), -l.direction, push.p.reach);
-    vec3 d = l.position - place;
-    float distance_ = max(length(d), 1e-6);
-    vec3 toLight = d / distance_;
-    float facing = punctualIrradiance(-toLight, distance_, l.direction, l.cosInner, l.cosOuter, l.range);
-    return Arriving(l.intensity * (facing * max(dot(normal, toLight), 0.0)), toLight, distance_);
-}
-
-float most(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

@@ -3,9 +3,9 @@
 #extension GL_EXT_scalar_block_layout : require
 // Irradiance at the points from area lights, corrected by rays to texels of those lights: what rays found over what the lights
 // sent, both as means over frames. As a ratio it holds at once when the light grows with every further bounce.
-#include "common/form_factors.h"
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
+#include "rsm/rsm_io.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { TracePush p; } push;
@@ -21,43 +21,28 @@ layout(set = 0, binding = 7, scalar) readonly buffer Triangles { vec4 items[]; }
 layout(set = 0, binding = 8, scalar) buffer Irradiance { vec4 items[]; } irradiance;  // W/m²
 layout(set = 0, binding = 9, scalar) readonly buffer Before { PointMeans items[]; } before;
 layout(set = 0, binding = 10, scalar) writeonly buffer Means { PointMeans items[]; } means;
+layout(set = 0, binding = 11, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
+layout(set = 0, binding = 12, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
+layout(set = 0, binding = 13) uniform sampler2D rsmNormals;
+layout(set = 0, binding = 14) uniform sampler2D rsmAlbedos;
+layout(constant_id = 0) const bool kTexelLobes = false;
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
-#include "cluster_members/draw_member.glsl"
+#include "cluster_members/aim.glsl"
 
 const uint kDraws = 16;        // texels that one is resampled from
 const float kTrust = 2.0;      // frames: rays of fewer say little
 const float kMostTimes = 4.0;  // so far area lights may be below rays; what is beyond is added
 
-uint endOfMembers(uint endLight) { return firstMember(endLight - 1) + fetchTexel(memberRanges, int(endLight * 2 - 1)).x; }
-
-float factorOf(vec3 x, vec3 n, RsmSurface s) {
-    return s.weight > 0.0 ? diskVectorFactor(x, n, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
-}
-
-struct Aim {
-    vec3 place;
-    vec3 sends;  // W/m², of all members by this draw, if nothing stands between
-};
-
-Aim aimAt(vec3 x, vec3 n, uint first, uint end, inout uint random) {
-    MemberDraw d = MemberDraw(0, 0.0, 0.0);
-    AG_DRAW_MEMBER(d, first, end - first, kDraws, random, factorOf(x, n, s) * s.weight)
-    RsmSurface s = AG_RSM_FETCH(texels, d.texel);
-    vec3 place = s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area));
-    return Aim(place, s.flux * (factorOf(x, n, s) * weightOf(d, end - first, kDraws)));
-}
-
 // By rays to the first bounce's texels and those of emissive surfaces, and to points.
 vec3 irradianceByRays(vec3 x, vec3 n, uint seed) {
-    uint firstOf[3] = uint[3](0, push.p.firstLater < push.p.valCount ? firstMember(push.p.firstLater) : endOfMembers(push.p.valCount),
-                              endOfMembers(push.p.valCount));
+    uvec3 firstOf = kindsOfMembers(push.p.firstLater, push.p.valCount);
     vec3 start = x + n * push.p.offset, e = vec3(0.0);
     uint random = hashUint(seed);
     for (uint r = 0; r < 2 * push.p.rays; ++r) {
         uint kind = r & 1;
         if (firstOf[kind] == firstOf[kind + 1]) continue;
-        Aim aim = aimAt(x, n, firstOf[kind], firstOf[kind + 1], random);
+        Aim aim = aimAtMember(x, n, firstOf[kind], firstOf[kind + 1], kDraws, random);
         if (aim.sends.x + aim.sends.y + aim.sends.z <= 0.0) continue;
         random = hashUint(random);
         BvhRay ray = BvhRay(start, aim.place - start, 1.0, unitOf(random), true, 0, 0);

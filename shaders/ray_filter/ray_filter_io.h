@@ -1,4 +1,4 @@
-// The filter that what rays found at pixels goes through.
+// The means that what rays found at pixels goes into, and the filter it goes through.
 #ifndef AG_RAY_FILTER_IO_H
 #define AG_RAY_FILTER_IO_H
 
@@ -7,6 +7,13 @@
 #ifdef __cplusplus
 namespace ag::io {
 #endif
+
+struct RayMeanPush {
+    float near;        // m
+    uint valid;        // 0: there is no frame before
+    float mostLength;  // frames that a mean stands for
+    uint moving;       // 1: something may have changed what rays find
+};
 
 struct RayFilterPush {
     int stride;       // pixels from tap to tap

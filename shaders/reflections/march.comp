@@ -5,8 +5,7 @@
 // behind a surface, which is met if it faces them and they are not far behind it (after McGuire and Mara 2014, with
 // planes of the G-buffer's normals where they have a thickness in depth).
 #include "common/listed_pixel.glsl"
-#include "common/brdf.h"
-#include "common/sampling.h"
+#include "common/specular_lobe.glsl"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "reflections/reflections_io.h"
@@ -24,17 +23,8 @@ layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D found;  // W/(mÂ
 
 #include "reflections/screen_ray.glsl"
 
-struct Lobe {
-    vec3 place, normal, toViewer;
-    vec4 reflectance;  // head on; at grazing angles
-    float alpha;
-};
-
-Lobe lobeAt(ivec2 pixel) {
-    vec4 normal = texelFetch(normalMap, pixel, 0);
-    vec3 place = worldFromPixel(camera.camera.worldFromClip, camera.camera.size, pixel, texelFetch(depthMap, pixel, 0).x);
-    return Lobe(place, normal.xyz, normalize(camera.camera.position - place), texelFetch(reflectanceMap, pixel, 0),
-                max(normal.w * normal.w, kLeastAlpha));
+SpecularLobe lobeAt(ivec2 pixel, vec3 place) {
+    return specularLobe(texelFetch(normalMap, pixel, 0), normalize(camera.camera.position - place), texelFetch(reflectanceMap, pixel, 0));
 }
 
 vec2 noiseAt(ivec2 pixel) {
@@ -47,29 +37,23 @@ struct Sent {
     float known, all;
 };
 
-Sent sendRay(Lobe c, ivec2 pixel, vec2 xi, float start) {
-    vec3 t, b;
-    orthonormalBasis(c.normal, t, b);
-    vec3 v = vec3(dot(c.toViewer, t), dot(c.toViewer, b), dot(c.toViewer, c.normal));
-    if (v.z <= 0.0) return Sent(vec3(0.0), 0.0, 1.0);
-    vec3 about = visibleHalfVector(v, c.alpha, xi), h = t * about.x + b * about.y + c.normal * about.z;
-    vec3 direction = reflect(-c.toViewer, h);
-    float cosine = dot(c.normal, direction);
-    if (cosine <= 0.0) return Sent(vec3(0.0), 0.0, 0.0);
-    vec3 weight = fresnelSchlick(c.reflectance.rgb, vec3(c.reflectance.w), dot(c.toViewer, h)) * smithMasking(cosine, c.alpha);
-    vec4 met = meetOnScreen(c.place, direction, start);
-    float all = luminance(weight);
-    return Sent(weight * met.rgb * met.w, all * met.w, all);
+Sent sendRay(SpecularLobe c, vec3 place, vec2 xi, float start) {
+    LobeRay r = drawLobeRay(c, xi);
+    float all = luminance(r.weight);
+    if (all <= 0.0) return Sent(vec3(0.0), 0.0, dot(c.normal, c.toViewer) > 0.0 ? 0.0 : 1.0);
+    vec4 met = meetOnScreen(place, r.direction, start);
+    return Sent(r.weight * met.rgb * met.w, all * met.w, all);
 }
 
 void main() {
     if (gl_GlobalInvocationID.x >= listed.count) return;
     ivec2 pixel = listedPixel(listed.pixels[gl_GlobalInvocationID.x]);
-    Lobe lobe = lobeAt(pixel);
+    vec3 place = worldFromPixel(camera.camera.worldFromClip, camera.camera.size, pixel, texelFetch(depthMap, pixel, 0).x);
+    SpecularLobe lobe = lobeAt(pixel, place);
     vec2 shift = noiseAt(pixel);
     Sent sum = Sent(vec3(0.0), 0.0, 0.0);
     for (uint i = 0; i < push.p.rays; ++i) {
-        Sent one = sendRay(lobe, pixel, fract(hammersley(i, push.p.rays) + shift), fract(shift.x + shift.y));
+        Sent one = sendRay(lobe, place, fract(hammersley(i, push.p.rays) + shift), fract(shift.x + shift.y));
         sum.radiance += one.radiance;
         sum.known += one.known;
         sum.all += one.all;

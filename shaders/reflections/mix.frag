@@ -52,7 +52,7 @@ vec3 lobeOfLights(ivec2 pixel, vec3 normal) {
     if (!kGloss) return vec3(0.0);
     vec3 toViewer = -normalize(placeOf(push.p.rays, vec2(pixel), 1.0));
     vec4 reflectance = texelFetch(reflectanceMap, pixel, 0);
-    vec3 kept = fresnelSchlick(reflectance.rgb, vec3(reflectance.w), max(dot(normal, toViewer), 0.0));
+    vec3 kept = meanFresnel(reflectance.rgb, vec3(reflectance.w), dot(normal, toViewer));
     vec3 irradiance = kIndirect ? texelFetch(indirectMap, pixel, 0).rgb : vec3(0.0);
     vec3 under = texelFetch(albedoMap, pixel, 0).rgb * irradiance * kInvPi;
     return max(texelFetch(glossMap, pixel, 0).rgb + kept * under, vec3(0.0));

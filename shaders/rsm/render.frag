@@ -16,15 +16,16 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) flat in uint material;
 layout(location = 5) in vec3 color;
 
-layout(location = 0) out vec4 outNormal;
-layout(location = 1) out vec4 outAlbedo;
+layout(location = 0) out vec4 outNormal;  // a: roughness
+layout(location = 1) out vec4 outAlbedo;  // a: what the lobe reflects head on, mean of the channels; 0: it has none
 
 void main() {
     SurfaceMaterial m = tintedMaterial(material, uv, color);
     vec3 n = unitNormal(normal);
-    outNormal = vec4(gl_FrontFacing ? n : -n, 1.0);
+    outNormal = vec4(gl_FrontFacing ? n : -n, m.roughness);
     vec3 albedo = bounceAlbedo(material, m, kWholeMaterials);
     if (kTextureClass != 0 && m.layers.z >= 0)
         albedo *= bumpCosine(sampleLinear(m.uv, m.layers.z).xyz * 2.0 - 1.0, m.normalScale);
-    outAlbedo = vec4(albedo, 1.0);
+    vec3 f0 = specularF0(m.baseColor.rgb, m.metallic, m.specular);
+    outAlbedo = vec4(albedo, kWholeMaterials ? (f0.r + f0.g + f0.b) / 3.0 : 0.0);
 }

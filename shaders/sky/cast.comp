@@ -4,8 +4,7 @@
 // A ray a pixel to the sky, drawn by its block's choice; and what the block learns from its rays. Where a surface has a
 // specular lobe a second one is drawn by that; what the lobe reflects counts both by how likely either was to find it
 // (balance heuristic, Veach & Guibas 1995). A block a workgroup.
-#include "common/brdf.h"
-#include "common/sampling.h"
+#include "common/specular_lobe.glsl"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "sky/blocks.glsl"
@@ -52,33 +51,8 @@ vec2 noiseAt(uvec2 pixel) {
 // Of a block: four by two for each eight invocations in a row.
 uvec2 placeInBlock(uint i) { return uvec2((i & 3u) | (i >> 1 & 4u), (i >> 2 & 1u) | (i >> 3 & 6u)); }
 
-struct Lobe {
-    vec3 normal, toViewer, f0;
-    float f90, alpha;
-};
-
-// Of one that reflects `toLight` to the viewer: of the draw, 1/sr.
-float lobeDensity(Lobe c, vec3 toLight) {
-    vec3 h = normalize(c.toViewer + toLight);
-    float nh = dot(c.normal, h);
-    return ggxDistribution(nh, c.alpha) * nh / (4.0 * max(dot(c.toViewer, h), 1e-6));
-}
-
-// BRDF of the lobe times the cosine.
-vec3 lobeReflects(Lobe c, vec3 toLight) {
-    float nv = dot(c.normal, c.toViewer), nl = dot(c.normal, toLight);
-    if (nv <= 0.0 || nl <= 0.0) return vec3(0.0);
-    vec3 h = normalize(c.toViewer + toLight), f = fresnelSchlick(c.f0, vec3(c.f90), dot(c.toViewer, h));
-    return f * (ggxDistribution(dot(c.normal, h), c.alpha) * smithMasking(nv, c.alpha) * smithMasking(nl, c.alpha) / (4.0 * nv));
-}
-
-vec3 drawFromLobe(Lobe c, vec2 xi) {
-    vec3 t, b;
-    orthonormalBasis(c.normal, t, b);
-    float a2 = c.alpha * c.alpha, cosine = sqrt((1.0 - xi.x) / (1.0 + (a2 - 1.0) * xi.x)), phi = 2.0 * kPi * xi.y;
-    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    return reflect(-c.toViewer, t * (sine * cos(phi)) + b * (sine * sin(phi)) + c.normal * cosine);
-}
+// Of a lobe: its BRDF times the cosine.
+vec3 lobeReflects(SpecularLobe c, vec3 toLight) { return lobeBrdf(c, toLight) * max(dot(c.normal, toLight), 0.0); }
 
 bool reachesSky(vec3 place, vec3 direction, float opaqueFrom) {
     BvhRay ray = BvhRay(place, direction, push.p.reach, opaqueFrom, true, 0, 0);
@@ -96,8 +70,7 @@ void main() {
     vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0), reflectance = kGlossy ? texelFetch(reflectanceMap, pixel, 0) : vec4(0.0);
     vec3 normal = normalAndRoughness.xyz, xi = fract(vec3(noiseAt(at), noiseAt(at + 32u).x) + push.p.shift);
     vec3 surface = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), place = surface + normal * push.p.offset;
-    float alpha = max(normalAndRoughness.w * normalAndRoughness.w, kLeastAlpha);
-    Lobe lobe = Lobe(normalize(normal), normalize(camera.camera.position - surface), reflectance.rgb, reflectance.w, alpha);
+    SpecularLobe lobe = specularLobe(normalAndRoughness, normalize(camera.camera.position - surface), reflectance);
     bool glossy = kGlossy && there && depth > 0.0 && reflectance.w > 0.0;
     SkyDraw d = drawSky(xi);
     float cosine = dot(normal, d.direction);
@@ -109,13 +82,13 @@ void main() {
         if (free) {
             atomicAdd(hits[d.cell], 1);
             e = d.radiance * (cosine / d.density);
-            if (glossy) shine = d.radiance * lobeReflects(lobe, d.direction) / (d.density + lobeDensity(lobe, d.direction));
+            if (glossy) shine = d.radiance * lobeReflects(lobe, d.direction) / (d.density + densityOfLobeRay(lobe, d.direction));
         }
     }
     if (glossy) {
-        vec3 toLight = drawFromLobe(lobe, fract(xi.zy + vec2(0.5, 0.25)));
+        vec3 toLight = drawLobeRay(lobe, fract(xi.zy + vec2(0.5, 0.25))).direction;
         SkyDraw other = skyAlong(toLight);
-        vec3 reflects = other.radiance * lobeReflects(lobe, toLight) / max(other.density + lobeDensity(lobe, toLight), 1e-20);
+        vec3 reflects = other.radiance * lobeReflects(lobe, toLight) / max(other.density + densityOfLobeRay(lobe, toLight), 1e-20);
         if (reflects != vec3(0.0) && reachesSky(place, toLight, opaqueFrom)) shine += reflects;
     }
     if (kGlossy && there) imageStore(shone, pixel, vec4(shine, 1.0));

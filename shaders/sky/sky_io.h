@@ -31,13 +31,6 @@ struct SkyCastPush {
     float keep;    // of what earlier frames learned
 };
 
-struct SkyMeanPush {
-    float near;        // m
-    uint valid;        // 0: there is no frame before
-    float mostLength;  // frames that a mean stands for
-    uint moving;       // 1: something may have changed what is seen of the sky
-};
-
 struct SkyPointsPush {
     uint count;
     uint rays;  // a point

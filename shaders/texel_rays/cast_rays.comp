@@ -46,16 +46,19 @@ layout(set = 0, binding = 21, rgba32f) uniform writeonly image2D sentNear;      
 layout(set = 0, binding = 22, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 layout(set = 0, binding = 23) VEC4_TEXELS(skyTexels);
 layout(set = 0, binding = 24, scalar) uniform SkyUpTo { vec4 items[kSkyCells / 4]; } skyUpTo;
+layout(set = 0, binding = 25) uniform sampler2D rsmNormals;
+layout(set = 0, binding = 26) uniform sampler2D rsmAlbedos;
 layout(constant_id = 0) const bool kSky = false;
+layout(constant_id = 1) const bool kTexelLobes = false;
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
-#include "cluster_members/draw_member.glsl"
 #include "texel_rays/blocks.glsl"
 #include "texel_rays/met_surface.glsl"
+#include "texel_rays/pixel_start.glsl"
 #include "texel_rays/ray_weights.glsl"
 #define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
-#include "sky/draw.glsl"
+#include "sky/incident.glsl"
 
 const uint kDraws = 8, kNearDraws = 16;  // texels that one is resampled from: of a light; of all for what is near
 
@@ -89,18 +92,18 @@ Drawn drawLight(uint tile, uint block, float xi) {
     return lightOfEntry(tile, block, low);
 }
 
-struct Aim {
+struct TexelAim {
     uint texel, map;
     float weight;  // of what the texel sends; 0: there is none
 };
 
-Aim aimAt(Receiver r, Drawn d, inout uint random) {
-    Aim aim = Aim(kNoTexel, 0, 0.0);
+TexelAim aimAt(Receiver r, Drawn d, inout uint random) {
+    TexelAim aim = TexelAim(kNoTexel, 0, 0.0);
     if (d.likely <= 0.0 || d.memberCount == 0) return aim;
     uint first = firstMember(d.light);
     aim.map = tileMaps.items[fetchTexel(members, int(first)).x / (kRsmTileSize * kRsmTileSize)];
     MemberDraw drawn = MemberDraw(kNoTexel, 0.0, 0.0);
-    AG_DRAW_MEMBER(drawn, first, d.memberCount, kDraws, random, wantOf(r, aim.map, s, d.chance))
+    AG_DRAW_MEMBER(drawn, first, d.memberCount, kDraws, random, wantOf(r, aim.map, s, d.chance) * meanOf(sentTo(r.position, texel_, s, push.p.atlasWidth)))
     aim.texel = drawn.texel;
     aim.weight = weightOf(drawn, d.memberCount, kDraws) / d.likely;
     return aim;
@@ -127,17 +130,15 @@ Way wayOfNear(Receiver r, vec2 xi, float opaqueFrom) {
     return Way(ray, 0, push.p.mapCount, kNoTexel, 0.0, vec3(0.0));
 }
 
-// Where a ray to a texel's middle ends.
-vec3 endBefore(RsmSurface s) { return s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)); }
-
 // To a texel's middle: all it sends if nothing stands between.
-Way wayToMiddle(Receiver r, TexelView v, Aim aim, float opaqueFrom) {
+Way wayToMiddle(Receiver r, TexelView v, TexelAim aim, float opaqueFrom) {
     BvhRay ray = BvhRay(r.start, endBefore(v.s) - r.start, 1.0, opaqueFrom, true, 0, 0);
-    return Way(ray, 0, 0, aim.texel, 0.0, v.s.flux * (drawnFactorOf(r, aim.map, v.s) * aim.weight));
+    vec3 sends = v.s.flux * sentTo(r.position, aim.texel, v.s, push.p.atlasWidth);
+    return Way(ray, 0, 0, aim.texel, 0.0, sends * (drawnFactorOf(r, aim.map, v.s) * aim.weight));
 }
 
 // Through a place of its square: the light of what is met there.
-Way wayThroughSquare(Receiver r, TexelView v, Drawn d, Aim aim, vec2 xi, float opaqueFrom) {
+Way wayThroughSquare(Receiver r, TexelView v, Drawn d, TexelAim aim, vec2 xi, float opaqueFrom) {
     vec3 toward = onPlaneAside(v, xi - 0.5) - r.start;
     float far = length(toward);
     vec3 direction = toward / max(far, 1e-9);
@@ -148,7 +149,7 @@ Way wayThroughSquare(Receiver r, TexelView v, Drawn d, Aim aim, vec2 xi, float o
     return Way(ray, aim.map, aim.map + 1, aim.texel, weight, vec3(0.0));
 }
 
-Way wayOfDraw(Receiver r, Drawn d, Aim aim, vec2 xi, float opaqueFrom) {
+Way wayOfDraw(Receiver r, Drawn d, TexelAim aim, vec2 xi, float opaqueFrom) {
     TexelView v = viewTexel(aim.texel, aim.map, push.p.atlasWidth);
     if (bothFind(r, aim.map, v.s)) return wayThroughSquare(r, v, d, aim, xi, opaqueFrom);
     return wayToMiddle(r, v, aim, opaqueFrom);
@@ -194,19 +195,18 @@ Incident fromAreaLights(Receiver r, inout uint random) {
         Candidate c = candidateFor(r, random);
         if (c.texel == kNoTexel) continue;
         RsmSurface s = AG_RSM_FETCH(texels, c.texel);
-        float want = factorOf(r, s) * s.weight;
+        float want = factorOf(r, s) * s.weight * meanOf(sentTo(r.position, c.texel, s, push.p.atlasWidth));
         take(drawn, c.texel, want, want / c.likely, random);
     }
     if (drawn.texel == kNoTexel) return Incident(vec3(0.0), 0.0, vec3(0.0));
     RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);
-    return Incident(endBefore(s) - r.start, 1.0, s.flux * (factorOf(r, s) * weightOf(drawn, 1, kNearDraws)));
+    vec3 sends = s.flux * sentTo(r.position, drawn.texel, s, push.p.atlasWidth);
+    return Incident(endBefore(s) - r.start, 1.0, sends * (factorOf(r, s) * weightOf(drawn, 1, kNearDraws)));
 }
 
 Incident fromSky(Receiver r, inout uint random) {
-    float x = next(random), y = next(random), z = next(random);
-    SkyDraw d = drawSky(vec3(x, y, z));
-    float cosine = max(dot(r.normal, d.direction), 0.0);
-    return Incident(d.direction, 1e20, d.density > 0.0 ? d.radiance * (cosine / d.density) : vec3(0.0));
+    SkyIncident s = drawSkyAt(r.normal, random);
+    return Incident(s.direction, 1e20, s.irradiance);
 }
 
 // W/m², by a ray to one texel and one to the sky.
@@ -242,7 +242,7 @@ Found sentAlong(Receiver r, Way w, uint random) {
     bool near = w.texel == kNoTexel, shines = near && push.p.emissiveMap < kMaxRsmMaps;
     vec3 e = shines ? met.shines * nearShare(w.ray.reach, push.p.emissiveReach) : vec3(0.0);
     for (uint map = w.firstMap; map < w.endMap; ++map) {
-        Sender from = senderAt(map, met, push.p.atlasWidth);
+        Sender from = senderAt(map, met, w.ray, push.p.atlasWidth);
         float ofDraw = from.texel == w.texel ? w.weight : 0.0;
         vec3 sends = from.sends * (near ? shareOfNear(r, map, from.texel, w.ray.direction) : ofDraw);
         bool some = sends.x + sends.y + sends.z > 0.0;
@@ -286,20 +286,15 @@ void main() {
     bool there = all(equal(uvec2(pixel), cell));
     uvec2 tile = uvec2(pixel) / push.p.tiles.tileSize;
     float depth = texelFetch(depthMap, pixel, 0).x;
-    mat4 worldFromClip = camera.camera.worldFromClip;
-    vec3 position = worldFromPixel(worldFromClip, size, pixel, depth);
-    float wide = distance(position, worldFromPixel(worldFromClip, size, pixel + ivec2(1, 0), depth));
-    float offset = max(push.p.offset, push.p.pixelOffset * wide);
-    // Nearer to the camera, which sees it: in a crease rounding may put it behind the other surface.
-    position += normalize(camera.camera.position - position) * offset;
+    PixelStart start = startOf(pixel, depth);
     vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
     uint inTiles = tile.y * push.p.tiles.tiles.x + tile.x;
-    Receiver r = Receiver(position, normal, position + normal * offset, offset, inTiles, block);
+    Receiver r = Receiver(start.place, normal, start.place + normal * start.offset, start.offset, inTiles, block);
     uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.ray) * 31u);
     vec3 xi = fract(vec3(noiseAt(cell, 0u), noiseAt(cell, 32u).x) + push.p.shift);
     Drawn d = drawLight(r.tile, r.block, xi.z);
     d.likely = depth > 0.0 ? d.likely : 0.0;
-    Aim aim = aimAt(r, d, random);
+    TexelAim aim = aimAt(r, d, random);
     float opaqueFrom = unitOf(random);
     vec2 placeInSquare = vec2(hashToUnit(random), hashToUnit(random ^ 0x9e3779b9u));
     Found byWay[2] = Found[2](Found(vec3(0.0), vec3(0.0)), Found(vec3(0.0), vec3(0.0)));

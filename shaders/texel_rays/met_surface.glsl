@@ -1,8 +1,9 @@
 // What a ray meets, and what a map's light makes it send. Before: the buffers of rsm_lookup.glsl, treeTriangles,
-// slotOfTexel, the trees and bvh/trace.glsl.
+// slotOfTexel, the trees and bvh/trace.glsl; what texel_lobe.glsl needs.
 #ifndef AG_MET_SURFACE_GLSL
 #define AG_MET_SURFACE_GLSL
 
+#include "rsm/texel_lobe.glsl"
 #include "texel_rays/rsm_lookup.glsl"
 
 const float kAlike = 0.8;  // least cosine between normals of a texel and a triangle that receive the same irradiance
@@ -34,7 +35,8 @@ bool isLit(RsmMap map, Met met, float offset, float opaqueFrom) {
     return !traceOccluders(ray);
 }
 
-// What a map's light makes a place send if it reaches it, W/m². In a crease and on what is narrower than a texel no texel
+// What a map's light makes a place send to where the ray came from if it reaches the place: the W/m² of a diffuse surface that looks as
+// bright from there. In a crease and on what is narrower than a texel no texel
 // stands for the place. There the triangle's reflectance counts, but not a masked triangle's: light passes through it, so
 // that few of its places have texels, and draws count those.
 struct Sender {
@@ -42,13 +44,15 @@ struct Sender {
     vec3 sends;
 };
 
-Sender senderAt(uint map, Met met, uint atlasWidth) {
+Sender senderAt(uint map, Met met, BvhRay ray, uint atlasWidth) {
     uint texel = texelAt(map, atlasWidth, met.place, met.normal);
     texel = texel != kNoTexel && fetchTexel(slotOfTexel, int(texel)).x == kNoCluster ? kNoTexel : texel;
+    vec3 along = vec3(1.0);
     if (texel != kNoTexel) {
         RsmSurface s = AG_RSM_FETCH(texels, texel);
-        if (dot(s.normal, met.normal) >= kAlike || met.masked || met.reflectance == vec3(0.0)) return Sender(texel, s.flux / s.area);
+        along = sentToward(texel, met.place, s.normal, -ray.direction, atlasWidth);
+        if (dot(s.normal, met.normal) >= kAlike || met.masked || met.reflectance == vec3(0.0)) return Sender(texel, along * s.flux / s.area);
     }
-    return Sender(texel, met.masked ? vec3(0.0) : irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance);
+    return Sender(texel, met.masked ? vec3(0.0) : irradianceOf(maps.items[map], met.place, met.normal) * met.reflectance * along);
 }
 #endif

@@ -5,7 +5,7 @@
 #ifndef AG_RAY_WEIGHTS_GLSL
 #define AG_RAY_WEIGHTS_GLSL
 
-#include "common/form_factors.h"
+#include "cluster_members/aim.glsl"
 #include "rsm/texel_square.glsl"
 
 const float kResampled = 4.0;   // by how much resampling makes a texel with much to send likelier
@@ -36,9 +36,7 @@ float shareOfDraw(Receiver r, vec3 direction, float throughSquare, float chance)
 float nearShare(float distance_, float reach) { return clamp(2.0 - 2.0 * distance_ / max(reach, 1e-20), 0.0, 1.0); }
 
 // What a texel sends to the receiver over its flux, if nothing stands between, 1/m².
-float factorOf(Receiver r, RsmSurface s) {
-    return s.weight > 0.0 ? diskVectorFactor(r.position, r.normal, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
-}
+float factorOf(Receiver r, RsmSurface s) { return factorOf(r.position, r.normal, s); }
 
 // The same of draws alone.
 float drawnFactorOf(Receiver r, uint map, RsmSurface s) {

@@ -78,6 +78,39 @@ TEST(Brdf, WholeReflectanceIsThatOfEvenLight) {
     EXPECT_EQ(wholeReflectance(vec3(0.3f), 0, 1, 0), vec3(0.3f)) << "Lambert";
 }
 
+TEST(Brdf, ShareOfDirectionIsTheBrdfOverADiffuseOne) {
+    const vec3 n(0, 0, 1), l = normalize(vec3(0.8f, 0, 0.6f));
+    for (const float roughness : {0.2f, 0.5f, 1.0f})
+        for (const float metallic : {0.0f, 1.0f}) {
+            const vec3 base(0.8f, 0.5f, 0.1f), f0 = specularF0(base, metallic, 1);
+            const vec3 whole = wholeReflectance(base, metallic, roughness, 1);
+            for (const vec3 v : {vec3(-0.8f, 0, 0.6f), vec3(-0.6f, 0.1f, 0.8f), vec3(0.5f, 0.5f, 0.7f)}) {
+                const vec3 to = normalize(v);
+                const vec3 share =
+                    shareOfDirection(vec4(whole, (f0.x + f0.y + f0.z) / 3), roughness, n, to, l);
+                const vec3 truth = metallicRoughnessBrdf(n, to, l, base, metallic, roughness, 1);
+                for (int k = 0; k < 3; ++k)
+                    EXPECT_NEAR(share[k] * whole[k] * kInvPi, truth[k], 0.002f + 0.12f * truth[k])
+                        << roughness << ' ' << metallic << ' ' << k;
+            }
+        }
+}
+
+TEST(Brdf, MeanFresnelIsThatOfEvenLight) {
+    constexpr uint kDraws = 1u << 14;
+    for (const float c : {0.0f, 0.3f, 0.7f, 1.0f}) {
+        const vec3 v(std::sqrt(1 - c * c), 0, c);
+        float sum = 0;
+        for (uint i = 0; i < kDraws; ++i) {
+            const vec2 xi = hammersley(i, kDraws);
+            const float across = std::sqrt(xi.x), phi = 2 * kPi * xi.y;
+            const vec3 l(across * std::cos(phi), across * std::sin(phi), std::sqrt(1 - xi.x));
+            sum += fresnelSchlick(vec3(0.04f), vec3(1), dot(v, normalize(v + l))).x;
+        }
+        EXPECT_NEAR(meanFresnel(vec3(0.04f), vec3(1), c).x, sum / float(kDraws), 0.0005f) << c;
+    }
+}
+
 // Of waves that lean no way on average, whatever their map is scaled by: the mean of their cosines to a
 // light.
 TEST(Brdf, BumpsReceiveTheMeanOfTheirCosines) {

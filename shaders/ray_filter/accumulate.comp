@@ -5,10 +5,10 @@
 // This frame's rays into the means that the frames before left on the same surface; and how uncertain those are. While
 // things move, a block whose rays find more or less than noise allows forgets.
 #include "common/pixel_rays.h"
-#include "sky/sky_io.h"
+#include "ray_filter/ray_filter_io.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;  // a block
-layout(push_constant, scalar) uniform Push { SkyMeanPush p; } push;
+layout(push_constant, scalar) uniform Push { RayMeanPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D depthMap;
@@ -17,10 +17,10 @@ layout(set = 0, binding = 3) uniform sampler2D previousMean;
 layout(set = 0, binding = 4) uniform sampler2D previousSquare;
 layout(set = 0, binding = 5) uniform sampler2D previousSurface;
 layout(set = 0, binding = 6, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D meanOf;   // rgb: W/m²; a: frames it stands for
+layout(set = 0, binding = 7, rgba32f) uniform writeonly image2D meanOf;   // a: frames it stands for
 layout(set = 0, binding = 8, r32f) uniform writeonly image2D squareOf;    // second moment, mean of its channels
 layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D surface;  // normal; m along the axis, 0: none
-layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D rest;    // rgb: W/m²; a: variance, mean of its channels
+layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D rest;    // a: variance, mean of its channels
 layout(set = 0, binding = 11) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
 layout(constant_id = 0) const bool kMotion = false;
 

@@ -1,0 +1,43 @@
+// A texel drawn of many lights' by what it would send to a place, and a ray to its middle. Before: what draw_member.glsl needs;
+// what texel_lobe.glsl needs; push.p.atlasWidth, push.p.offset and push.p.texelOffset (m, and in texels: rays end so far before
+// surfaces).
+#ifndef AG_AIM_GLSL
+#define AG_AIM_GLSL
+
+#include "cluster_members/draw_member.glsl"
+#include "common/form_factors.h"
+#include "rsm/texel_lobe.glsl"
+
+// What a texel sends to a place over its flux, if nothing stands between, 1/m².
+float factorOf(vec3 place, vec3 normal, RsmSurface s) {
+    return s.weight > 0.0 ? diskVectorFactor(place, normal, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
+}
+
+float meanOf(vec3 v) { return (v.x + v.y + v.z) / 3.0; }
+
+vec3 endBefore(RsmSurface s) { return s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)); }
+
+struct Aim {
+    vec3 place;
+    vec3 sends;  // W/m², of all members by this draw, if nothing stands between
+};
+
+// Of members [first, end).
+Aim aimAtMember(vec3 place, vec3 normal, uint first, uint end, uint draws, inout uint random) {
+    MemberDraw d = MemberDraw(0, 0.0, 0.0);
+    AG_DRAW_MEMBER(d, first, end - first, draws, random, factorOf(place, normal, s) * s.weight)
+    if (d.sum <= 0.0) return Aim(place, vec3(0.0));
+    RsmSurface s = AG_RSM_FETCH(texels, d.texel);
+    vec3 sends = s.flux * sentTo(place, d.texel, s, push.p.atlasWidth);
+    return Aim(endBefore(s), sends * (factorOf(place, normal, s) * weightOf(d, end - first, draws)));
+}
+
+uint endOfMembers(uint endLight) { return firstMember(endLight - 1) + fetchTexel(memberRanges, int(endLight * 2 - 1)).x; }
+
+// Members of all lights in two kinds: of first bounces and emissive surfaces, of points that reflect. Where each begins, and the
+// end.
+uvec3 kindsOfMembers(uint firstLater, uint lightCount) {
+    uint end = endOfMembers(lightCount);
+    return uvec3(0, firstLater < lightCount ? firstMember(firstLater) : end, end);
+}
+#endif
