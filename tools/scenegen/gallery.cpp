@@ -144,7 +144,7 @@ void shadows(SceneBuilder& b, Furnisher& f) {
     b.node(b.model("tripod", tripod, lamp + glm::vec3(0.15f, 0, 0))).extras.collider = true;
     b.node(b.spot("beam", lamp, {-1, 0, 0}, glm::vec3(46, 41, 33), {4, 8})).extras.tag = "beam";
     f.plinth({-2.6f, 0, -26.6f}, 0.3f);
-    f.flower(2, kWhitePaint, 0.08f, {-2.6f, 0.3f, -26.6f}, 0.4f);
+    f.flower(2, kWhitePaint, 0.07f, {-2.6f, 0.3f, -26.6f}, 0.4f);
     f.crate(nullptr, {0.4f, 0.5f, -25.1f}, 1.0f, 24);
     // Behind a curtain that hangs low.
     f.solid("partition", {1.4f, kHeight / 2, -30.85f}, {0.2f, kHeight, 2.3f}, h.wall);
