@@ -49,8 +49,7 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
         f.irradiance =
             addTexelRays(tiles, f.irradiance,
                          {f.rsm, f.clusters, members, in.occluders, s.sky.enabled ? in.sky : SkyOnDevice{},
-                          in.world.versions, grid.turn, grid.frames, grid.change, refresh.pixels.count == 1,
-                          grid.grows, s.laterBounces.feedback},
+                          in.world.versions, grid, refresh.pixels.count == 1, s.laterBounces.feedback},
                          s.valShading, s.texelRays, h.texelRays);
     if (isFirstBounce(f, asked)) f.bounce1 = f.irradiance;
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);

@@ -34,4 +34,8 @@ ClusterMembers addClusterMembers(GraphScope scope, const RsmSet& rsm, const Clus
     return m;
 }
 
+void readMembers(PassBuilder& pass, const ClusterMembers& members) {
+    pass.read("memberRanges", members.ranges).read("members", members.texels);
+}
+
 }  // namespace ag::gi

@@ -12,4 +12,7 @@ struct ClusterMembers {
 
 ClusterMembers addClusterMembers(GraphScope scope, const RsmSet& rsm, const Clusters& clusters);
 
+// What a pass reads that draws some of them: memberRanges, members.
+void readMembers(PassBuilder& pass, const ClusterMembers& members);
+
 }  // namespace ag::gi

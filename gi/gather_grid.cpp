@@ -24,7 +24,22 @@ uint32_t raysOfTurn(const BounceLightSettings& s, uint32_t turn) {
 // A frame in which the surfaces are new comes before the rays.
 constexpr uint32_t kBegins = 1;
 
+constexpr uint32_t kMostRaysOfTurn = 1 << 20;  // pixels of another turn draw other numbers
+constexpr uint32_t kGrowingLength = 32;
+
 }  // namespace
+
+uint32_t rayNumber(const GatherGrid& grid, const Settling& settling) {
+    return std::min(settling.sinceChange, grid.frames) + grid.turn * kMostRaysOfTurn;
+}
+
+float meanLength(const GatherGrid& grid, uint32_t most) {
+    return float(grid.grows ? std::min(kGrowingLength, most) : most);
+}
+
+float keptShare(const GatherGrid& grid) {
+    return grid.turn == 0 ? 31.0f / 32 : 1;
+}
 
 uint32_t framesToRest(const BounceLightSettings& s) {
     uint32_t frames = 0;

@@ -17,6 +17,16 @@ struct GatherGrid {
     uint32_t frames = 0;  // in which it casts rays
 };
 
+// Of what casts rays at the grid's pixels, and steps on by `settling`: the number of the frame's rays, unlike
+// that of any other frame and turn since the last change. A still picture does not depend on what was before
+// that.
+uint32_t rayNumber(const GatherGrid& grid, const Settling& settling);
+// Frames that a mean of rays stands for, `most` at most: few while later bounces add light.
+float meanLength(const GatherGrid& grid, uint32_t most);
+// Share of what rays found before the last change that stays, a frame, while new rays are not sure yet. Later
+// turns keep what the first one found.
+float keptShare(const GatherGrid& grid);
+
 // Lives on the CPU from frame to frame.
 struct GatherGridHistory {
     Settling settling;             // of the pixels' light

@@ -16,12 +16,9 @@ namespace ag::gi {
 namespace {
 
 constexpr VkFormat kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr float kTrustedFrames = 64;     // from then on nothing is left of area lights' gloss
-constexpr uint32_t kGrowingLength = 32;  // frames that means stand for while later bounces add light
-// Of a correction, a frame: while no rays are cast, and while new ones are not sure yet.
-constexpr float kFadingMoving = 7.0f / 8, kFadingAtRest = 31.0f / 32;
-constexpr uint32_t kFadingFrames = 64;          // then nothing is left
-constexpr uint32_t kMostStepsOfTurn = 1 << 20;  // pixels of another turn draw other numbers
+constexpr float kTrustedFrames = 64;    // from then on nothing is left of area lights' gloss
+constexpr float kFading = 7.0f / 8;     // of a correction, a frame in which no rays are cast
+constexpr uint32_t kFadingFrames = 64;  // then nothing is left
 constexpr RayMeanNames kMeans = {
     "gloss_rays.accumulate",
     "gloss_rays.mean",
@@ -29,9 +26,9 @@ constexpr RayMeanNames kMeans = {
     "gloss_rays.surface",
     "gloss_rays.rest",
     "gloss_rays.cameras",
-    "gloss_rays.even",
-    "gloss_rays.odd",
-    {"gloss_rays.filter0", "gloss_rays.filter1", "gloss_rays.filter2", "gloss_rays.filter3"}};
+    {"gloss_rays.even",
+     "gloss_rays.odd",
+     {"gloss_rays.filter0", "gloss_rays.filter1", "gloss_rays.filter2", "gloss_rays.filter3"}}};
 constexpr UpsamplingNames kToPixels = {
     "gloss_rays.upsample",
     "gloss_rays.upsample_far",
@@ -41,11 +38,6 @@ constexpr UpsamplingNames kToPixels = {
     {"gloss_rays.alone", "gloss_rays.none_alone", "gloss_rays.alone_groups", "gloss_rays.no_alone_groups"},
     "",
     "gloss_rays.place"};
-
-FollowedCamera follow(const RenderCamera& now, RenderCamera& history, bool known) {
-    const RenderCamera before = std::exchange(history, now);
-    return {known ? before : now, known};
-}
 
 // What this frame's rays found at the pixels of `gathered`.
 ImageHandle addRays(GraphScope scope, const Surfaces& gathered, const GlossRaysInputs& in, uint32_t step) {
@@ -58,12 +50,7 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gathered, const GlossRaysI
         .sample("depthMap", gathered.depth)
         .sample("reflectanceMap", gathered.reflectance)
         .read("camera", gathered.camera)
-        .read("texels", in.rsm.texels)
         .read("faces", in.rsm.faces)
-        .read("maps", in.rsm.maps)
-        .read("tileMaps", in.rsm.tileMaps)
-        .read("memberRanges", in.members.ranges)
-        .read("members", in.members.texels)
         .read("slotOfTexel", in.clusters.slotOfTexel)
         .read("noise", noise)
         .read("lights", in.others.rows ? in.others.rows : in.occluders.trees.triangles)  // unread without
@@ -87,7 +74,8 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gathered, const GlossRaysI
                                 .emissiveArea = in.occluders.emissivePointArea})
         .step(step)
         .dispatchThreads(gathered.size.x, gathered.size.y);
-    readTexelLobes(cast, in.rsm);
+    readRsmTexels(cast, in.rsm);
+    readMembers(cast, in.members);
     readTrees(cast, in.occluders.trees);
     return sent;
 }
@@ -141,17 +129,15 @@ ImageHandle addGlossRays(GraphScope scope, const Surfaces& surfaces, const Surfa
                          const GlossRaysInputs& in, const GlossRaysSettings& s, GlossRaysHistory& h) {
     if (!s.enabled || !in.gloss || !in.irradiance) return in.gloss;
     const GatherGrid& grid = in.grid;
-    uint64_t stands = combineHash(in.rsm.inputsVersion, in.world.versions.view);
-    for (const uint64_t part : {in.world.versions.instances, uint64_t(grid.turn), grid.change})
-        stands = combineHash(stands, part);
-    const uint32_t step = h.settling.advance(stands, grid.frames);
+    const uint32_t step = h.settling.advance(combineHash(grid.turn, grid.change), grid.frames);
     const bool known = std::exchange(h.originVersion, in.world.versions.origin) == in.world.versions.origin;
-    const FollowedCamera before = follow(surfaces.view, h.camera, known),
-                         gatheredBefore = follow(gathered.view, h.gatheredCamera, known && h.sinceRays == 0);
+    const FollowedCamera before = followCamera(surfaces.view, h.camera, known),
+                         gatheredBefore =
+                             followCamera(gathered.view, h.gatheredCamera, known && h.sinceRays == 0);
     h.sinceRays = grid.still ? 0 : std::min(h.sinceRays, kFadingFrames) + 1;
     if (h.sinceRays > kFadingFrames) return in.gloss;
     if (!grid.still)
-        return addMix(scope, surfaces, in, before, {.fading = kFadingMoving, .begins = true, .step = step});
+        return addMix(scope, surfaces, in, before, {.fading = kFading, .begins = true, .step = step});
 
     Surfaces at = gathered;
     at.reflectance =
@@ -159,11 +145,9 @@ ImageHandle addGlossRays(GraphScope scope, const Surfaces& surfaces, const Surfa
             ? surfaces.reflectance
             : addDownsampledImage(scope, "gloss_rays.downsample_reflectance", surfaces.reflectance,
                                   {gathered.spacing / surfaces.spacing, gathered.place});
-    const uint32_t since = std::min(h.settling.sinceChange, grid.frames);
-    const uint32_t ray = since + grid.turn * kMostStepsOfTurn;
-    RayMeans means{.sent = addRays(scope, at, in, ray),
+    RayMeans means{.sent = addRays(scope, at, in, rayNumber(grid, h.settling)),
                    .before = gatheredBefore,
-                   .mostLength = float(grid.grows ? std::min(kGrowingLength, s.mostLength) : s.mostLength),
+                   .mostLength = meanLength(grid, s.mostLength),
                    .moving = false,
                    .step = step,
                    .filter = {s.rounds, s.tolerance}};
@@ -171,10 +155,10 @@ ImageHandle addGlossRays(GraphScope scope, const Surfaces& surfaces, const Surfa
     const ImageHandle mean = addRayMeans(scope, at, means, kMeans);
     const ImageHandle found = addTurn(scope, surfaces, at, mean, grid.turn, means.filter,
                                       {kToPixels, {"gloss_rays.join", "gloss_rays.joined"}});
-    const float trusted = std::min(kTrustedFrames, float(grid.frames));
-    const float trust = grid.turn > 0 ? 1 : std::min(float(since) / std::max(trusted, 1.0f), 1.0f);
+    const float trusted = std::clamp(float(grid.frames), 1.0f, kTrustedFrames);
+    const float trust = grid.turn > 0 ? 1 : std::min(float(h.settling.sinceChange) / trusted, 1.0f);
     return addMix(scope, surfaces, in, before,
-                  {found, trust, grid.turn == 0 ? kFadingAtRest : 1, h.settling.sinceChange == 0,
+                  {found, trust, keptShare(grid), h.settling.sinceChange == 0,
                    gathered.spacing / surfaces.spacing, step});
 }
 

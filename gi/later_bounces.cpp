@@ -23,11 +23,6 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
         scope.historyBuffer("later_bounces.point_means", {.sizeBytes = count * sizeof(io::PointMeans)});
     PassBuilder trace = scope.compute("later_bounces.trace", "later_bounces/trace.comp");
     trace.read("points", emitters.texels)
-        .read("texels", in.rsm.texels)
-        .read("memberRanges", in.members.ranges)
-        .read("members", in.members.texels)
-        .read("maps", in.rsm.maps)
-        .read("tileMaps", in.rsm.tileMaps)
         .readWrite("irradiance", emitters.irradiance.current)
         .readPrevious("before", means)
         .write("means", means.current)
@@ -43,7 +38,8 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
                             .atlasWidth = in.rsm.atlas.size.x})
         .step(in.step)
         .dispatchThreads(count);
-    readTexelLobes(trace, in.rsm);
+    readRsmTexels(trace, in.rsm);
+    readMembers(trace, in.members);
     readTrees(trace, in.occluders.trees);
 }
 

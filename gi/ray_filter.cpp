@@ -1,6 +1,7 @@
 #include "gi/ray_filter.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "gi/pixel_rays.h"
 #include "shaders/ray_filter/ray_filter_io.h"
@@ -10,32 +11,32 @@ namespace {
 
 constexpr VkFormat kMeanFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-struct Filtered {
-    ImageHandle rest, surface;
-    BufferHandle cameras;
-};
+}  // namespace
 
-ImageHandle addFilter(GraphScope scope, const Surfaces& surfaces, const Filtered& of, const RayFilter& filter,
-                      const RayMeanNames& names) {
-    const ImageInfo info{.format = kMeanFormat, .size = surfaces.size};
+ImageHandle addRayFilter(GraphScope scope, glm::uvec2 size, const UncertainLight& of, const RayFilter& filter,
+                         const RayFilterNames& names, FilterAlpha alpha) {
+    const ImageInfo info{.format = kMeanFormat, .size = size};
     const std::array<ImageHandle, 2> turns = {scope.image(names.even, info), scope.image(names.odd, info)};
-    ImageHandle from = of.rest;
+    ImageHandle from = of.light;
     const uint32_t rounds = std::min(filter.rounds, kMostFilterRounds);
     for (uint32_t round = 0; round < rounds; ++round) {
-        scope.compute(names.filters[round], "ray_filter/filter.comp")
+        scope.compute(names.passes[round], "ray_filter/filter.comp")
             .sample("rest", from)
             .sample("surface", of.surface)
             .read("cameras", of.cameras)
             .write("result", turns[round % 2])
-            .constant("kDeviation", round + 1 == rounds)
+            .constant("kDeviation", alpha == FilterAlpha::kDeviation && round + 1 == rounds)
             .push(io::RayFilterPush{int(1u << round), filter.tolerance})
-            .dispatchThreads(surfaces.size.x, surfaces.size.y);
+            .dispatchThreads(size.x, size.y);
         from = turns[round % 2];
     }
     return from;
 }
 
-}  // namespace
+FollowedCamera followCamera(const RenderCamera& now, RenderCamera& history, bool known) {
+    const RenderCamera before = std::exchange(history, now);
+    return {known ? before : now, known};
+}
 
 ImageHandle addRayMeans(GraphScope scope, const Surfaces& surfaces, const RayMeans& in,
                         const RayMeanNames& names) {
@@ -65,7 +66,8 @@ ImageHandle addRayMeans(GraphScope scope, const Surfaces& surfaces, const RayMea
         .push(io::RayMeanPush{surfaces.view.near, in.before.known && mean.valid, in.mostLength, in.moving})
         .step(in.step)
         .dispatchThreads(size.x, size.y);
-    return addFilter(scope, surfaces, {rest, surface.current, cameras}, in.filter, names);
+    return addRayFilter(scope, size, {rest, surface.current, cameras}, in.filter, names.filter,
+                        FilterAlpha::kDeviation);
 }
 
 ImageHandle addJoinedTurns(GraphScope scope, const Surfaces& all, ImageHandle placed, float tolerance,

@@ -14,9 +14,13 @@ constexpr uint32_t kMostFilterRounds = 4;
 constexpr float kOfNeighbours = 8;  // frames that their means count for where a pixel's turn begins
 
 // Passes and resources; literals, because the graph keeps views of them.
+struct RayFilterNames {
+    std::string_view even, odd;
+    std::array<std::string_view, kMostFilterRounds> passes;
+};
 struct RayMeanNames {
-    std::string_view pass, mean, square, surface, rest, cameras, even, odd;
-    std::array<std::string_view, kMostFilterRounds> filters;
+    std::string_view pass, mean, square, surface, rest, cameras;
+    RayFilterNames filter;
 };
 
 struct RayFilter {
@@ -24,11 +28,24 @@ struct RayFilter {
     float tolerance;  // standard deviations by which the light of taps may differ
 };
 
+struct UncertainLight {
+    ImageHandle light;    // rgba32f; alpha: variance, mean of the channels
+    ImageHandle surface;  // rgba16f: normal; m along the axis, 0: sky
+    BufferHandle cameras;
+};
+enum class FilterAlpha { kVariance, kDeviation };
+
+// Alpha: the noise left, as `alpha` says; with no rounds always its variance.
+ImageHandle addRayFilter(GraphScope scope, glm::uvec2 size, const UncertainLight& of, const RayFilter& filter,
+                         const RayFilterNames& names, FilterAlpha alpha);
+
 // The camera of the frame before.
 struct FollowedCamera {
     RenderCamera camera;
     bool known;  // there was such a frame, about the same origin
 };
+// `history`: that camera, if it is `known`; then this frame's.
+FollowedCamera followCamera(const RenderCamera& now, RenderCamera& history, bool known);
 
 struct RayMeans {
     ImageHandle sent;  // what this frame's rays found

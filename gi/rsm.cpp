@@ -48,7 +48,8 @@ void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& em
         .dispatchIndirect(creased.groups);
 }
 
-void readTexelLobes(PassBuilder& pass, const RsmSet& rsm) {
+void readRsmTexels(PassBuilder& pass, const RsmSet& rsm) {
+    pass.read("texels", rsm.texels).read("maps", rsm.maps).read("tileMaps", rsm.tileMaps);
     pass.sample("rsmNormals", rsm.normal).sample("rsmAlbedos", rsm.albedo).constant("kTexelLobes", rsm.lobes);
 }
 

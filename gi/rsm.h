@@ -73,7 +73,8 @@ RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings
 // Texels of the maps that were drawn, and of `emitters`.
 void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters);
 
-// What a pass reads of where texels send their light: rsmNormals, rsmAlbedos, kTexelLobes.
-void readTexelLobes(PassBuilder& pass, const RsmSet& rsm);
+// What a pass reads of the maps' texels and of where these send their light: texels, maps, tileMaps,
+// rsmNormals, rsmAlbedos, kTexelLobes.
+void readRsmTexels(PassBuilder& pass, const RsmSet& rsm);
 
 }  // namespace ag::gi

@@ -23,9 +23,13 @@ constexpr float kKept = 0.9f, kKeptAtRest = 0.995f;
 constexpr uint32_t kFramesOfChange = 48;  // means are kept short so long
 constexpr float kMostPointRays = 65536;
 constexpr RayMeanNames kIrradianceMeans = {
-    "sky.accumulate", "sky.mean", "sky.square",
-    "sky.surface",    "sky.rest", "sky.cameras",
-    "sky.even",       "sky.odd",  {"sky.filter0", "sky.filter1", "sky.filter2", "sky.filter3"}};
+    "sky.accumulate",
+    "sky.mean",
+    "sky.square",
+    "sky.surface",
+    "sky.rest",
+    "sky.cameras",
+    {"sky.even", "sky.odd", {"sky.filter0", "sky.filter1", "sky.filter2", "sky.filter3"}}};
 constexpr RayMeanNames kGlossMeans = {
     "sky.accumulate_gloss",
     "sky.gloss_mean",
@@ -33,9 +37,9 @@ constexpr RayMeanNames kGlossMeans = {
     "sky.gloss_surface",
     "sky.gloss_rest",
     "sky.gloss_cameras",
-    "sky.gloss_even",
-    "sky.gloss_odd",
-    {"sky.gloss_filter0", "sky.gloss_filter1", "sky.gloss_filter2", "sky.gloss_filter3"}};
+    {"sky.gloss_even",
+     "sky.gloss_odd",
+     {"sky.gloss_filter0", "sky.gloss_filter1", "sky.gloss_filter2", "sky.gloss_filter3"}}};
 constexpr DownsamplingNames kSkyDownsampling = {"sky.downsample_depth", "sky.downsample_normal",
                                                 "sky.downsample_camera", "sky.downsample_motion"};
 constexpr UpsamplingNames kSkyUpsampling = {
@@ -123,8 +127,7 @@ SkySent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, 
 // Where the camera was; and notes how long ago what is seen of the sky may have changed.
 FollowedCamera followFrames(const Surfaces& gbuffer, const SkyInputs& in, SkyHistory& history) {
     const bool known = history.originVersion == in.versions.origin;
-    const FollowedCamera before{known ? history.camera : gbuffer.view, known};
-    history.camera = gbuffer.view;
+    const FollowedCamera before = followCamera(gbuffer.view, history.camera, known);
     history.originVersion = in.versions.origin;
     const uint64_t light = combineHash(in.sky.version, in.versions.instances);
     history.sinceChange = history.lightVersion == light ? history.sinceChange + 1 : 0;

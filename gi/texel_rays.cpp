@@ -8,24 +8,22 @@
 
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
+#include "gi/gather_grid.h"
 #include "gi/occluder_trees.h"
 #include "gi/pixel_rays.h"
+#include "gi/ray_filter.h"
 #include "shaders/bvh/bvh_io.h"
-#include "shaders/ray_filter/ray_filter_io.h"
 #include "shaders/texel_rays/texel_rays_io.h"
 
 namespace ag::gi {
 namespace {
 
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr uint32_t kMostRounds = 4;
-constexpr uint32_t kMostRaysOfTurn = 1 << 20;  // pixels of another turn draw other numbers
-constexpr float kNearPoints = 3;               // of their spacing
-constexpr uint32_t kGrowingLength = 32;  // frames that means stand for while there are more and more bounces
-constexpr float kFading = 31.0f / 32;    // of what is carried from before a change, a frame
-// Names are literals, because the graph keeps views of them.
-constexpr std::array<std::string_view, kMostRounds> kFilterNames = {
-    "texel_rays.filter0", "texel_rays.filter1", "texel_rays.filter2", "texel_rays.filter3"};
+constexpr float kNearPoints = 3;  // of their spacing
+constexpr RayFilterNames kFilter = {
+    "texel_rays.even",
+    "texel_rays.odd",
+    {"texel_rays.filter0", "texel_rays.filter1", "texel_rays.filter2", "texel_rays.filter3"}};
 
 // How likely pixels of a block are to draw each light.
 struct Choice {
@@ -87,16 +85,11 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
     cast.sample("normalMap", t.gbuffer.normal)
         .sample("depthMap", t.gbuffer.depth)
         .read("camera", t.gbuffer.camera)
-        .read("texels", in.rsm.texels)
         .read("faces", in.rsm.faces)
-        .read("maps", in.rsm.maps)
-        .read("tileMaps", in.rsm.tileMaps)
         .read("lists", t.lists)
         .read("counts", t.counts)
         .read("upTo", choice.upTo)
         .read("likely", choice.likely)
-        .read("memberRanges", in.members.ranges)
-        .read("members", in.members.texels)
         .read("slotOfTexel", in.clusters.slotOfTexel)
         .read("candidates", in.clusters.candidates)
         .read("noise", noise)
@@ -120,7 +113,8 @@ Sent addRays(const ValTiles& t, const Choice& choice, const TexelRaysInputs& in,
                            .emissiveReach = reachOfPoints(in.occluders.emissivePointArea, most),
                            .laterReach = reachOfPoints(in.occluders.bouncePointArea, most)})
         .dispatchGroups(choice.blocks);
-    readTexelLobes(cast, in.rsm);
+    readRsmTexels(cast, in.rsm);
+    readMembers(cast, in.members);
     readTrees(cast, in.occluders.trees);
     return sent;
 }
@@ -151,13 +145,13 @@ struct Seen {
 
 Seen addSeen(const ValTiles& t, uint64_t originVersion, TexelRaysHistory& history) {
     const bool known = history.originVersion == originVersion;
-    const RenderCamera before = known ? history.camera : t.gbuffer.view;
-    history.camera = t.gbuffer.view;
+    const FollowedCamera before = followCamera(t.gbuffer.view, history.camera, known);
     history.originVersion = originVersion;
     const ImageInfo info{.format = kHalf4, .size = t.gbuffer.size};
-    return {t.scope.historyImage("texel_rays.surface", info),
-            addReprojectionCameras(t.scope, "texel_rays.cameras", t.gbuffer.view, before, t.gbuffer.size),
-            known};
+    return {
+        t.scope.historyImage("texel_rays.surface", info),
+        addReprojectionCameras(t.scope, "texel_rays.cameras", t.gbuffer.view, before.camera, t.gbuffer.size),
+        known};
 }
 
 struct Means {
@@ -168,11 +162,11 @@ struct Measured {
     ImageHandle areaLights;
     Sent sent;
     ImageHandle control;
-    bool grows;
+    float mostLength;  // frames that means stand for
 };
 
-Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const TexelRaysSettings& s,
-               const Settling& settling, bool begun) {
+Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const Settling& settling,
+               bool begun) {
     const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
     const Means m{.sent = t.scope.historyImage("texel_rays.sent_mean", info),
                   .control = t.scope.historyImage("texel_rays.control_mean", info),
@@ -193,10 +187,9 @@ Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const Te
         .write("controlMean", m.control.current)
         .write("moments", m.moments.current)
         .write("surface", seen.surface.current)
-        .push(io::RayAccumulatePush{
-            .near = t.gbuffer.view.near,
-            .valid = begun && seen.known && m.sent.valid && seen.surface.valid,
-            .mostLength = float(of.grows ? std::min(kGrowingLength, s.mostLength) : s.mostLength)})
+        .push(io::RayAccumulatePush{.near = t.gbuffer.view.near,
+                                    .valid = begun && seen.known && m.sent.valid && seen.surface.valid,
+                                    .mostLength = of.mostLength})
         .step(settling.step)
         .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
     return m;
@@ -236,11 +229,10 @@ Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& se
 }
 
 Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const Means& m, const Seen& seen,
-                         const TexelRaysSettings& s, const Settling& settling, uint32_t turn) {
+                         const TexelRaysSettings& s, const Settling& settling, const GatherGrid& grid) {
     const glm::uvec2 size = t.gbuffer.size;
     const ImageInfo info{.format = kFloat4, .size = size};
-    const std::array<ImageHandle, 2> turns = {t.scope.image("texel_rays.even", info),
-                                              t.scope.image("texel_rays.odd", info)};
+    const ImageHandle rest = t.scope.image("texel_rays.rest", info);
     const ImageHandle share =
         t.scope.image("texel_rays.share", {.format = VK_FORMAT_R32_SFLOAT, .size = size});
     t.scope.compute("texel_rays.regress", "texel_rays/regress.comp")
@@ -250,29 +242,22 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
         .sample("moments", m.moments.current)
         .sample("surface", seen.surface.current)
         .read("cameras", seen.cameras)
-        .write("rest", turns[0])
+        .write("rest", rest)
         .write("shareOf", share)
         .dispatchThreads(size.x, size.y);
-    uint32_t round = 0;
-    for (; round < std::min(s.rounds, kMostRounds); ++round)
-        t.scope.compute(kFilterNames[round], "ray_filter/filter.comp")
-            .sample("rest", turns[round % 2])
-            .sample("surface", seen.surface.current)
-            .read("cameras", seen.cameras)
-            .write("result", turns[(round + 1) % 2])
-            .push(io::RayFilterPush{int(1u << round), s.tolerance})
-            .dispatchThreads(size.x, size.y);
+    const ImageHandle filtered = addRayFilter(t.scope, size, {rest, seen.surface.current, seen.cameras},
+                                              {s.rounds, s.tolerance}, kFilter, FilterAlpha::kVariance);
     const Carried c = addCarried(t, areaLights);
     const HistoryImage& before = settling.sinceChange > 1 ? c.carried : c.correction;
     t.scope.compute("texel_rays.correct", "texel_rays/correct.comp")
         .sample("areaLights", areaLights.image)
-        .sample("rest", turns[round % 2])
+        .sample("rest", filtered)
         .sample("shareOf", share)
         .samplePrevious("previousCarried", before, Sampler::kNearestClamp)
         .write("irradiance", c.irradiance)
         .write("correction", c.correction.current)
         .write("carried", c.carried.current)
-        .push(io::CorrectPush{seen.known && before.valid, turn == 0 ? kFading : 1})
+        .push(io::CorrectPush{seen.known && before.valid, keptShare(grid)})
         .step(settling.step)
         .dispatchThreads(size.x, size.y);
     return {c.irradiance, areaLights.toward};
@@ -305,24 +290,21 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
                         const ValShadingSettings& shading, const TexelRaysSettings& s,
                         TexelRaysHistory& history) {
     if (!areaLights.image || !castsTexelRays(s, in.occluders)) return areaLights;
-    uint64_t stands = combineHash(in.rsm.inputsVersion, combineHash(in.versions.view, in.versions.instances));
-    stands = combineHash(stands, combineHash(in.turn, in.change));
-    const uint32_t step = history.settling.advance(stands, in.frames);
+    const uint32_t step = history.settling.advance(combineHash(in.grid.turn, in.grid.change), in.grid.frames);
     const Seen seen = addSeen(t, in.versions.origin, history);
     const float dimming = dimmingOf(in.rsm, history);
     const bool wasWhole = std::exchange(history.whole, in.whole);
     if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, dimming, step);
-    // Counted from the last change on, so that a still picture does not depend on what was before.
-    const uint32_t ray = std::min(history.settling.sinceChange, in.frames) + in.turn * kMostRaysOfTurn;
+    const uint32_t ray = rayNumber(in.grid, history.settling);
     const Choice choice = addChoice(t, ray, history.settling);
     const Sent sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent.drawn, shading);
     // The first frame in which nothing changes knows no other, and light that is late says nothing of rays'
     // mean.
     const bool begun = history.settling.sinceChange > 1 && wasWhole;
-    const Means means =
-        addMeans(t, {areaLights.image, sent, control, in.grows}, seen, s, history.settling, begun);
-    return addCorrection(t, areaLights, means, seen, s, history.settling, in.turn);
+    const Means means = addMeans(t, {areaLights.image, sent, control, meanLength(in.grid, s.mostLength)},
+                                 seen, history.settling, begun);
+    return addCorrection(t, areaLights, means, seen, s, history.settling, in.grid);
 }
 
 }  // namespace ag::gi

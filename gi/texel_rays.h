@@ -15,6 +15,8 @@
 
 namespace ag::gi {
 
+struct GatherGrid;
+
 struct TexelRaysSettings {
     bool enabled = true;
     float reach = 0.05f;          // of a hemisphere's ray, in the scene's extent
@@ -65,11 +67,8 @@ struct TexelRaysInputs {
     const Occluders& occluders;
     const SkyOnDevice& sky;  // that later bounces have light of; none: they have not
     const Versions& versions;
-    uint32_t turn = 0;    // of the pixels of a square (gather_grid.h)
-    uint32_t frames = 0;  // with new rays after anything last changed
-    uint64_t change = 0;  // number of the last change
+    const GatherGrid& grid;
     bool whole = true;    // every pixel's area lights are of this frame
-    bool grows = false;   // the light does yet, by later bounces
     bool endless = true;  // light goes on after its second bounce
 };
 

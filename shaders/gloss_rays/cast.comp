@@ -51,36 +51,24 @@ layout(constant_id = 3) const bool kEndless = true;  // light goes on after its 
 #include "texel_rays/met_surface.glsl"
 #include "texel_rays/pixel_start.glsl"
 #define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
-#include "sky/incident.glsl"
+#include "texel_rays/incident.glsl"
 
 const uint kDraws = 16;      // texels that one is resampled from, of what lights a place,
 const uint kLobeDraws = 32;  // and of what a lobe sees
-const uint kKinds = 4;   // of light that goes on: of first bounces, of points, of the sky, of lights without maps
+const uint kKinds = 4;       // of light that goes on: of first bounces, of points, of the sky, of lights without maps
 
 // Members of lights: of first bounces and emissive surfaces, which draws go to, then of points that reflect.
 uvec3 kinds;
 
-// Light drawn for a place.
-struct Incident {
-    vec3 toward;
-    float reach;  // of the ray that asks for it, in lengths of toward
-    vec3 sends;   // W/m², if nothing stands between
-};
-
 Incident fromMembers(uint first, uint end, vec3 start, Met met, inout uint random) {
-    if (first == end) return Incident(vec3(0.0), 0.0, vec3(0.0));
+    if (first == end) return kNoIncident;
     Aim aim = aimAtMember(met.place, met.normal, first, end, kDraws, random);
     return Incident(aim.place - start, 1.0, aim.sends);
 }
 
-Incident fromSky(Met met, inout uint random) {
-    SkyIncident s = drawSkyAt(met.normal, random);
-    return Incident(s.direction, push.p.reach, s.irradiance);
-}
-
 // One by what each sends, for all.
 Incident fromOtherLights(Met met, inout uint random) {
-    Incident drawn = Incident(vec3(0.0), 0.0, vec3(0.0));
+    Incident drawn = kNoIncident;
     float sum = 0.0, wanted = 1.0;
     for (uint i = 0; i < push.p.lightCount; ++i) {
         Arriving a = arrivingFrom(lights.items[i], met.place, met.normal);
@@ -100,13 +88,11 @@ vec3 receivedAt(Met met, float opaqueFrom, inout uint random) {
     vec3 start = met.place + met.normal * push.p.offset, e = vec3(0.0);
     for (uint kind = 0; kind < kKinds; ++kind) {
         Incident light;
-        if (kind == 1 && !kEndless) continue;
+        if (kind == 1 && !kEndless || kind == 2 && !kSky) continue;
         if (kind < 2) light = fromMembers(kinds[kind], kinds[kind + 1], start, met, random);
-        else if (kind == 2 && !kSky) continue;
-        else if (kind == 2) light = fromSky(met, random);
+        else if (kind == 2) light = drawSkyAt(met.normal, push.p.reach, random);
         else light = fromOtherLights(met, random);
-        BvhRay ray = BvhRay(start, light.toward, light.reach, opaqueFrom, true, 0, 0);
-        if (light.sends != vec3(0.0) && !traceOccluders(ray)) e += light.sends;
+        e += arrivingAt(start, light, opaqueFrom);
     }
     return e;
 }

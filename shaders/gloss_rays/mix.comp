@@ -7,6 +7,7 @@
 // fades, at once where the area lights' gloss is another.
 #include "common/brdf.h"
 #include "gloss_rays/gloss_rays_io.h"
+#include "ray_filter/shrinkage.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push { GlossMixPush p; } push;
@@ -28,8 +29,6 @@ layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D carried;     //
 layout(constant_id = 0) const bool kRays = true;
 #include "texel_rays/before.glsl"
 #include "texel_rays/carried.glsl"
-
-const float kDoubt = 2.0;  // neighbours' errors are correlated: more noise is left than the filtered variance says
 
 float depthAt(ivec2 pixel) {
     float reversed = texelFetch(depthMap, pixel, 0).x;
@@ -55,7 +54,7 @@ float trustAbout(ivec2 pixel, ivec2 size) {
             float deviation = texelFetch(foundMap, there, 0).a;
             found += meanProduct(c, c), noise += deviation * deviation;
         }
-    return push.p.trust * max(found - kDoubt * noise, 0.0) / max(found, 1e-30);
+    return push.p.trust * trustIn(found, noise);
 }
 
 void main() {

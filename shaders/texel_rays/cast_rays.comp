@@ -58,7 +58,7 @@ layout(constant_id = 1) const bool kTexelLobes = false;
 #include "texel_rays/pixel_start.glsl"
 #include "texel_rays/ray_weights.glsl"
 #define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
-#include "sky/incident.glsl"
+#include "texel_rays/incident.glsl"
 
 const uint kDraws = 8, kNearDraws = 16;  // texels that one is resampled from: of a light; of all for what is near
 
@@ -155,13 +155,6 @@ Way wayOfDraw(Receiver r, Drawn d, TexelAim aim, vec2 xi, float opaqueFrom) {
     return wayToMiddle(r, v, aim, opaqueFrom);
 }
 
-// Light drawn for a place.
-struct Incident {
-    vec3 toward;
-    float reach;  // of the ray that asks for it, in lengths of toward
-    vec3 sends;   // W/m², if nothing stands between
-};
-
 float next(inout uint random) {
     random = hashUint(random);
     return unitOf(random);
@@ -198,15 +191,10 @@ Incident fromAreaLights(Receiver r, inout uint random) {
         float want = factorOf(r, s) * s.weight * meanOf(sentTo(r.position, c.texel, s, push.p.atlasWidth));
         take(drawn, c.texel, want, want / c.likely, random);
     }
-    if (drawn.texel == kNoTexel) return Incident(vec3(0.0), 0.0, vec3(0.0));
+    if (drawn.texel == kNoTexel) return kNoIncident;
     RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);
     vec3 sends = s.flux * sentTo(r.position, drawn.texel, s, push.p.atlasWidth);
     return Incident(endBefore(s) - r.start, 1.0, sends * (factorOf(r, s) * weightOf(drawn, 1, kNearDraws)));
-}
-
-Incident fromSky(Receiver r, inout uint random) {
-    SkyIncident s = drawSkyAt(r.normal, random);
-    return Incident(s.direction, 1e20, s.irradiance);
 }
 
 // W/m², by a ray to one texel and one to the sky.
@@ -216,9 +204,8 @@ vec3 receivedAt(Met met, Receiver from, float opaqueFrom, uint random) {
     for (uint kind = 0; kind < (kSky ? 2 : 1); ++kind) {
         Incident light;
         if (kind == 0) light = fromAreaLights(r, random);
-        else light = fromSky(r, random);
-        BvhRay ray = BvhRay(r.start, light.toward, light.reach, opaqueFrom, true, 0, 0);
-        if (light.sends != vec3(0.0) && !traceOccluders(ray)) e += light.sends;
+        else light = drawSkyAt(r.normal, 1e20, random);
+        e += arrivingAt(r.start, light, opaqueFrom);
     }
     return e;
 }

@@ -5,6 +5,7 @@
 // The area lights' sum, corrected by what the rays found, as far as that stands out of its noise (the positive part of James
 // and Stein's estimator, over the pixels about). Until it does, by what rays had found before something changed.
 #include "common/pixel_rays.h"
+#include "ray_filter/shrinkage.glsl"
 #include "texel_rays/carried.glsl"
 #include "texel_rays/texel_rays_io.h"
 
@@ -20,7 +21,6 @@ layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
 layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
 
-const float kDoubt = 2.0;  // neighbours' errors are correlated: more noise is left than the filtered variance says
 const int kStride = 4;     // pixels
 
 vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(shareOf, at, 0).x - 1.0) * lights; }
@@ -37,7 +37,7 @@ void main() {
         }
     vec4 lights = texelFetch(areaLights, at, 0), known = texelFetch(previousCarried, at, 0);
     vec3 measured = correctionAt(at, lights.rgb, texelFetch(rest, at, 0).rgb);
-    float trust = max(found - kDoubt * noise, 0.0) / max(found, 1e-30);
+    float trust = trustIn(found, noise);
     vec4 kept = push.p.valid == 1 ? vec4(push.p.fading * stillTrue(luminance(lights.rgb), known.a) * known.rgb, known.a) : vec4(0.0);
     vec3 c = mix(kept.rgb, measured, trust);
     if (any(greaterThanEqual(pixel, size))) return;
