@@ -23,9 +23,8 @@ struct GlossRaysSettings {
 
     static constexpr auto fields() {
         return std::tuple{
-            SettingField{
-                "enabled", &GlossRaysSettings::enabled, 0, 0, "",
-                "correct area lights' gloss by rays of lobes while nothing changes, where texel_rays are"},
+            SettingField{"enabled", &GlossRaysSettings::enabled, 0, 0, "",
+                         "correct area lights' gloss by rays while nothing changes, where texel_rays are"},
             SettingField{"most_length", &GlossRaysSettings::mostLength, 1, 2048, "frames",
                          "a pixel's mean stands for"},
             SettingField{"rounds", &GlossRaysSettings::rounds, 1, 4, "rounds",

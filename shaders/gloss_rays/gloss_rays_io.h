@@ -1,4 +1,4 @@
-// Constants of the kernels of rays of specular lobes. Scalar layout.
+// Constants of the kernels of gloss rays. Scalar layout.
 #ifndef AG_GLOSS_RAYS_IO_H
 #define AG_GLOSS_RAYS_IO_H
 

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-// Area lights' gloss, corrected by what rays of lobes found, as far as that stands out of its noise (the positive part of James
+// Area lights' gloss, corrected by what gloss rays found, as far as that stands out of its noise (the positive part of James
 // and Stein's estimator, over the pixels about). Once something changes no rays are cast, and what they had found on the surfaces
 // fades, at once where the area lights' gloss is another.
 #include "common/brdf.h"

@@ -29,7 +29,7 @@ double errorOf(const Image& image, const Image& truth) {
 }
 
 struct Errors {
-    double with, without;  // rays of lobes
+    double with, without;  // gloss rays
 };
 
 Errors errorsOf(Bench& b, const Image& truth) {
