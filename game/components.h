@@ -9,6 +9,7 @@
 
 #include "engine/ecs/entity.h"
 #include "engine/physics/character.h"
+#include "engine/scene/static_scene.h"
 
 namespace ag::game {
 
@@ -114,6 +115,19 @@ struct Progress {
     uint32_t won = 0;  // the last room was reached with all flowers open
     float idle = 0;    // s since a flower opened further or another room was entered
     float best = 0;    // openness of this room's flowers together, the most it has been
+};
+
+// Eyes that are not the player's: what is seen is seen from there.
+struct FreeEyes {
+    bool open = false;
+    CameraPose pose;
+};
+
+// How long it took so far, s of the world's time.
+struct PlayTime {
+    bool known = true;          // false: it went on from somewhere
+    double whole = 0;           // since the level's start
+    std::vector<double> rooms;  // spent in each before it was solved, by index
 };
 
 struct GameTime {

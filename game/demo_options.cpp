@@ -11,7 +11,6 @@ namespace ag::game {
 namespace {
 
 constexpr const char* kLevel = AFTERGLOW_SOURCE_DIR "/game/level/gallery.glb";
-constexpr float kMood = -2.15f;  // stops: so much darker than what the eye gets used to
 
 }  // namespace
 

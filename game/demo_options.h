@@ -19,7 +19,8 @@ struct DemoOptions {
     bool headless = false;
     uint32_t frames = 0;  // 0: until closed; headless: as long as the replay
     uint32_t ticksPerFrame = 1;
-    std::string replay, record, scene, screenshot, report, moments, view;
+    std::string replay, record, scene, screenshot, report, moments, film, view;
+    std::optional<uint32_t> filmFrom;  // frame; nothing: the run's middle
     std::string sizeText = "640x360";
     glm::uvec2 size{640, 360};
     std::vector<std::string> assignments;

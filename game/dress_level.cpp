@@ -86,15 +86,24 @@ void addTextures(SceneAsset& level) {
             layOver(g, primitive, s->meters, s->name == "wood" && isUpright(primitive));
 }
 
+LevelDaylight daylightOf(const SceneAsset& level) {
+    for (const SceneNode& node : level.nodes)
+        if (node.extras.tag == "sky" && glm::length(node.extras.axis) >= 0.5f)
+            return {glm::normalize(node.extras.axis), node.extras.amount};
+    return {};
+}
+
+Sky skyOf(const LevelDaylight& daylight) {
+    Sky sky = analyticSky(daylight.sunDirection, kTurbidity);
+    for (glm::vec3& radiance : sky.radiance.pixels)
+        radiance *= daylight.amount;
+    sky.turbidity = 0;  // it is of another strength
+    return sky;
+}
+
 void addSky(SceneAsset& level) {
-    for (const SceneNode& node : level.nodes) {
-        if (node.extras.tag != "sky" || glm::length(node.extras.axis) < 0.5f) continue;
-        Sky sky = analyticSky(glm::normalize(node.extras.axis), kTurbidity);
-        for (glm::vec3& radiance : sky.radiance.pixels)
-            radiance *= node.extras.amount;
-        sky.turbidity = 0;  // it is of another strength
-        level.sky = std::make_shared<const Sky>(std::move(sky));
-    }
+    const LevelDaylight daylight = daylightOf(level);
+    if (daylight.amount > 0) level.sky = std::make_shared<const Sky>(skyOf(daylight));
 }
 
 Result<SceneAsset> readLevel(const std::string& path) {

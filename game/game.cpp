@@ -57,10 +57,12 @@ Game::Game(SceneAsset level, uint32_t threads)
     world_.setResource<Player>(playerAt(start, *world_.resource<Physics>().world));
     world_.setResource<Progress>();
     world_.setResource<GameTime>();
+    world_.setResource<PlayTime>().rooms.reserve(32);
     world_.setResource<Input>();
     world_.setResource<gi::ProbeReadings>();
     world_.setResource<Sounds>().now.reserve(32);
     world_.setResource<ActiveCamera>(start);
+    world_.setResource<FreeEyes>();
     world_.setResource<ExtractState>();
     world_.setResource<RenderScene>().geometry = &level_.geometry;
     world_.setResource<LevelSky>().sky = level_.sky;

@@ -17,7 +17,7 @@
 namespace ag::game {
 namespace {
 
-constexpr uint32_t kMoments = 20;
+constexpr uint32_t kMoments = 20, kFilmFrames = 60;
 
 using Clock = std::chrono::steady_clock;
 
@@ -35,7 +35,10 @@ class HeadlessRun {
         renderer_.load(demo.game->level().geometry);
         const uint32_t replay = uint32_t(demo.replay.ticks.size()), per = demo.options.ticksPerFrame;
         frames_ = demo.options.frames ? demo.options.frames : std::max((replay + per - 1) / per, 1u);
-        sheet_ = ContactSheet(demo.options.moments.empty() ? 0 : kMoments, frames_);
+        const DemoOptions& o = demo.options;
+        if (!o.moments.empty()) sheet_ = ContactSheet::moments(kMoments, frames_);
+        const uint32_t middle = frames_ > kFilmFrames ? (frames_ - kFilmFrames) / 2 : 0;
+        if (!o.film.empty()) film_ = ContactSheet::film(kFilmFrames, o.filmFrom.value_or(middle));
     }
 
     int run() {
@@ -50,7 +53,8 @@ class HeadlessRun {
             const auto end = Clock::now();
             note(i, milliseconds(end - begin), milliseconds(end - start));
             if (i == frames_ / 4) residentBefore_ = residentMib();
-            if (sheet_.wants(i)) sheet_.add(render::readImage(renderer_, shown_));
+            for (ContactSheet* sheet : {&sheet_, &film_})
+                if (sheet->wants(i)) sheet->add(render::readImage(renderer_, shown_));
             if (end - lastLine > std::chrono::seconds(1)) {
                 std::cerr << progressLine(i);
                 lastLine = end;
@@ -160,6 +164,9 @@ class HeadlessRun {
         if (!o.moments.empty())
             if (const Status saved = saveImage(sheet_.image(), o.moments); !saved)
                 return refuse(saved.error().message);
+        if (!o.film.empty())
+            if (const Status saved = saveImage(film_.image(), o.film); !saved)
+                return refuse(saved.error().message);
         return device_.validationMessageCount() == 0 ? 0 : 1;
     }
 
@@ -169,7 +176,7 @@ class HeadlessRun {
     render::BudgetController budget_;
     render::FrameCost cost_;
     PassLog passes_;
-    ContactSheet sheet_;
+    ContactSheet sheet_, film_;
     TimeHistogram frameMs_, costMs_;  // of all frames; of whole frames at this quality
     double firstMs_ = 0, residentBefore_ = 0;
     uint32_t frames_ = 1;

@@ -26,6 +26,7 @@ struct FlowerLine {
 struct HudState {
     std::vector<FlowerLine> flowers;
     std::string goal, rule, hint, notice;  // rule: the room's own sentence
+    std::vector<std::string> heard;        // subtitles of sounds
     bool carrying = false, crateInReach = false;
     bool legend = false;  // says how bars are read
 };
@@ -45,6 +46,9 @@ struct HudView {
 };
 // Within an ImGui frame, over a picture of `size` pixels.
 void drawHud(const HudState& hud, glm::vec2 size, const HudView& view);
+
+// In photo mode instead: lines at the top left, the keys at the bottom.
+void drawPhotoLines(const std::vector<std::string>& lines, const std::string& keys, glm::vec2 size);
 
 // A line at the top left, of the program rather than of the game; none if empty.
 void drawMessage(const std::string& text);

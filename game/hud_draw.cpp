@@ -157,6 +157,13 @@ void drawMarks(ImDrawList& list, glm::vec2 size, const std::vector<FlowerLine>& 
     }
 }
 
+// At the left, above the hints, the newest at the bottom.
+void drawSubtitles(ImDrawList& list, glm::vec2 size, const std::vector<std::string>& heard) {
+    float y = size.y * 0.72f;
+    for (size_t i = heard.size(); i-- > 0; y -= ImGui::GetTextLineHeight() + 4)
+        drawText(list, {10, y}, fmt::format("[{}]", heard[i]).c_str());
+}
+
 }  // namespace
 
 void drawHud(const HudState& hud, glm::vec2 size, const HudView& view) {
@@ -171,6 +178,17 @@ void drawHud(const HudState& hud, glm::vec2 size, const HudView& view) {
     const char* hands = hud.carrying ? "put down" : hud.crateInReach ? "pick up" : nullptr;
     if (hands) drawText(list, {size.x / 2 + 12, size.y / 2 + 8}, hands);
     drawCentered(list, size.y - 6, size.x, hud.notice);
+    drawSubtitles(list, size, hud.heard);
+}
+
+void drawPhotoLines(const std::vector<std::string>& lines, const std::string& keys, glm::vec2 size) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    float y = 46;  // below messages
+    for (const std::string& line : lines) {
+        drawText(list, {10, y}, line.c_str());
+        y += ImGui::GetTextLineHeight() + 4;
+    }
+    drawCentered(list, size.y - 6, size.x, keys);
 }
 
 void drawMessage(const std::string& text) {

@@ -1,5 +1,5 @@
 // The demo: a dark gallery, a lamp in your hand, and flowers that open in light that has bounced. Esc is the
-// menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world, F9 the
+// menu; 1-9 show intermediates, F1 settings, F2 passes, F3 times, F4 the world, F8 the photo mode, F9 the
 // profiler; F10 captures frames.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -30,6 +30,10 @@ void addOptions(CLI::App& program, DemoOptions& o) {
     program.add_option("--scene", o.scene, "another level, glTF or GLB");
     program.add_option("--screenshot", o.screenshot, "save the last frame as PNG");
     program.add_option("--moments", o.moments, "save twenty moments of a headless run as one PNG");
+    program.add_option("--film", o.film, "save sixty frames in a row of a headless run as one PNG");
+    program.add_option("--film-from", o.filmFrom, "the first of them, from 0; the run's middle by default")
+        ->check(numberFrom(0, 1e9))
+        ->needs("--film");
     program.add_option("--ticks-per-frame", o.ticksPerFrame, "headless: ticks of 1/60 s for each frame")
         ->check(numberFrom(1, 60))
         ->capture_default_str();
@@ -124,7 +128,7 @@ Status prepare(Demo& demo) {
     demo.fault = *fault;
     if (o.resume && !o.record.empty()) return Error{"a recording starts with the level, not with --continue"};
     if (Status s = readUserFiles(demo); !s) return s;
-    if (Status s = checkWritable({o.record, o.screenshot, o.moments, o.report}); !s) return s;
+    if (Status s = checkWritable({o.record, o.screenshot, o.moments, o.film, o.report}); !s) return s;
     if (Status s = readReplay(demo); !s) return s;
     if (o.budgetMs > 0) demo.user.quality = Quality::kAutomatic;
     useQuality(demo, demo.user.quality, render::qualitySteps()[render::firstFullSizeStep()]);

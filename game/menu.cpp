@@ -7,11 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace ag::game {
 namespace {
 
-enum class MainLine { kResume, kContinue, kNew, kRooms, kSettings, kKeys, kQuit };
+enum class MainLine { kResume, kPhoto, kContinue, kNew, kRooms, kSettings, kKeys, kGamepad, kQuit };
 enum SettingLine {
     kQuality,
     kSensitivity,
@@ -21,6 +22,7 @@ enum SettingLine {
     kResolution,
     kFullscreen,
     kHints,
+    kSubtitles,
     kInvert,
     kSettingsBack
 };
@@ -33,11 +35,11 @@ void openPage(Menu& menu, MenuPage page) {
 // Only what can be done.
 std::vector<MainLine> mainLines(const Menu& menu, const UserSettings& settings) {
     std::vector<MainLine> lines;
-    if (menu.started) lines.push_back(MainLine::kResume);
+    if (menu.started) lines.insert(lines.end(), {MainLine::kResume, MainLine::kPhoto});
     if (menu.hasSave) lines.push_back(MainLine::kContinue);
     lines.push_back(MainLine::kNew);
     if (settings.roomsReached > 1) lines.push_back(MainLine::kRooms);
-    lines.insert(lines.end(), {MainLine::kSettings, MainLine::kKeys, MainLine::kQuit});
+    lines.insert(lines.end(), {MainLine::kSettings, MainLine::kKeys, MainLine::kGamepad, MainLine::kQuit});
     return lines;
 }
 
@@ -45,6 +47,8 @@ std::string textOf(MainLine line, const Menu& menu) {
     switch (line) {
         case MainLine::kResume:
             return "Resume";
+        case MainLine::kPhoto:
+            return "Photo mode";
         case MainLine::kContinue:
             return menu.started ? "Back to the saved game" : "Continue";
         case MainLine::kNew:
@@ -55,6 +59,8 @@ std::string textOf(MainLine line, const Menu& menu) {
             return "Settings";
         case MainLine::kKeys:
             return "Keys";
+        case MainLine::kGamepad:
+            return "Gamepad";
         default:
             return "Quit";
     }
@@ -64,6 +70,8 @@ MenuEvent chooseMain(Menu& menu, const UserSettings& settings) {
     switch (mainLines(menu, settings)[size_t(menu.selected)]) {
         case MainLine::kResume:
             return MenuEvent::kResume;
+        case MainLine::kPhoto:
+            return MenuEvent::kPhotoMode;
         case MainLine::kContinue:
             return MenuEvent::kContinue;
         case MainLine::kNew:
@@ -76,6 +84,9 @@ MenuEvent chooseMain(Menu& menu, const UserSettings& settings) {
             return MenuEvent::kNone;
         case MainLine::kKeys:
             openPage(menu, MenuPage::kKeys);
+            return MenuEvent::kNone;
+        case MainLine::kGamepad:
+            openPage(menu, MenuPage::kGamepad);
             return MenuEvent::kNone;
         default:
             return MenuEvent::kQuit;
@@ -117,6 +128,9 @@ MenuEvent changeSetting(Menu& menu, UserSettings& s, int step) {
         case kHints:
             s.hints = !s.hints;
             break;
+        case kSubtitles:
+            s.subtitles = !s.subtitles;
+            break;
         case kInvert:
             s.invertLook = !s.invertLook;
             break;
@@ -137,7 +151,8 @@ MenuEvent choose(Menu& menu, UserSettings& settings) {
         openPage(menu, MenuPage::kMain);
         return back ? MenuEvent::kNone : MenuEvent::kStartRoom;
     }
-    if (menu.selected >= int(kActionCount))
+    const size_t actions = menu.page == MenuPage::kGamepad ? kPadActionCount : kActionCount;
+    if (menu.selected >= int(actions))
         openPage(menu, MenuPage::kMain);
     else
         menu.waitsForKey = true;
@@ -145,18 +160,35 @@ MenuEvent choose(Menu& menu, UserSettings& settings) {
 }
 
 // Two actions never share a key: the other one takes the key this one had.
+void bind(std::span<int> codes, size_t action, int code) {
+    for (int& other : codes)
+        if (other == code) other = codes[action];
+    codes[action] = code;
+}
+
 MenuEvent bindKey(Menu& menu, int code, Bindings& keys) {
+    const bool pad = menu.waitsForPad();
+    // A key is none of the gamepad's buttons: it goes on waiting for one.
+    if (pad && code < kPadCode && code != GLFW_KEY_ESCAPE) return MenuEvent::kNone;
     menu.waitsForKey = false;
     if (code == GLFW_KEY_ESCAPE) return MenuEvent::kNone;
-    if (codeName(code).empty()) {
-        menu.message = "That key cannot be used.";
+    if (codeName(code).empty() || (code >= kPadCode) != pad) {
+        menu.message = pad ? "That button cannot be used." : "That key cannot be used.";
         return MenuEvent::kNone;
     }
-    int& mine = keys.codes[size_t(menu.selected)];
-    for (int& other : keys.codes)
-        if (other == code) other = mine;
-    mine = code;
+    bind(pad ? std::span<int>(keys.pad) : std::span<int>(keys.codes), size_t(menu.selected), code);
     return MenuEvent::kKeysChanged;
+}
+
+std::vector<std::string> bindingLines(const Menu& menu, std::span<const int> codes, Action first) {
+    std::vector<std::string> lines;
+    for (size_t i = 0; i < codes.size(); ++i)
+        lines.push_back(fmt::format("{}: {}", actionName(Action(size_t(first) + i)),
+                                    !menu.waitsForKey || int(i) != menu.selected ? spokenName(codes[i])
+                                    : menu.page == MenuPage::kGamepad            ? "press a button"
+                                                                                 : "press a key"));
+    lines.push_back("Back");
+    return lines;
 }
 
 }  // namespace
@@ -170,7 +202,9 @@ std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, cons
     }
     if (menu.page == MenuPage::kRooms) {
         for (int i = 0; i < int(s.roomsReached); ++i)
-            lines.push_back(fmt::format("Room {}", i + 1));
+            lines.push_back(size_t(i) < menu.roomNotes.size() && !menu.roomNotes[size_t(i)].empty()
+                                ? fmt::format("Room {}: {}", i + 1, menu.roomNotes[size_t(i)])
+                                : fmt::format("Room {}", i + 1));
         lines.push_back("Back");
         return lines;
     }
@@ -184,14 +218,11 @@ std::vector<std::string> menuLines(const Menu& menu, const UserSettings& s, cons
                                  : "Resolution: by quality",
                 fmt::format("Fullscreen: {}", s.fullscreen ? "on" : "off"),
                 fmt::format("Hints: {}", s.hints ? "on" : "off"),
+                fmt::format("Subtitles of sounds: {}", s.subtitles ? "on" : "off"),
                 fmt::format("Mouse up looks {}", s.invertLook ? "down" : "up"),
                 "Back"};
-    for (size_t i = 0; i < kActionCount; ++i)
-        lines.push_back(fmt::format(
-            "{}: {}", actionName(Action(i)),
-            menu.waitsForKey && int(i) == menu.selected ? "press a key" : spokenName(keys.codes[i])));
-    lines.push_back("Back");
-    return lines;
+    return menu.page == MenuPage::kGamepad ? bindingLines(menu, keys.pad, kFirstPadAction)
+                                           : bindingLines(menu, keys.codes, Action(0));
 }
 
 MenuEvent pressInMenu(Menu& menu, int code, UserSettings& settings, Bindings& keys) {

@@ -9,7 +9,7 @@
 
 namespace ag::game {
 
-enum class MenuPage : uint32_t { kMain, kSettings, kKeys, kRooms };
+enum class MenuPage : uint32_t { kMain, kSettings, kKeys, kGamepad, kRooms };
 enum class MenuEvent : uint32_t {
     kNone,
     kResume,
@@ -17,6 +17,7 @@ enum class MenuEvent : uint32_t {
     kNewGame,
     kQuit,
     kStartRoom,  // Menu::room
+    kPhotoMode,
     kSettingsChanged,
     kKeysChanged
 };
@@ -27,15 +28,20 @@ struct Menu {
     bool hasSave = false;
     MenuPage page = MenuPage::kMain;
     int selected = 0;
-    int room = 0;              // that was chosen
-    bool waitsForKey = false;  // the next key is bound to the selected action
-    std::string message;       // what went wrong, in one sentence
+    int room = 0;  // that was chosen
+    bool waitsForKey =
+        false;            // the next key, or button on the gamepad's page, is bound to the selected action
+    std::string message;  // what went wrong, in one sentence
+    std::vector<std::string> roomNotes;  // beside each room: the best time in it
+
+    bool waitsForPad() const { return waitsForKey && page == MenuPage::kGamepad; }
 };
 
 // What can be chosen on a page, top to bottom.
 std::vector<std::string> menuLines(const Menu& menu, const UserSettings& settings, const Bindings& keys);
 
-// Codes as Window::takePressedKeys gives them.
+// KeyPress::code, or where the menu waits for the gamepad KeyPress::pad; keys count there, too: escape gives
+// up.
 MenuEvent pressInMenu(Menu& menu, int code, UserSettings& settings, Bindings& keys);
 // Within an ImGui frame, under a header and over a footer; the line that was clicked is chosen.
 MenuEvent drawMenu(Menu& menu, UserSettings& settings, Bindings& keys, const std::string& header,

@@ -17,6 +17,8 @@ std::string_view qualityName(Quality quality);
 // An eye that gets used to dark rooms, within limits: the gallery stays darker than the garden.
 void openEyes(render::RenderSettings& gi);
 
+constexpr float kMood = -2.15f;  // stops: so much darker than what the eye gets used to
+
 // Replaces what presets are about, with every bounce; what the eye does stays.
 void applyQuality(Quality preset, render::RenderSettings& gi);
 

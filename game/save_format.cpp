@@ -33,6 +33,13 @@ bool parseLine(const std::string& line, const SaveLimits& limits, Saved& saved) 
         SavedFlower& f = saved.flowers.emplace_back();
         in >> f.node >> f.openness;
         good = f.node < limits.nodes && f.openness >= 0 && f.openness <= 1;
+    } else if (word == "played") {
+        in >> saved.played;
+        good = saved.played >= 0 && saved.played < double(kMostSeconds);
+    } else if (word == "spent") {
+        SavedTime& t = saved.times.emplace_back();
+        in >> t.room >> t.seconds;
+        good = t.room >= 0 && t.room <= limits.mostRoom && t.seconds >= 0 && t.seconds < double(kMostSeconds);
     } else if (word == "body") {
         SavedBody& b = saved.bodies.emplace_back();
         in >> b.node >> b.position.x >> b.position.y >> b.position.z >> b.rotation.w >> b.rotation.x >>

@@ -23,12 +23,18 @@ struct SavedBody {
     glm::dvec3 position{0};
     glm::quat rotation{1, 0, 0, 0};
 };
+struct SavedTime {  // spent in a room before it was solved
+    int32_t room = 0;
+    double seconds = 0;
+};
 struct Saved {
     glm::dvec3 feet{0};
     float yaw = 0, pitch = 0;
     std::vector<SavedRoom> rooms;
     std::vector<SavedFlower> flowers;
     std::vector<SavedBody> bodies;
+    double played = -1;  // s since the level's start; negative: not known
+    std::vector<SavedTime> times;
 };
 
 // What a save of a level may say.

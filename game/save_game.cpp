@@ -46,6 +46,13 @@ void apply(World& world, const Saved& saved) {
     player.pitch = saved.pitch;
     player.position = player.before = saved.feet + glm::dvec3(0, double(player.eyeHeight), 0);
     physics.moveWalker(player.body.walker, {CharacterSettings{}.radius, player.body.height}, saved.feet);
+    PlayTime& played = world.resource<PlayTime>();
+    played.known = saved.played >= 0;
+    played.whole = std::max(saved.played, 0.0);
+    for (const SavedTime& t : saved.times) {
+        if (size_t(t.room) >= played.rooms.size()) played.rooms.resize(size_t(t.room) + 1);
+        played.rooms[size_t(t.room)] = t.seconds;
+    }
     View<Room>(world, {world.version(), 0}).each([&](Room& room) {
         for (const SavedRoom& s : saved.rooms)
             if (s.index == room.index) room.solved = 1, room.since = s.since;
@@ -74,6 +81,10 @@ std::string saveText(Game& game) {
     std::string text = saveHead(levelHash(game.level()));
     text +=
         fmt::format("player {} {} {} {} {}\n", p.body.feet.x, p.body.feet.y, p.body.feet.z, p.yaw, p.pitch);
+    const PlayTime& played = world.resource<PlayTime>();
+    if (played.known) text += fmt::format("played {}\n", played.whole);
+    for (size_t i = 0; i < played.rooms.size(); ++i)
+        if (played.rooms[i] > 0) text += fmt::format("spent {} {}\n", i, played.rooms[i]);
     View<const Room>(world, {}).each([&](const Room& r) {
         if (r.solved) text += fmt::format("room {} {}\n", r.index, r.since);
     });

@@ -9,6 +9,7 @@
 #include "game/systems/flicker_lamps.h"
 #include "game/systems/grow_flowers.h"
 #include "game/systems/judge_rooms.h"
+#include "game/systems/keep_time.h"
 #include "game/systems/make_sounds.h"
 #include "game/systems/move_boxes.h"
 #include "game/systems/play_animations.h"
@@ -23,6 +24,7 @@ Schedule makeTickSchedule() {
     s.add("readProbes", render::readProbes);
     s.add("growFlowers", growFlowers);
     s.add("judgeRooms", judgeRooms);
+    s.add("keepTime", keepTime);
     s.add("wakeLanterns", wakeLanterns);
     s.add("lightFlames", lightFlames);
     s.add("openPetals", openPetals);

@@ -1,5 +1,7 @@
 #include "game/sounds.h"
 
+#include <array>
+
 namespace ag::game {
 namespace {
 
@@ -129,6 +131,32 @@ std::vector<Tone> gameTones() {
     std::vector<Tone> tones;
     for (uint32_t id = 0; id <= uint32_t(SoundId::kClick); ++id)
         tones.push_back(toneOf(SoundId(id)));
+    return tones;
+}
+
+// A hush and, hardly heard, notes of the room's own; what is of stone sounds low, what is open high.
+std::vector<Tone> roomTones() {
+    struct Air {
+        float hush;                  // Hz, above which it is damped
+        std::array<float, 2> notes;  // Hz
+        float share;                 // of the notes
+    };
+    static constexpr Air kRooms[] = {{220, {98.0f, 147.2f}, 0.10f},       // of the first light
+                                     {320, {196.0f, 246.9f}, 0.09f},      // of colours
+                                     {130, {65.4f, 98.2f}, 0.16f},        // of shadows
+                                     {160, {73.4f, 146.0f}, 0.12f},       // of moving paint
+                                     {260, {110.0f, 164.8f}, 0.10f},      // of mixing
+                                     {420, {100.0f, 300.0f}, 0.14f},      // of signs: mains hum
+                                     {110, {55.0f, 82.4f}, 0.12f},        // of the night
+                                     {700, {174.6f, 261.6f}, 0.05f},      // greenhouse
+                                     {1100, {2093.0f, 2105.0f}, 0.02f}};  // garden: wind, and a cricket
+    std::vector<Tone> tones;
+    for (const Air& air : kRooms)
+        tones.push_back({.seconds = 6,
+                         .peak = 0.16f,
+                         .partials = {{.frequency = air.hush, .gain = 8, .kind = PartialKind::kNoise},
+                                      {.frequency = air.notes[0], .gain = air.share},
+                                      {.frequency = air.notes[1], .gain = air.share * 0.6f}}});
     return tones;
 }
 

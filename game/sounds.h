@@ -21,6 +21,8 @@ enum class SoundId : uint32_t {
 
 // By SoundId.
 std::vector<Tone> gameTones();
+// What is heard in each room all the time, soft; by the room's index.
+std::vector<Tone> roomTones();
 
 struct SoundSettings {
     float volume = 0.7f;  // 0: no device is opened

@@ -10,7 +10,9 @@ void Speaker::open() {
     auto mixer = Mixer::open();
     if (mixer) {
         mixer_ = std::move(*mixer);
-        mixer_->load(gameTones());
+        const std::vector<Tone> rooms = roomTones();
+        rooms_ = uint32_t(rooms.size());
+        mixer_->load(gameTones(), rooms);
     } else if (!std::exchange(toldOf_, true)) {
         spdlog::info("no sound: {}", mixer.error().message);
     }
@@ -28,6 +30,12 @@ void Speaker::play(std::span<const Sound> sounds) {
     if (!mixer_) return;
     for (const Sound& sound : sounds)
         mixer_->play(sound);
+}
+
+void Speaker::standIn(int32_t room, float seconds) {
+    if (!mixer_) return;
+    mixer_->surroundWith(uint32_t(room) < rooms_ ? std::optional(uint32_t(room)) : std::nullopt);
+    mixer_->fade(seconds);
 }
 
 void Speaker::listenFrom(const CameraPose& eyes) {

@@ -12,12 +12,15 @@ class Speaker {
     void setVolume(float volume);
     void play(std::span<const Sound> sounds);
     void listenFrom(const CameraPose& eyes);
+    // The room's own sound, after so much time; -1: none.
+    void standIn(int32_t room, float seconds);
 
   private:
     void open();
 
     std::unique_ptr<Mixer> mixer_;  // null: silence
     float volume_ = 0;
+    uint32_t rooms_ = 0;   // that have a sound of their own
     bool toldOf_ = false;  // that there is no device
 };
 

@@ -27,6 +27,7 @@ struct Flag {
     bool UserSettings::*value;
 };
 constexpr Flag kFlags[] = {{"hints", &UserSettings::hints},
+                           {"subtitles", &UserSettings::subtitles},
                            {"invert_look", &UserSettings::invertLook},
                            {"fullscreen", &UserSettings::fullscreen}};
 

@@ -19,6 +19,7 @@ struct UserSettings {
     float roomsReached = 0;  // how many rooms may be started from the menu
     bool fullscreen = false;
     bool hints = true;
+    bool subtitles = false;  // of sounds
     bool invertLook = false;
 };
 
@@ -27,7 +28,9 @@ struct UserFiles {
     std::string save() const { return folder + "/save.txt"; }
     std::string keys() const { return folder + "/keys.txt"; }
     std::string settings() const { return folder + "/settings.txt"; }
+    std::string times() const { return folder + "/times.txt"; }
     std::string captures() const { return folder + "/captures"; }
+    std::string photos() const { return folder + "/photos"; }
 };
 
 // Makes the folder if it is not there.

@@ -21,8 +21,8 @@
 #include "game/demo_options.h"
 #include "game/hud.h"
 #include "game/menu.h"
-#include "game/save_game.h"
-#include "game/save_slot.h"
+#include "game/photo_mode.h"
+#include "game/playthrough.h"
 #include "game/speaker.h"
 
 namespace ag::game {
@@ -35,7 +35,12 @@ constexpr int kMostTicksPerFrame = 12;        // a slower frame slows the world 
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
 constexpr double kCpuBudgetMs = 80, kGpuBudgetMs = 13;  // of a frame's passes, where none is given
 constexpr const char* kGoal = "Flowers open in light that has bounced.\nLight the walls, not the flowers.";
-constexpr double kSaveSeconds = 60;  // between saves without an occasion
+constexpr auto kBenchmark = std::chrono::seconds(1);
+constexpr double kLongestStep = 0.1;  // s
+constexpr uint32_t kMessageFrames = 60;
+constexpr float kRestSeconds = 0.5f;  // of the photo mode's camera, before all pixels are rendered
+constexpr const char* kPhotoKeys =
+    "arrows: view, time of day   1-9: layers   Enter: save   H: hide   Esc: back";
 
 class WindowedRun {
   public:
@@ -52,14 +57,15 @@ class WindowedRun {
                                             : kGpuBudgetMs,
                   0),
           capture_(renderer_, renderDoc),
-          save_(demo.files.save()) {
-        renderer_.load(demo.game->level().geometry);
+          playing_(demo, renderer_) {
         describeSceneComponents();
-        menu_.hasSave = save_.exists();
+        report(playing_.openTimes());
+        menu_.hasSave = playing_.hasSave();
+        menu_.roomNotes = playing_.roomNotes();
         if (!demo.replay.ticks.empty() || demo.options.resume) play();
         usePlayerSettings();
         onProgramEnd([this] {
-            autosave();
+            playing_.autosave();
             if (const Status kept = finishRecording(demo_); !kept) spdlog::error("{}", kept.error().message);
         });
     }
@@ -76,6 +82,7 @@ class WindowedRun {
             last = now;
             frameMs_ += (elapsed * 1e3 - frameMs_) * 0.05;
             speaker_.setVolume(demo_.sound.volume);
+            speaker_.standIn(menu_.started ? demo_.game->progress().room : -1, float(elapsed));
             advance(elapsed);
             if (show())
                 adapt();
@@ -86,7 +93,7 @@ class WindowedRun {
                                                     std::chrono::duration<double>(kShortestFrame)));
         }
         renderer_.waitIdle();
-        autosave();
+        playing_.autosave();
         return saveScreenshot();
     }
 
@@ -95,30 +102,46 @@ class WindowedRun {
     void play() {
         menu_.open = false;
         menu_.started = true;
+        playing_.begin();
         window_.captureCursor(true);
     }
     void openMenu() {
         if (menu_.open) return;
-        menu_ = {.open = true, .started = menu_.started, .hasSave = menu_.hasSave};
+        playing_.autosave();
+        menu_ = {.open = true,
+                 .started = menu_.started,
+                 .hasSave = playing_.hasSave(),
+                 .roomNotes = playing_.roomNotes()};
         window_.captureCursor(false);
-        autosave();
     }
     void handleKeys() {
         obey(std::exchange(chosen_, MenuEvent::kNone));
-        for (const auto [key, control] : window_.takePressedKeys()) {
+        for (const auto& [code, control, pad] : window_.takePressedKeys()) {
+            const int key = pad && menu_.open && menu_.waitsForPad() ? pad : code;
             if (menu_.open) {
                 // The mouse chooses by clicking; as a key it only counts where one is asked for.
-                if (key < kMouseCode || menu_.waitsForKey) {
+                if (key && (key < kMouseCode || menu_.waitsForKey)) {
                     const Menu before = menu_;
                     const MenuEvent event = pressInMenu(menu_, key, demo_.user, demo_.keys);
                     clickIfAnswered(before, event);
                     obey(event);
                 }
+            } else if (photo_.on()) {
+                photoKey(key);
             } else if (key == GLFW_KEY_ESCAPE) {
                 openMenu();
             }
             debugKey(key);
         }
+    }
+    void photoKey(int key) {
+        if (key == GLFW_KEY_ESCAPE) photo_.leave(*demo_.game);
+        if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_F12) wantsPhoto_ = true;
+        photo_.press(*demo_.game, key);
+    }
+    void takePhotos() {
+        play();
+        photo_.enter(*demo_.game);
     }
     void clickIfAnswered(const Menu& before, MenuEvent event) {
         const Sound click = soundOf(SoundId::kClick);
@@ -137,6 +160,7 @@ class WindowedRun {
         if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
         if (key == GLFW_KEY_F4) panels_.showWorld = !panels_.showWorld;
         if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
+        if (key == GLFW_KEY_F8 && !menu_.open) photo_.on() ? photo_.leave(*demo_.game) : takePhotos();
         if (key == GLFW_KEY_F10) capture_.start(demo_.files.captures(), demo_.options.captureFrames);
         if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey)
@@ -151,13 +175,16 @@ class WindowedRun {
                 quit_ = true;
                 break;
             case MenuEvent::kNewGame:
-                startAnew();
+                start(&Playthrough::startAnew);
                 break;
             case MenuEvent::kContinue:
-                continueSaved();
+                start(&Playthrough::continueSaved);
                 break;
             case MenuEvent::kStartRoom:
                 startRoom();
+                break;
+            case MenuEvent::kPhotoMode:
+                takePhotos();
                 break;
             case MenuEvent::kSettingsChanged:
                 usePlayerSettings();
@@ -175,83 +202,38 @@ class WindowedRun {
     }
 
     // --- The game ---
-    bool reload() {
-        renderer_.waitIdle();
-        if (const Status loaded = loadLevel(demo_); !loaded) {
-            menu_.message = loaded.error().message;
-            return false;
-        }
-        renderer_.load(demo_.game->level().geometry);
-        demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
-        demo_.recorded.clear();
-        ticks_ = 0;
+    // The menu stays open, with the reason, where it cannot begin.
+    template <class... Args>
+    void start(Status (Playthrough::*how)(Args...), Args... args) {
+        photo_.leave(*demo_.game);
+        const Game* before = demo_.game.get();
         behind_ = 0;
-        solved_ = 0;
-        return true;
+        const Status started = (playing_.*how)(args...);
+        report(started);
+        if (started || demo_.game.get() != before) play();
     }
-    void startAnew() {
-        if ((menu_.started || ticks_ > 0) && !reload()) return;
-        report(save_.makeRoomForNewGame(*demo_.game));
-        play();
-    }
-    void startRoom() {
-        endRecording();
-        if (!reload() || !startAtRoom(*demo_.game, menu_.room)) return;
-        solved_ = demo_.game->progress().roomsSolved;
-        play();
-    }
-    // What starts elsewhere than the level does is no recording; what was recorded before it is kept.
-    void endRecording() {
-        if (demo_.options.record.empty()) return;
-        report(finishRecording(demo_));
-        spdlog::warn("a recording starts with the level: this one ends here");
-        demo_.options.record.clear();
-    }
-    // A save that cannot be read stays where it is, and so does the game under way.
-    void continueSaved() {
-        const auto text = readFile(save_.path());
-        if (!text) return report(text.error());
-        const Status good = checkSave(*demo_.game, *text, save_.path());
-        if (!good) return report(good);
-        endRecording();
-        if (!reload()) return;
-        report(restoreGame(*demo_.game, *text, save_.path()));
-        solved_ = demo_.game->progress().roomsSolved;
-        play();
-    }
-    void autosave() {
-        sinceSave_ = 0;
-        if (!menu_.started || !demo_.options.scene.empty() || !demo_.replay.ticks.empty()) return;
-        menu_.hasSave |= save_.save(*demo_.game);
-    }
+    void startRoom() { start(&Playthrough::startRoom, int32_t(menu_.room)); }
     void advance(double elapsed) {
         const Input held = takeInput(elapsed);
         if (menu_.open) {
             behind_ = 0;
             return;
         }
+        if (photo_.on()) {
+            behind_ = 0;
+            return photo_.move(*demo_.game, held, float(std::min(elapsed, kLongestStep)));
+        }
         behind_ = std::min(behind_ + elapsed, kMostTicksPerFrame * kTick);
         turned_ += held.look;
-        for (; behind_ >= kTick || ticks_ == 0; behind_ = std::max(behind_ - kTick, 0.0)) {
+        for (; behind_ >= kTick || playing_.isFresh(); behind_ = std::max(behind_ - kTick, 0.0)) {
             Input input = held;
             input.look =
                 std::exchange(turned_, glm::vec2(0));  // mouse movement counts once, and is never lost
-            demo_.game->tick(nextInput(demo_, ticks_++, input));
+            playing_.tick(input);
             capture_.noteSystems(demo_.game->tickSchedule());
             speaker_.play(demo_.game->sounds());
         }
-        sinceSave_ += elapsed;
-        noteRoomsReached();
-        const uint32_t solved = demo_.game->progress().roomsSolved;
-        if (solved != std::exchange(solved_, solved) || sinceSave_ > kSaveSeconds) autosave();
-    }
-    // Rooms one has been in can be started from the menu.
-    void noteRoomsReached() {
-        const float reached = float(demo_.game->progress().room + 1);
-        if (reached <= demo_.user.roomsReached || !demo_.options.scene.empty() || !demo_.replay.ticks.empty())
-            return;
-        demo_.user.roomsReached = reached;
-        report(saveUserSettings(demo_.user, demo_.files.settings()));
+        report(playing_.keep(elapsed));
     }
     Input takeInput(double elapsed) {
         Input input = window_.takeInput(demo_.keys, elapsed);
@@ -270,7 +252,30 @@ class WindowedRun {
     const render::QualityStep& quality() const { return render::qualitySteps()[budget_.step()]; }
     void adapt() {
         const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
-        if (automatic() && !menu_.open && budget_.frame(cost)) usePlayerSettings();
+        if (!automatic() || photo_.on() || (menu_.open && !isMeasuring_)) return;
+        bool moved = budget_.frame(cost);
+        if (isMeasuring_ && budget_.hasMeasured() && Clock::now() - start_ > kBenchmark) {
+            isMeasuring_ = false;
+            moved = budget_.chooseAtOnce() || moved;
+            spdlog::info("quality {}: the first second's frames took {:.0f} ms, {:.0f} ms are wanted",
+                         quality().name, cost, budget_.budgetMs());
+        }
+        if (moved) usePlayerSettings();
+    }
+    // The first second tells what the device can do: nothing is skipped in it.
+    FrameGraphOptions graphOptions() const {
+        FrameGraphOptions graph = demo_.graph;
+        graph.skip = graph.skip && !(isMeasuring_ && automatic());
+        return capture_.options(graph);
+    }
+    // In photo mode the world stands still, so that rays pay; pixels are as many as shown once the camera
+    // rests.
+    render::RenderSettings settings() const {
+        render::RenderSettings s = shownSettings(demo_);
+        if (!photo_.on()) return s;
+        s.bounce.texelRays.enabled = true;
+        if (photo_.rested() > kRestSeconds) s.antialiasing.scale = 1;
+        return s;
     }
     // False while there is nothing to show on (minimised).
     bool show() {
@@ -282,12 +287,16 @@ class WindowedRun {
         speaker_.listenFrom(demo_.game->world().resource<ActiveCamera>().pose);
         drawUi();
         renderer_.render(
-            demo_.game->scene(), size, shownSettings(demo_), capture_.options(demo_.graph),
+            demo_.game->scene(), size, settings(), graphOptions(),
             [&](GraphScope scope, const render::SceneView& view, const render::RenderFrame& frame) {
                 shown_ = demo_.layer ? render::addLayerView(scope, view, frame, *demo_.layer, size,
                                                             demo_.gi.composite)
                                      : frame.outputs.display;
                 scope.output(shown_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+                light_ = wantsPhoto_ ? render::addLayer(scope, view, frame,
+                                                        demo_.layer.value_or(render::Layer::kRadiance))
+                                     : ImageHandle{};
+                if (light_) scope.output(light_);
                 capture_.declare(scope, frame);
             },
             {.record =
@@ -297,10 +306,24 @@ class WindowedRun {
                  },
              .wait = image->acquired,
              .signal = image->rendered});
-        demo_.game->takeReadings(renderer_.probeReadings());
+        // Readings are of some frames ago: none of the photo mode's reach the game.
+        sincePhoto_ = photo_.on() ? 0 : sincePhoto_ + 1;
+        if (sincePhoto_ > kFramesInFlight) demo_.game->takeReadings(renderer_.probeReadings());
         swapchain_.present(*image);
+        if (std::exchange(wantsPhoto_, false)) savePhoto();
         if (capture_.recording()) capture_.note(subject(size));
         return true;
+    }
+    // What is shown, without what is written over it, and its light: W/(m² sr), or the layer's own unit.
+    void savePhoto() {
+        const std::string stem = nextPhoto(demo_.files.photos());
+        renderer_.waitIdle();
+        Status saved = openFolder({demo_.files.photos()});
+        if (saved) saved = saveImage(render::readImage(renderer_, shown_), stem + ".png");
+        if (saved && light_) saved = saveImage(render::readImage(renderer_, light_), stem + ".exr");
+        message_ =
+            saved ? fmt::format("saved {}.png{}", stem, light_ ? " and .exr" : "") : saved.error().message;
+        messageFrames_ = kMessageFrames;
     }
     capture::Subject subject(glm::uvec2 size) {
         return {.scene = demo_.game->scene(),
@@ -313,20 +336,30 @@ class WindowedRun {
     }
     void drawUi() {
         MenuEvent event = MenuEvent::kNone;
-        const RenderScene& scene = demo_.game->scene();
-        const std::string captured = capture_.message();
+        std::string message = capture_.message();
+        if (message.empty() && messageFrames_ > 0 && messageFrames_--) message = message_;
         const Menu before = menu_;
         ui_.build(panels_, window_.pointer(), demo_.settings, renderer_.graph(), demo_.game->world(),
                   statusLine(), [&] {
-                      drawMessage(captured);
-                      if (!menu_.open)
-                          drawHud(readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints),
-                                  glm::vec2(window_.framebufferSize()),
-                                  {scene.camera.clipFromWorld, scene.originWorld});
+                      drawMessage(message);
+                      if (!menu_.open) photo_.on() ? drawPhoto() : drawGame();
                       if (menu_.open) event = drawMenu(menu_, demo_.user, demo_.keys, kGoal, keysLine());
                   });
         clickIfAnswered(before, event);
         chosen_ = event;  // obeyed before the next frame: this one is under way
+    }
+    void drawGame() {
+        const RenderScene& scene = demo_.game->scene();
+        HudState hud = readHud(demo_.game->world(), demo_.game->hints(), demo_.user.hints);
+        hud.notice = playing_.notice();
+        hud.heard = playing_.heard();
+        drawHud(hud, glm::vec2(window_.framebufferSize()), {scene.camera.clipFromWorld, scene.originWorld});
+    }
+    void drawPhoto() {
+        if (!photo_.showsLines()) return;
+        const std::string layer = demo_.layer ? std::string(render::layerInfo(*demo_.layer).name) : "";
+        drawPhotoLines(photo_.lines(*demo_.game, renderer_.probeReadings(), layer), kPhotoKeys,
+                       glm::vec2(window_.framebufferSize()));
     }
     std::string keysLine() const {
         const auto key = [&](Action a) { return spokenName(demo_.keys.codes[size_t(a)]); };
@@ -369,13 +402,19 @@ class WindowedRun {
     DebugUiState panels_;
     Menu menu_;
     MenuEvent chosen_ = MenuEvent::kNone;
-    SaveSlot save_;
-    ImageHandle shown_;
+    Playthrough playing_;
+    PhotoMode photo_;
+    ImageHandle shown_, light_;  // light_: of a photo
+    bool wantsPhoto_ = false;
+    uint32_t sincePhoto_ = kFramesInFlight;  // frames
+    std::string message_;
+    uint32_t messageFrames_ = 0;
+    bool isMeasuring_ = true;  // what the device can do
+    Clock::time_point start_ = Clock::now();
     glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels
-    double behind_ = 0, frameMs_ = 16, sinceSave_ = 0;
-    uint32_t solved_ = 0;
+    double behind_ = 0, frameMs_ = 16;
     bool fullscreen_ = false, quit_ = false;
-    uint64_t ticks_ = 0, drawn_ = 0;
+    uint64_t drawn_ = 0;
 };
 
 }  // namespace

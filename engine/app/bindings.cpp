@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <sstream>
 #include <vector>
 
@@ -37,12 +38,62 @@ constexpr Named kNamed[] = {{"Space", GLFW_KEY_SPACE},
                             {"MouseLeft", kMouseCode + GLFW_MOUSE_BUTTON_LEFT},
                             {"MouseRight", kMouseCode + GLFW_MOUSE_BUTTON_RIGHT},
                             {"MouseMiddle", kMouseCode + GLFW_MOUSE_BUTTON_MIDDLE}};
+// Start opens the menu.
+constexpr Named kPadNamed[] = {{"PadA", kPadCode + GLFW_GAMEPAD_BUTTON_A},
+                               {"PadB", kPadCode + GLFW_GAMEPAD_BUTTON_B},
+                               {"PadX", kPadCode + GLFW_GAMEPAD_BUTTON_X},
+                               {"PadY", kPadCode + GLFW_GAMEPAD_BUTTON_Y},
+                               {"PadLeftBumper", kPadCode + GLFW_GAMEPAD_BUTTON_LEFT_BUMPER},
+                               {"PadRightBumper", kPadCode + GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER},
+                               {"PadLeftTrigger", kPadTriggerCode},
+                               {"PadRightTrigger", kPadTriggerCode + 1},
+                               {"PadLeftStick", kPadCode + GLFW_GAMEPAD_BUTTON_LEFT_THUMB},
+                               {"PadRightStick", kPadCode + GLFW_GAMEPAD_BUTTON_RIGHT_THUMB},
+                               {"PadBack", kPadCode + GLFW_GAMEPAD_BUTTON_BACK},
+                               {"PadUp", kPadCode + GLFW_GAMEPAD_BUTTON_DPAD_UP},
+                               {"PadDown", kPadCode + GLFW_GAMEPAD_BUTTON_DPAD_DOWN},
+                               {"PadLeft", kPadCode + GLFW_GAMEPAD_BUTTON_DPAD_LEFT},
+                               {"PadRight", kPadCode + GLFW_GAMEPAD_BUTTON_DPAD_RIGHT}};
+constexpr std::string_view kPadPrefix = "pad_";
+
+// "" and 0 for what is not in the table.
+std::string nameIn(std::span<const Named> table, int code) {
+    const auto found = std::ranges::find(table, code, &Named::code);
+    return found == table.end() ? "" : found->name;
+}
+int codeIn(std::span<const Named> table, std::string_view name) {
+    for (const Named& named : table)
+        if (name == named.name) return named.code;
+    return 0;
+}
+
+std::string listOf(std::span<const Named> table) {
+    std::string text;
+    for (const Named& named : table)
+        text += fmt::format(" {}", named.name);
+    return text;
+}
+
+struct Bound {  // what a word of the file names
+    int* code = nullptr;
+    bool pad = false;
+};
+Bound boundBy(Bindings& bindings, std::string_view word) {
+    const bool pad = word.starts_with(kPadPrefix);
+    if (pad) word.remove_prefix(kPadPrefix.size());
+    const size_t action = size_t(std::ranges::find(kActions, word) - kActions.begin());
+    const size_t first = pad ? size_t(kFirstPadAction) : 0;
+    if (action == kActionCount || action < first) return {};
+    return {pad ? &bindings.pad[action - first] : &bindings.codes[action], pad};
+}
 
 }  // namespace
 
 Bindings::Bindings()
     : codes{GLFW_KEY_W,     GLFW_KEY_S,          GLFW_KEY_A, GLFW_KEY_D,
-            GLFW_KEY_SPACE, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_E, kMouseCode + GLFW_MOUSE_BUTTON_LEFT} {}
+            GLFW_KEY_SPACE, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_E, kMouseCode + GLFW_MOUSE_BUTTON_LEFT},
+      pad{kPadCode + GLFW_GAMEPAD_BUTTON_A, kPadCode + GLFW_GAMEPAD_BUTTON_B,
+          kPadCode + GLFW_GAMEPAD_BUTTON_X, kPadCode + GLFW_GAMEPAD_BUTTON_LEFT_BUMPER} {}
 
 std::string_view actionName(Action action) {
     return kActions[size_t(action)];
@@ -52,8 +103,7 @@ std::string codeName(int code) {
     const bool letter = code >= GLFW_KEY_A && code <= GLFW_KEY_Z,
                digit = code >= GLFW_KEY_0 && code <= GLFW_KEY_9;
     if (letter || digit) return std::string(1, char(code));
-    const auto found = std::ranges::find(kNamed, code, &Named::code);
-    return found == std::end(kNamed) ? "" : found->name;
+    return nameIn(code < kPadCode ? std::span<const Named>(kNamed) : std::span<const Named>(kPadNamed), code);
 }
 
 std::string spokenName(int code) {
@@ -69,9 +119,11 @@ std::string spokenName(int code) {
 int codeFromName(std::string_view name) {
     if (name.size() == 1 && ((name[0] >= 'A' && name[0] <= 'Z') || (name[0] >= '0' && name[0] <= '9')))
         return name[0];
-    for (const Named& named : kNamed)
-        if (name == named.name) return named.code;
-    return 0;
+    return codeIn(kNamed, name);
+}
+
+int padCodeFromName(std::string_view name) {
+    return codeIn(kPadNamed, name);
 }
 
 Result<Bindings> parseBindings(const std::string& text, const std::string& path) {
@@ -83,14 +135,14 @@ Result<Bindings> parseBindings(const std::string& text, const std::string& path)
         std::istringstream words(line);
         std::string action, key, more;
         words >> action >> key;
-        const auto found = std::ranges::find(kActions, std::string_view(action));
-        if (found == kActions.end())
+        const Bound bound = boundBy(bindings, action);
+        if (!bound.code)
             return Error{fmt::format("{}: line {}: there is no action '{}'", path, number, action)};
-        const int code = codeFromName(key);
+        const int code = bound.pad ? padCodeFromName(key) : codeFromName(key);
         if (code == 0 || words >> more)
-            return Error{
-                fmt::format("{}: line {}: '{}' is not a key", path, number, line.substr(action.size()))};
-        bindings.codes[size_t(found - kActions.begin())] = code;
+            return Error{fmt::format("{}: line {}: '{}' is not a {}", path, number,
+                                     line.substr(action.size()), bound.pad ? "gamepad's button" : "key")};
+        *bound.code = code;
     }
     return bindings;
 }
@@ -102,12 +154,13 @@ Result<Bindings> loadBindings(const std::string& path) {
 }
 
 Status saveBindings(const Bindings& bindings, const std::string& path) {
-    std::string text = "# action key; a key is A-Z, 0-9 or one of:";
-    for (const Named& named : kNamed)
-        text += fmt::format(" {}", named.name);
-    text += '\n';
+    std::string text = fmt::format("# action key; a key is A-Z, 0-9 or one of:{}\n", listOf(kNamed));
     for (size_t i = 0; i < kActionCount; ++i)
         text += fmt::format("{} {}\n", kActions[i], codeName(bindings.codes[i]));
+    text += fmt::format("# action button; a gamepad's button is one of:{}\n", listOf(kPadNamed));
+    for (size_t i = 0; i < kPadActionCount; ++i)
+        text += fmt::format("{}{} {}\n", kPadPrefix, kActions[size_t(kFirstPadAction) + i],
+                            codeName(bindings.pad[i]));
     return writeFileSafely(path, text);
 }
 

@@ -1,4 +1,5 @@
-// Which key does what, as a file of lines like "forward W".
+// Which key does what, and which button of a gamepad, as a file of lines like "forward W" and "pad_jump
+// PadA".
 #pragma once
 
 #include <array>
@@ -12,12 +13,20 @@ namespace ag {
 enum class Action : uint32_t { kForward, kBack, kLeft, kRight, kJump, kCrouch, kUse, kLamp, kCount };
 constexpr size_t kActionCount = size_t(Action::kCount);
 
+// A gamepad has buttons for these; its sticks walk and look.
+constexpr Action kFirstPadAction = Action::kJump;
+constexpr size_t kPadActionCount = kActionCount - size_t(kFirstPadAction);
+
 // GLFW's number of a key, or kMouseCode plus that of a mouse button.
 constexpr int kMouseCode = 1000;
+// kPadCode plus GLFW's number of a gamepad's button, or kPadTriggerCode plus 0 for its left trigger and 1 for
+// its right one.
+constexpr int kPadCode = 2000, kPadTriggerCode = kPadCode + 100;
 
 struct Bindings {
     std::array<int, kActionCount> codes;
-    Bindings();  // WASD, space, left shift, E, left mouse button
+    std::array<int, kPadActionCount> pad;  // of kFirstPadAction and those after it
+    Bindings();  // WASD, space, left shift, E, left mouse button; A, B, X and the left bumper
     bool operator==(const Bindings&) const = default;
 };
 
@@ -26,6 +35,7 @@ std::string codeName(int code);    // "" for codes that cannot be bound
 std::string spokenName(int code);  // codeName in words: "Left Shift"
 // 0: there is no such key.
 int codeFromName(std::string_view name);
+int padCodeFromName(std::string_view name);
 
 Result<Bindings> parseBindings(const std::string& text, const std::string& path);
 Result<Bindings> loadBindings(const std::string& path);

@@ -11,8 +11,9 @@
 namespace ag {
 
 struct KeyPress {
-    int code = 0;  // of Bindings
+    int code = 0;  // of Bindings; 0: a gamepad's button that does nothing by itself
     bool control = false;
+    int pad = 0;  // the code of a gamepad's button; `code` is then the key it stands for in menus
 };
 
 struct Pointer {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace ag {
 namespace {
@@ -21,6 +20,30 @@ std::string lastError() {
     const char* text = nullptr;
     glfwGetError(&text);
     return text ? text : "unknown reason";
+}
+
+// The key that a gamepad's button stands for in menus.
+int menuKeyOf(int padCode) {
+    static constexpr std::pair<int, int> kKeys[] = {
+        {GLFW_GAMEPAD_BUTTON_START, GLFW_KEY_ESCAPE},     {GLFW_GAMEPAD_BUTTON_DPAD_UP, GLFW_KEY_UP},
+        {GLFW_GAMEPAD_BUTTON_DPAD_DOWN, GLFW_KEY_DOWN},   {GLFW_GAMEPAD_BUTTON_DPAD_LEFT, GLFW_KEY_LEFT},
+        {GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, GLFW_KEY_RIGHT}, {GLFW_GAMEPAD_BUTTON_A, GLFW_KEY_ENTER}};
+    for (const auto& [button, key] : kKeys)
+        if (padCode == kPadCode + button) return key;
+    return 0;
+}
+
+uint32_t buttonOf(Action action) {
+    switch (action) {
+        case Action::kLamp:
+            return kButtonLamp;
+        case Action::kJump:
+            return kButtonJump;
+        case Action::kCrouch:
+            return kButtonCrouch;
+        default:
+            return kButtonUse;
+    }
 }
 
 float stick(float value) {
@@ -45,8 +68,24 @@ GLFWmonitor* monitorOf(glm::ivec4 window) {
     return count > 0 ? monitors[0] : nullptr;
 }
 
+constexpr float kPressed = 0.3f;  // of a trigger, from -1 to 1
+constexpr int kPadButtons = GLFW_GAMEPAD_BUTTON_LAST + 1;
+
+// A bit a button, then one for each trigger.
+uint32_t heldOn(const GLFWgamepadstate& pad) {
+    uint32_t held = 0;
+    for (int i = 0; i < kPadButtons; ++i)
+        held |= uint32_t(pad.buttons[i] != 0) << i;
+    held |= uint32_t(pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER] > kPressed) << kPadButtons;
+    held |= uint32_t(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] > kPressed) << (kPadButtons + 1);
+    return held;
+}
+int bitOf(int padCode) {
+    return padCode >= kPadTriggerCode ? kPadButtons + padCode - kPadTriggerCode : padCode - kPadCode;
+}
+
 // The first gamepad, if it is one of those GLFW knows.
-void addPad(Input& input, double seconds) {
+void addPad(Input& input, const Bindings& bindings, double seconds) {
     constexpr float kLookSpeed = 750;  // pixels a second at full tilt
     GLFWgamepadstate pad;
     if (!glfwGetGamepadState(GLFW_JOYSTICK_1, &pad)) return;
@@ -55,11 +94,10 @@ void addPad(Input& input, double seconds) {
     input.look +=
         glm::vec2(stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]), stick(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y])) *
         (kLookSpeed * float(seconds));
-    for (const auto& [button, bit] : {std::pair(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, kButtonLamp),
-                                      {GLFW_GAMEPAD_BUTTON_A, kButtonJump},
-                                      {GLFW_GAMEPAD_BUTTON_B, kButtonCrouch},
-                                      {GLFW_GAMEPAD_BUTTON_X, kButtonUse}})
-        if (pad.buttons[button]) input.buttons |= bit;
+    const uint32_t held = heldOn(pad);
+    for (size_t i = 0; i < kPadActionCount; ++i)
+        if (held >> bitOf(bindings.pad[i]) & 1)
+            input.buttons |= buttonOf(Action(size_t(kFirstPadAction) + i));
 }
 
 }  // namespace
@@ -160,29 +198,21 @@ Input Window::takeInput(const Bindings& bindings, double seconds) {
         input.forward = float(held(Action::kForward)) - float(held(Action::kBack));
         input.right = float(held(Action::kRight)) - float(held(Action::kLeft));
         input.look = moved_;
-        for (const auto& [action, button] : {std::pair(Action::kLamp, kButtonLamp),
-                                             {Action::kJump, kButtonJump},
-                                             {Action::kCrouch, kButtonCrouch},
-                                             {Action::kUse, kButtonUse}})
-            if (held(action)) input.buttons |= button;
-        addPad(input, seconds);
+        for (const Action action : {Action::kLamp, Action::kJump, Action::kCrouch, Action::kUse})
+            if (held(action)) input.buttons |= buttonOf(action);
+        addPad(input, bindings, seconds);
     }
     moved_ = {};
     return input;
 }
 
 void Window::notePadPresses() {
-    static constexpr std::pair<int, int> kKeys[] = {
-        {GLFW_GAMEPAD_BUTTON_START, GLFW_KEY_ESCAPE},     {GLFW_GAMEPAD_BUTTON_DPAD_UP, GLFW_KEY_UP},
-        {GLFW_GAMEPAD_BUTTON_DPAD_DOWN, GLFW_KEY_DOWN},   {GLFW_GAMEPAD_BUTTON_DPAD_LEFT, GLFW_KEY_LEFT},
-        {GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, GLFW_KEY_RIGHT}, {GLFW_GAMEPAD_BUTTON_A, GLFW_KEY_ENTER}};
     GLFWgamepadstate pad;
-    uint32_t now = 0;
-    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &pad))
-        for (size_t i = 0; i < std::size(kKeys); ++i)
-            if (pad.buttons[kKeys[i].first]) now |= 1u << i;
-    for (size_t i = 0; i < std::size(kKeys); ++i)
-        if ((now & ~padBefore_) >> i & 1) events_.key({kKeys[i].second});
+    const uint32_t now = glfwGetGamepadState(GLFW_JOYSTICK_1, &pad) ? heldOn(pad) : 0;
+    for (int i = 0; i < kPadButtons + 2; ++i) {
+        const int code = i < kPadButtons ? kPadCode + i : kPadTriggerCode + i - kPadButtons;
+        if ((now & ~padBefore_) >> i & 1) events_.key({.code = menuKeyOf(code), .pad = code});
+    }
     padBefore_ = now;
 }
 

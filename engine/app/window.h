@@ -41,8 +41,8 @@ class Window {
     // What is held down and mouse movement since the last call, and the first gamepad; `seconds` since then
     // turn its stick into movement. Nothing while the cursor is free.
     Input takeInput(const Bindings& bindings, double seconds);
-    // Keys and mouse buttons pressed since the last call; a gamepad's start, cross and south buttons count as
-    // escape, arrows and enter.
+    // Keys, mouse and gamepad buttons pressed since the last call; a gamepad's start, cross and south buttons
+    // count as escape, arrows and enter.
     std::vector<KeyPress> takePressedKeys() { return events_.takeKeys(); }
     const Pointer& pointer() const { return events_.pointer(); }
     // Whether the window was left for another since the last call.
@@ -62,7 +62,7 @@ class Window {
     glm::vec2 moved_{0};
     InputEvents events_;
     bool focusLost_ = false;
-    uint32_t padBefore_ = 0;  // bits of the gamepad's buttons at the last look
+    uint32_t padBefore_ = 0;  // bits of the gamepad's buttons and triggers at the last look
 };
 
 }  // namespace ag

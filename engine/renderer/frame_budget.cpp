@@ -202,9 +202,17 @@ bool BudgetController::frame(double costMs) {
     learn(lowerThirdOf(std::span(recent_).first(std::min<size_t>(count, recent_.size()))));
     if (costs_[step_] > kTooLong * budgetMs_)
         return moveTo(std::min(bestWithin(kNewStep * budgetMs_, kNewStep * budgetMs_), step_));
-    const size_t best = bestWithin(kNewStep * budgetMs_, kKnownStep * budgetMs_);
-    promising_ = best > step_ ? promising_ + 1 : 0;
-    return promising_ >= kPatience && moveTo(best);
+    const size_t better = best();
+    promising_ = better > step_ ? promising_ + 1 : 0;
+    return promising_ >= kPatience && moveTo(better);
+}
+
+size_t BudgetController::best() const {
+    return bestWithin(kNewStep * budgetMs_, kKnownStep * budgetMs_);
+}
+
+bool BudgetController::chooseAtOnce() {
+    return hasMeasured() && moveTo(best());
 }
 
 }  // namespace ag::render

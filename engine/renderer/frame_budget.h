@@ -58,12 +58,17 @@ class BudgetController {
 
     // After each frame, with its cost in ms (0: not known). True if the step changed.
     bool frame(double costMs);
+    // The best step by what frames so far took, without waiting whether it stays so: a program's start.
+    // Nothing and false before enough of them.
+    bool chooseAtOnce();
+    bool hasMeasured() const { return measured_[step_]; }
     size_t step() const { return step_; }
     double budgetMs() const { return budgetMs_; }
 
   private:
     double expected(size_t step) const;
     size_t bestWithin(double newMs, double knownMs) const;
+    size_t best() const;
     void learn(double ms);
     bool moveTo(size_t step);
 

@@ -24,6 +24,12 @@ struct Voice {
     glm::dvec3 position{0};
 };
 
+struct Surrounding {  // a loop that comes or goes
+    ALuint source = 0;
+    float gain = 0;  // now
+    bool wanted = false;
+};
+
 bool isPlaying(const Voice& voice) {
     ALint state = AL_STOPPED;
     alGetSourcei(voice.source, AL_SOURCE_STATE, &state);
@@ -35,6 +41,17 @@ std::vector<ALshort> toShorts(const std::vector<float>& samples) {
     std::ranges::transform(samples, out.begin(),
                            [](float s) { return ALshort(std::lround(std::clamp(s, -1.0f, 1.0f) * 32767)); });
     return out;
+}
+
+std::vector<ALuint> makeBuffers(std::span<const Tone> tones, std::vector<float> (*render)(const Tone&)) {
+    std::vector<ALuint> buffers(tones.size());
+    alGenBuffers(ALsizei(tones.size()), buffers.data());
+    for (size_t i = 0; i < tones.size(); ++i) {
+        const std::vector<ALshort> samples = toShorts(render(tones[i]));
+        alBufferData(buffers[i], AL_FORMAT_MONO16, samples.data(), ALsizei(samples.size() * sizeof(ALshort)),
+                     ALsizei(kToneRate));
+    }
+    return buffers;
 }
 
 template <class F>
@@ -49,13 +66,18 @@ struct Mixer::Impl {
     ALCcontext* context = nullptr;
     std::array<Voice, kVoices> voices;
     std::vector<ALuint> buffers;
+    std::vector<Surrounding> surroundings;  // by loop
+    std::vector<ALuint> loops;
     glm::dvec3 ear{0};
 
     ~Impl() {
         if (context) {
             for (const Voice& voice : voices)
                 alDeleteSources(1, &voice.source);
+            for (const Surrounding& surrounding : surroundings)
+                alDeleteSources(1, &surrounding.source);
             alDeleteBuffers(ALsizei(buffers.size()), buffers.data());
+            alDeleteBuffers(ALsizei(loops.size()), loops.data());
             alcMakeContextCurrent(nullptr);
             alcDestroyContext(context);
         }
@@ -117,14 +139,33 @@ Result<std::unique_ptr<Mixer>> Mixer::openToMemory() {
     return std::unique_ptr<Mixer>(new Mixer(std::move(impl)));
 }
 
-void Mixer::load(std::span<const Tone> tones) {
+void Mixer::load(std::span<const Tone> tones, std::span<const Tone> loops) {
     AG_CHECK_MSG(impl_->buffers.empty(), "tones are loaded once");
-    impl_->buffers.resize(tones.size());
-    alGenBuffers(ALsizei(tones.size()), impl_->buffers.data());
-    for (size_t i = 0; i < tones.size(); ++i) {
-        const std::vector<ALshort> samples = toShorts(renderTone(tones[i]));
-        alBufferData(impl_->buffers[i], AL_FORMAT_MONO16, samples.data(),
-                     ALsizei(samples.size() * sizeof(ALshort)), ALsizei(kToneRate));
+    impl_->buffers = makeBuffers(tones, renderTone);
+    impl_->loops = makeBuffers(loops, renderLoop);
+    impl_->surroundings.resize(loops.size());
+    for (size_t i = 0; i < loops.size(); ++i) {
+        ALuint& source = impl_->surroundings[i].source;
+        alGenSources(1, &source);
+        alSourcei(source, AL_BUFFER, ALint(impl_->loops[i]));
+        alSourcei(source, AL_LOOPING, AL_TRUE);
+        alSourcei(source, AL_SOURCE_RELATIVE, AL_TRUE);
+    }
+}
+
+void Mixer::surroundWith(std::optional<uint32_t> loop) {
+    for (size_t i = 0; i < impl_->surroundings.size(); ++i)
+        impl_->surroundings[i].wanted = loop == i;
+}
+
+void Mixer::fade(float seconds) {
+    for (Surrounding& s : impl_->surroundings) {
+        const float before = s.gain, step = seconds / kFadeSeconds;
+        s.gain = std::clamp(s.gain + (s.wanted ? step : -step), 0.0f, 1.0f);
+        if (s.gain == before) continue;
+        alSourcef(s.source, AL_GAIN, s.gain);
+        if (before == 0) alSourcePlay(s.source);
+        if (s.gain == 0) alSourceStop(s.source);
     }
 }
 

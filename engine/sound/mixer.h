@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "engine/core/result.h"
@@ -31,8 +32,15 @@ class Mixer {
     Mixer(const Mixer&) = delete;
     Mixer& operator=(const Mixer&) = delete;
 
-    void load(std::span<const Tone> tones);  // once
+    // Once; `loops` are those of surroundings.
+    void load(std::span<const Tone> tones, std::span<const Tone> loops = {});
     void play(const Sound& sound);
+    // What is heard all the time, from everywhere: fades over to it in `kFadeSeconds`, from whatever it was.
+    // Nothing: to silence.
+    void surroundWith(std::optional<uint32_t> loop);
+    void fade(float seconds);  // so much time has passed
+    static constexpr float kFadeSeconds = 2.5f;
+
     void listenAt(glm::dvec3 position, glm::vec3 forward);  // the head is upright
     void setVolume(float gain);                             // 0 to 1, of everything
     uint32_t voicesPlaying() const;

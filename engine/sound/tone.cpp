@@ -50,22 +50,60 @@ void addPartial(std::vector<float>& samples, const Partial& p) {
     }
 }
 
+void scaleToPeak(std::vector<float>& samples, float peak) {
+    float most = 0;
+    for (const float sample : samples)
+        most = std::max(most, std::abs(sample));
+    for (float& sample : samples)
+        sample *= most > 0 ? peak / most : 0;
+}
+
+void addSteadySine(std::vector<float>& samples, const Partial& p) {
+    const auto length = double(samples.size());
+    const double periods = std::max(std::round(double(p.frequency) * length * kStep), 1.0);
+    for (size_t i = 0; i < samples.size(); ++i)
+        samples[i] += p.gain * float(std::sin(kTau * periods * double(i) / length));
+}
+
+// What follows the end is mixed into the beginning: both are noise, so that their powers add up to one.
+void addSteadyNoise(std::vector<float>& samples, const Partial& p) {
+    const size_t overlap = samples.size() / 4;
+    SoftNoise noise;
+    for (size_t i = 0; i < overlap; ++i)
+        noise.next(double(p.frequency));  // it starts from silence
+    std::vector<float> wave(samples.size() + overlap);
+    for (float& sample : wave)
+        sample = noise.next(double(p.frequency));
+    for (size_t i = 0; i < overlap; ++i) {
+        const float t = float(kTau / 4) * float(i) / float(overlap);
+        wave[i] = std::sin(t) * wave[i] + std::cos(t) * wave[samples.size() + i];
+    }
+    for (size_t i = 0; i < samples.size(); ++i)
+        samples[i] += p.gain * wave[i];
+}
+
 }  // namespace
+
+std::vector<float> renderLoop(const Tone& tone) {
+    AG_CHECK_MSG(tone.seconds > 2 * kFade && tone.peak <= 1, "a tone has a length and a bounded peak");
+    std::vector<float> samples(size_t(tone.seconds * float(kToneRate)));
+    for (const Partial& partial : tone.partials)
+        partial.kind == PartialKind::kNoise ? addSteadyNoise(samples, partial)
+                                            : addSteadySine(samples, partial);
+    scaleToPeak(samples, tone.peak);
+    return samples;
+}
 
 std::vector<float> renderTone(const Tone& tone) {
     AG_CHECK_MSG(tone.seconds > 2 * kFade && tone.peak <= 1, "a tone has a length and a bounded peak");
     std::vector<float> samples(size_t(tone.seconds * float(kToneRate)));
     for (const Partial& partial : tone.partials)
         addPartial(samples, partial);
-    float most = 0;
     for (size_t i = 0; i < samples.size(); ++i) {
         const auto left = float(samples.size() - 1 - i) / float(kToneRate);
         if (left < kFade) samples[i] *= eased(left / kFade);
-        most = std::max(most, std::abs(samples[i]));
     }
-    if (most > 0)
-        for (float& sample : samples)
-            sample *= tone.peak / most;
+    scaleToPeak(samples, tone.peak);
     return samples;
 }
 

@@ -29,5 +29,8 @@ struct Tone {
 
 // One channel, -1 to 1. The same tone gives the same samples.
 std::vector<float> renderTone(const Tone& tone);
+// The same without an end: after its last sample comes its first. Partials sound as at full strength all the
+// time; sines are tuned to whole periods, noise fades over into its own beginning.
+std::vector<float> renderLoop(const Tone& tone);
 
 }  // namespace ag

@@ -11,8 +11,9 @@ void showSky(View<const Room> rooms, Res<const Progress> progress, Res<const Lev
         any = true;
         seen = seen || (room.openToSky && std::abs(room.index - progress->room) <= 1);
     });
-    if (any && progress->room < 0) return;  // between rooms it stays as it is
-    scene->sky = seen || !any ? level->sky : nullptr;
+    const bool everywhere = level->everywhere || !any;
+    if (!everywhere && progress->room < 0) return;  // between rooms it stays as it is
+    scene->sky = everywhere || seen ? level->sky : nullptr;
 }
 
 }  // namespace ag::game

@@ -13,6 +13,7 @@ namespace ag::game {
 // Resource
 struct LevelSky {
     std::shared_ptr<const Sky> sky;  // null: the level has none
+    bool everywhere = false;         // wherever the player is
 };
 
 void showSky(View<const Room> rooms, Res<const Progress> progress, Res<const LevelSky> level,

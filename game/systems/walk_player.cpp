@@ -71,7 +71,12 @@ void aimLamp(View<LocalTransform, HandLamp> lamps, Res<const Input> input, Res<c
     });
 }
 
-void followPlayer(Res<const Player> player, Res<const Physics> physics, Res<ActiveCamera> camera) {
+void followPlayer(Res<const Player> player, Res<const Physics> physics, Res<const FreeEyes> eyes,
+                  Res<ActiveCamera> camera) {
+    if (eyes->open) {
+        camera->pose = eyes->pose;
+        return;
+    }
     camera->pose.position = physics->share >= 1
                                 ? player->position
                                 : glm::mix(player->before, player->position, double(physics->share));

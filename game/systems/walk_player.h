@@ -14,7 +14,8 @@ void walkPlayer(Res<const Input> input, Res<const GameTime> time, Res<Physics> p
 void aimLamp(View<LocalTransform, HandLamp> lamps, Res<const Input> input, Res<const GameTime> time,
              Res<const Physics> physics, Res<const Player> player);
 // Between the ticks.
-void followPlayer(Res<const Player> player, Res<const Physics> physics, Res<ActiveCamera> camera);
+void followPlayer(Res<const Player> player, Res<const Physics> physics, Res<const FreeEyes> eyes,
+                  Res<ActiveCamera> camera);
 
 glm::vec3 viewDirection(float yaw, float pitch);
 

@@ -202,7 +202,8 @@ TEST(Save, ABrokenOneIsRefusedAndKept) {
          {std::string(), std::string("hello"), cut, damaged, good.substr(0, good.size() - 4), good + "more\n",
           head + "player 1e30 0 0 0 0\nend\n", head + "player 0 0 0 nan 0\nend\n", head + "room -1 0\nend\n",
           head + "room 1000 0\nend\n", head + "room 0 inf\nend\n", head + "flower 4000000000 1\nend\n",
-          head + "body 1 0 1e9 0 1 0 0 0\nend\n"}) {
+          head + "body 1 0 1e9 0 1 0 0 0\nend\n", head + "played -1\nend\n", head + "spent 0 nan\nend\n",
+          head + "spent 1000 1\nend\n"}) {
         const uint64_t before = game.stateHash();
         const Status restored = restoreGame(game, text, path);
         ASSERT_FALSE(restored);
@@ -241,7 +242,7 @@ TEST(Menu, IsWalkedWithKeys) {
     UserSettings settings;
     Bindings keys;
     const auto press = [&](int code) { return pressInMenu(menu, code, settings, keys); };
-    EXPECT_EQ(menuLines(menu, settings, keys).size(), 4u) << "nothing to resume, nothing saved";
+    EXPECT_EQ(menuLines(menu, settings, keys).size(), 5u) << "nothing to resume, nothing saved";
     EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kNewGame);
     EXPECT_EQ(press(GLFW_KEY_ESCAPE), MenuEvent::kNone) << "nothing to go back to yet";
     menu.hasSave = true;
@@ -249,6 +250,8 @@ TEST(Menu, IsWalkedWithKeys) {
     menu.started = true;
     EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kResume);
     EXPECT_EQ(press(GLFW_KEY_ESCAPE), MenuEvent::kResume);
+    press(GLFW_KEY_DOWN);
+    EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kPhotoMode);
     press(GLFW_KEY_DOWN);
     EXPECT_EQ(press(GLFW_KEY_ENTER), MenuEvent::kContinue) << "what was saved, instead of this game";
     press(GLFW_KEY_DOWN);

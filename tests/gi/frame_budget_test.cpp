@@ -64,6 +64,23 @@ TEST(FrameBudget, IsMetWithin120FramesWhateverTheSceneCosts) {
             }
 }
 
+// The first frames of a program tell what the device can do: it does not climb step by step.
+TEST(FrameBudget, IsMetAtOnceAfterTheFirstFrames) {
+    for (const double skew : {0.8, 1.0, 1.25}) {
+        Model model{40, skew, 0.03};
+        BudgetController controller(60, 0);
+        EXPECT_FALSE(controller.chooseAtOnce()) << "nothing was seen yet";
+        play(controller, model, 12);
+        EXPECT_EQ(controller.step(), 0u);
+        EXPECT_TRUE(controller.hasMeasured());
+        EXPECT_TRUE(controller.chooseAtOnce());
+        const double share = model.costOf(controller.step()) / 60;
+        EXPECT_TRUE(share > 0.5 && share < 2) << share << ": as far as costs of steps are known";
+        const Played r = play(controller, model, 60);
+        EXPECT_NEAR(r.median(30, 30) / 60, 1, 0.1);
+    }
+}
+
 // Something else has the device for five frames of thirty.
 TEST(FrameBudget, FramesThatWereInterruptedDoNotCount) {
     for (const double share : {0.6, 1.0, 1.7, 4.0}) {

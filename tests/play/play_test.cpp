@@ -5,6 +5,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "game/contact_sheet.h"
+#include "game/picture_check.h"
+#include "game/save_game.h"
+#include "tests/play/stage/bad_player.h"
 #include "tests/play/stage/bot.h"
 #include "tests/play/stage/reference_light.h"
 #include "tests/support/device_environment.h"
@@ -12,7 +16,7 @@
 namespace ag::game {
 namespace {
 
-constexpr uint32_t kTicksPerFrame = 12;
+constexpr uint32_t kTicksPerFrame = 12, kMoments = 20;
 
 std::unique_ptr<Stage> makeStage() {
     return std::make_unique<Stage>(test::device(), shippedLevel(), kTicksPerFrame);
@@ -67,13 +71,23 @@ class Walkthrough : public testing::Test {
 
     static void playInputs() {
         stage_ = makeStage();
+        moments_.clear();
+        const auto frames = uint32_t(inputs_.size()) / kTicksPerFrame;
+        const ContactSheet sheet = ContactSheet::moments(kMoments, frames);
+        stage_->watch = [&] {
+            if (stage_->ticks % kTicksPerFrame == 0 &&
+                sheet.wants(uint32_t(stage_->ticks / kTicksPerFrame) - 1))
+                moments_.push_back(extremesOf(stage_->picture()));
+        };
         lit_ = litFlowers(*stage_, inputs_);
+        stage_->watch = [] {};
     }
 
     static constexpr const char* kRecording = AFTERGLOW_SOURCE_DIR "/game/level/walkthrough.replay";
     static inline std::vector<Input> inputs_;
     static inline std::unique_ptr<Stage> stage_;
     static inline std::vector<LitFlower> lit_;
+    static inline std::vector<Extremes> moments_;
 };
 
 TEST_F(Walkthrough, OpensEveryFlowerAndEndsTheSameWayTwice) {
@@ -86,6 +100,15 @@ TEST_F(Walkthrough, OpensEveryFlowerAndEndsTheSameWayTwice) {
         EXPECT_TRUE(p.won);
     }
     EXPECT_EQ(stage_->game.stateHash(), again->game.stateHash());
+}
+
+// Twenty moments, evenly over the walkthrough: none is mostly black or burnt out.
+TEST_F(Walkthrough, IsNeitherBlackNorBurntOut) {
+    ASSERT_EQ(moments_.size(), kMoments);
+    for (size_t i = 0; i < moments_.size(); ++i) {
+        EXPECT_LT(moments_[i].dark, kMostDark) << "moment " << i;
+        EXPECT_LT(moments_[i].bright, kMostBright) << "moment " << i;
+    }
 }
 
 float mean(glm::vec3 e) {
@@ -190,6 +213,22 @@ TEST(WrongRuns, AWallBetweenOpensNothing) {
     EXPECT_LT(stage->lightAt(1).bounced.x, 0.02f) << "the light is on the other side of the screen";
     EXPECT_EQ(stage->lightAt(1).direct, glm::vec3(0));
     EXPECT_EQ(stage->game.progress().flowersOpen, 0u);
+}
+
+// Somebody who aims badly, at the flowers and at what is beside them: in every room, from its entrance.
+TEST(WrongRuns, BadAimNeitherGetsStuckNorOpensAFlowerByDirectLight) {
+    constexpr int kRooms = 8, kTicks = 360;
+    int direct = 0;
+    for (int room = 0; room < kRooms; ++room) {
+        Stage stage(test::device(), shippedLevel(), 20);
+        ASSERT_TRUE(startAtRoom(stage.game, room));
+        BadPlayer player(stage, uint32_t(room) + 1);
+        player.play(kTicks);
+        EXPECT_EQ(player.openedByDirectLight(), 0) << "room " << room;
+        EXPECT_TRUE(player.canLeave()) << "room " << room;
+        direct += player.ticksOfDirectLight();
+    }
+    EXPECT_GT(direct, 200) << "its beam did meet flowers";
 }
 
 #ifdef __SANITIZE_ADDRESS__  // keeps so much of what was freed

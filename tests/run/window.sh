@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The demo in a real window on a virtual display: the menu, walking, picking up a crate, panels, a capture, another size, hidden and
+# The demo in a real window on a virtual display: the menu, walking, picking up a crate, panels, a photo, a capture, another size, hidden and
 # shown again, left for another window, quit from the menu; validation is silent, and the recording played again without
 # a window ends where the player did.
 source "$(dirname "${BASH_SOURCE[0]}")/display.sh"
@@ -56,6 +56,7 @@ sleep 1
 xdotool keyup s
 keys F9 F10  # the profiler; frames of this very view
 keys F1 F2 F3 F4 8 9 1 F1 F2 F3 F4 F9
+keys F8 Up Left Return H Escape  # the photo mode, a photo of it, and back
 xdotool windowsize "$window" 400 240
 sleep 1
 xdotool windowunmap "$window"  # minimised
@@ -85,6 +86,9 @@ noise=$(grep -ciE 'sound|alsa|pulse|openal' "$work/log")
 for file in report.html passes.csv trace.json schedule.svg composite.display.png; do
   [[ -s $(echo "$work"/user/captures/*/"$file") ]] || { echo "FAILED: F10 left no $file: $(tail -5 "$work/log")"; exit 1; }
 done
+for file in photo-001.png photo-001.exr; do
+  [[ -s $work/user/photos/$file ]] || { echo "FAILED: the photo mode left no $file: $(tail -5 "$work/log")"; exit 1; }
+done
 grep -q '"walkPlayer"' "$work"/user/captures/*/trace.json || { echo "FAILED: the captured ticks have no systems"; exit 1; }
 
 walked=$(awk 'NR > 1 && $2 > 0 { n += $1 } END { print n + 0 }' "$work/run.replay")
@@ -107,7 +111,7 @@ grep -qi sound "$work/log" && { echo "FAILED: a volume of 0 looked for a sound d
 start_demo --record "$work/ended.replay"
 keys Down Return  # a new game
 sleep 2           # that is seen
-keys Escape Down Return Escape Up Return  # the saved one; Quit
+keys Escape Down Down Return Escape Up Return  # the saved one; Quit
 await_end "Quit"
 [[ -s $work/ended.replay && $(tail -n 1 "$work/ended.replay") != "end 0" ]] ||
   { echo "FAILED: going on with the saved game lost the recording: $(cat "$work/log")"; exit 1; }

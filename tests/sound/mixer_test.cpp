@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -92,6 +93,33 @@ TEST(Mixer, VolumeAndGainCount) {
     hear(*mixer, 0.1);
     mixer->play({.tone = 0});
     EXPECT_NEAR(hear(*mixer, 0.3).sum() / full, 0.25, 0.02);
+}
+
+TEST(Mixer, SurroundingsFadeIntoEachOther) {
+    auto opened = Mixer::openToMemory();
+    ASSERT_TRUE(opened) << opened.error().message;
+    const auto mixer = std::move(*opened);
+    const Tone loop{.seconds = 0.5f, .peak = 0.3f, .partials = {{.frequency = 200}}};
+    mixer->load(kTones, std::array{loop, loop});
+    mixer->setVolume(1);
+    EXPECT_EQ(hear(*mixer, 0.1).sum(), 0);
+    mixer->surroundWith(0);
+    mixer->fade(Mixer::kFadeSeconds / 2);
+    hear(*mixer, 0.1);
+    const double half = hear(*mixer, 0.5).sum();
+    mixer->fade(Mixer::kFadeSeconds);
+    hear(*mixer, 0.1);
+    const double whole = hear(*mixer, 1.5).sum();
+    EXPECT_NEAR(half / whole, 0.5, 0.03) << "and it goes on beyond its length";
+    EXPECT_EQ(mixer->voicesPlaying(), 0u) << "sounds keep all voices";
+    mixer->surroundWith(1);
+    mixer->fade(2 * Mixer::kFadeSeconds);
+    hear(*mixer, 0.1);
+    EXPECT_NEAR(hear(*mixer, 0.5).sum() / whole, 1, 0.05) << "one instead of the other";
+    mixer->surroundWith({});
+    mixer->fade(Mixer::kFadeSeconds);
+    hear(*mixer, 0.1);
+    EXPECT_LT(hear(*mixer, 0.3).sum(), 1e-5);
 }
 
 TEST(Mixer, OnlyTheQuietestGiveWay) {

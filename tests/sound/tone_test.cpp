@@ -63,6 +63,32 @@ TEST(Tone, DiesAwayAsItSays) {
     EXPECT_NEAR(late / early, std::pow(0.001f, 0.8f), 0.0004f) << "0.4 s of the 0.5 s to a thousandth";
 }
 
+// Where it begins again there is no step, and no quieter place.
+TEST(Tone, ALoopHasNoSeam) {
+    const Tone tone{
+        .seconds = 1.3f,
+        .peak = 0.5f,
+        .partials = {{.frequency = 500, .kind = PartialKind::kNoise}, {.frequency = 151, .gain = 0.1f}}};
+    const std::vector<float> samples = renderLoop(tone);
+    ASSERT_EQ(samples.size(), size_t(1.3f * float(kToneRate)));
+    EXPECT_NEAR(peakOf(samples), 0.5f, 1e-5f);
+    float step = 0;
+    for (size_t i = 1; i < samples.size(); ++i)
+        step = std::max(step, std::abs(samples[i] - samples[i - 1]));
+    EXPECT_LE(std::abs(samples.front() - samples.back()), step);
+    const auto power = [&](size_t part) {
+        double sum = 0;
+        for (size_t i = part * samples.size() / 4; i < (part + 1) * samples.size() / 4; ++i)
+            sum += double(samples[i]) * double(samples[i]);
+        return sum;
+    };
+    EXPECT_NEAR(power(0) / ((power(1) + power(2) + power(3)) / 3), 1, 0.25);
+    // Whole periods: the sine alone goes on as if it had never ended.
+    const std::vector<float> sine = renderLoop({.seconds = 0.5f, .partials = {{.frequency = 151}}});
+    EXPECT_NEAR(pitchOf(sine), 152, 1.5);
+    EXPECT_NEAR(sine.front() - sine.back(), sine[1] - sine[0], 1e-3f);
+}
+
 TEST(Tone, NoiseIsSoft) {
     const auto samples = renderTone(
         {.seconds = 0.4f, .partials = {{.frequency = 500, .decay = 1, .kind = PartialKind::kNoise}}});

@@ -46,7 +46,7 @@ void dragHandle(Viewing& v, const LightHandle& handle, glm::dvec3 place) {
 
 }  // namespace
 
-bool dragLights(LightDragging& state, Viewing& v, const ViewCamera& camera, glm::vec2 size) {
+bool dragLights(LightDragging& state, Viewing& v, const FreeCamera& camera, glm::vec2 size) {
     const Screen screen{poseOf(camera), size};
     const glm::dvec3 focus = camera.position + glm::dvec3(screen.pose.forward * camera.focusDistance);
     const float reach = camera.focusDistance / 4;

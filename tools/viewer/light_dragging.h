@@ -12,6 +12,6 @@ struct LightDragging {
 
 // Within an ImGui frame: draws the handles beneath the panels and moves the light, or the sky's sun, whose
 // handle is held. True: one is.
-bool dragLights(LightDragging& state, Viewing& viewing, const ViewCamera& camera, glm::vec2 size);
+bool dragLights(LightDragging& state, Viewing& viewing, const FreeCamera& camera, glm::vec2 size);
 
 }  // namespace ag::viewer

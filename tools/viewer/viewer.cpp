@@ -47,7 +47,7 @@ class ViewerRun {
           renderer_(device),
           ui_(window.handle()),
           imgui_(device),
-          camera_(startAt(viewing.pose, viewing.scene.bounds)),
+          camera_(freeCameraAt(viewing.pose, viewing.scene.bounds)),
           edited_(viewing.asset, viewing.scene, viewing.edits),
           capture_(renderer_, {}) {
         renderer_.load(*viewing.scene.geometry);
@@ -82,7 +82,7 @@ class ViewerRun {
 
   private:
     void handleKeys() {
-        for (const auto [key, control] : window_.takePressedKeys()) {
+        for (const auto& [key, control, pad] : window_.takePressedKeys()) {
             if (ui_.takesText()) continue;  // it is typed into a field
             if (key == GLFW_KEY_TAB) window_.captureCursor(!window_.cursorCaptured());
             if (key == GLFW_KEY_ESCAPE) leaveOrClose();
@@ -154,7 +154,7 @@ class ViewerRun {
         const Input input = !played                          ? held
                             : frame < options_.script.size() ? options_.script[frame]
                                                              : Input{};
-        viewer::moveCamera(camera_, input, keepsTime() ? kScriptStep : elapsed);
+        moveFreely(camera_, input, keepsTime() ? kScriptStep : elapsed);
         if (!options_.record.empty()) recorded_.push_back(input);
     }
 
@@ -168,7 +168,7 @@ class ViewerRun {
     void frameScene() {
         CameraPose pose = framingCamera(viewing_.scene.bounds);
         pose.position += viewing_.scene.originWorld;
-        camera_ = startAt(pose, viewing_.scene.bounds);
+        camera_ = freeCameraAt(pose, viewing_.scene.bounds);
     }
     void say(const Result<std::string>& saved) {
         panel_.message = saved ? "saved " + *saved : saved.error().message;
@@ -313,7 +313,7 @@ class ViewerRun {
     render::Renderer renderer_;
     DebugUi ui_;
     ImGuiPass imgui_;
-    ViewCamera camera_;
+    FreeCamera camera_;
     const Bindings bindings_;
     const World world_;  // of the panels: there is none
     DebugUiState panels_{.showStatus = true};

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "engine/app/free_camera.h"
 #include "engine/core/settings.h"
 #include "engine/gpu/device.h"
 #include "engine/renderer/renderer.h"
 #include "engine/scene/asset_edits.h"
-#include "tools/viewer/view_camera.h"
 
 namespace ag::viewer {
 

@@ -59,7 +59,7 @@ bool presetCombo(const char* label, std::string& preset) {
     return chosen;
 }
 
-void cameraFields(ViewCamera& camera) {
+void cameraFields(FreeCamera& camera) {
     float at[3] = {float(camera.position.x), float(camera.position.y), float(camera.position.z)};
     if (ImGui::DragFloat3("eye, m", at, camera.speed * 0.01f, -kFarthest, kFarthest, "%.3f",
                           ImGuiSliderFlags_AlwaysClamp))
@@ -147,7 +147,7 @@ uint64_t freeId(const RenderScene& scene) {
     return id;
 }
 
-bool addButtons(Viewing& v, const ViewCamera& camera) {
+bool addButtons(Viewing& v, const FreeCamera& camera) {
     const CameraPose pose = poseOf(camera);
     RenderLight light{.kind = LightKind::kPoint,
                       .position = glm::vec3(pose.position - v.scene.originWorld),
@@ -164,7 +164,7 @@ bool addButtons(Viewing& v, const ViewCamera& camera) {
     return true;
 }
 
-void lightList(Viewing& v, const ViewCamera& camera) {
+void lightList(Viewing& v, const FreeCamera& camera) {
     bool changed = false;
     for (size_t i = 0; i < v.scene.lights.size(); ++i) {
         bool remove = false;
@@ -203,7 +203,7 @@ PanelEvent eventButtons() {
 
 }  // namespace
 
-PanelEvent drawPanel(PanelState& state, const PanelLayout& layout, Viewing& v, ViewCamera& camera,
+PanelEvent drawPanel(PanelState& state, const PanelLayout& layout, Viewing& v, FreeCamera& camera,
                      const EditedScene& edited) {
     dockNextPanel(layout, Dock::kLeft);
     if (!ImGui::Begin("View", nullptr, kDockedFlags)) return ImGui::End(), PanelEvent::kNone;

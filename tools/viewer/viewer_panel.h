@@ -34,7 +34,7 @@ struct PanelState {
 };
 
 // Within an ImGui frame.
-PanelEvent drawPanel(PanelState& state, const PanelLayout& layout, Viewing& viewing, ViewCamera& camera,
+PanelEvent drawPanel(PanelState& state, const PanelLayout& layout, Viewing& viewing, FreeCamera& camera,
                      const EditedScene& edited);
 
 }  // namespace ag::viewer

@@ -4,6 +4,7 @@
 
 #include "engine/scene/components.h"
 #include "game/dress_level.h"
+#include "game/user_files.h"
 
 namespace ag::game {
 
@@ -14,6 +15,8 @@ SceneAsset shippedLevel() {
 Stage::Stage(gpu::Device& device, SceneAsset level, uint32_t ticksPerFrame, glm::uvec2 pixels)
     : game(std::move(level), 1), renderer(device), size(pixels), perFrame(ticksPerFrame) {
     applyQuality(Quality::kLow, settings);
+    openEyes(settings);
+    settings.composite.exposure = UserSettings{}.exposure + kMood;
     options.timing = TimingMode::kOff;
     renderer.load(game.level().geometry);
     std::vector<std::pair<uint32_t, Entity>> found;
@@ -28,11 +31,20 @@ Stage::Stage(gpu::Device& device, SceneAsset level, uint32_t ticksPerFrame, glm:
 
 void Stage::tick(const Input& input) {
     game.tick(input);
-    if (++ticks % perFrame) return;
+    if (++ticks % perFrame == 0) show();
+    watch();
+}
+
+Image Stage::picture() {
+    return render::readImage(renderer, shown);
+}
+
+void Stage::show() {
     game.frame(size);
     renderer.render(game.scene(), size, settings, options,
-                    [](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
-                        scope.output(frame.outputs.display);
+                    [&](GraphScope scope, const render::SceneView&, const render::RenderFrame& frame) {
+                        shown = frame.outputs.display;
+                        scope.output(shown);
                     });
     game.takeReadings(renderer.probeReadings());
 }

@@ -2,6 +2,8 @@
 // tests.
 #pragma once
 
+#include <functional>
+
 #include "engine/renderer/probe_components.h"
 #include "engine/renderer/renderer.h"
 #include "game/game.h"
@@ -13,6 +15,9 @@ struct Stage {
     Stage(gpu::Device& device, SceneAsset level, uint32_t ticksPerFrame, glm::uvec2 pixels = {64, 36});
 
     void tick(const Input& input);
+    // After each tick.
+    std::function<void()> watch = [] {};
+    Image picture();              // the frame that was rendered last
     Flower flower(size_t index);  // in the order of the level
     render::ProbeLight lightAt(size_t index);
     glm::dvec3 flowerAt(size_t index);  // m, of its head
@@ -21,10 +26,14 @@ struct Stage {
     render::RenderSettings settings;
     FrameGraphOptions options;
     render::Renderer renderer;
+    ImageHandle shown;
     glm::uvec2 size;
     uint32_t perFrame;
     uint64_t ticks = 0;
     std::vector<Entity> flowers;
+
+  private:
+    void show();
 };
 
 SceneAsset shippedLevel();

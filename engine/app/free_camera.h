@@ -1,13 +1,13 @@
-// The viewer's camera: flies freely, or circles about a point.
+// A camera that flies freely, or circles about a point.
 #pragma once
 
 #include "engine/app/input.h"
 #include "engine/core/bounds.h"
 #include "engine/scene/static_scene.h"
 
-namespace ag::viewer {
+namespace ag {
 
-struct ViewCamera {
+struct FreeCamera {
     glm::dvec3 position{0};  // m
     float yaw = 0;           // rad about +Y, 0: along -Z, rising to the left
     float pitch = 0;         // rad, up
@@ -19,12 +19,12 @@ struct ViewCamera {
 };
 
 // As the pose looks; it flies through a box's diagonal in twelve seconds.
-ViewCamera startAt(const CameraPose& pose, const Bounds& bounds);
+FreeCamera freeCameraAt(const CameraPose& pose, const Bounds& bounds);
 
 // One step of so many seconds. Flying, forward and right move along the view, jump and crouch up and down; in
 // orbit the mouse turns about the point ahead, forward and back come nearer and go farther.
-void moveCamera(ViewCamera& camera, const Input& input, float seconds);
+void moveFreely(FreeCamera& camera, const Input& input, float seconds);
 
-CameraPose poseOf(const ViewCamera& camera);
+CameraPose poseOf(const FreeCamera& camera);
 
-}  // namespace ag::viewer
+}  // namespace ag
