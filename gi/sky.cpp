@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/equirectangular.h"
 #include "engine/core/hash.h"
 #include "gi/blue_noise.h"
 #include "gi/occluder_trees.h"
@@ -75,6 +76,24 @@ uint32_t texelOf(glm::vec3 d) {
            in.x;
 }
 
+// Of each texel of the table: radiance times solid angle, and solid angle. The picture's texels one by one
+// where they are finer than the table's, else places between them.
+std::vector<glm::dvec4> radianceOfTexels(const SkyPicture& picture, float lightUnit) {
+    constexpr glm::ivec2 kLeast{512, 256};
+    const bool fine = picture.size.x >= kLeast.x && picture.size.y >= kLeast.y;
+    const glm::ivec2 size = fine ? picture.size : kLeast;
+    std::vector<glm::dvec4> sums(io::kSkySide * io::kSkySide, glm::dvec4(0));
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const glm::vec3 direction = skyDirection((glm::vec2(x, y) + 0.5f) / glm::vec2(size));
+            const glm::vec3 radiance = fine ? picture.radiance[size_t(y) * size_t(size.x) + size_t(x)]
+                                            : lookUpDirection(picture.size, picture.radiance, direction);
+            sums[texelOf(picture.worldFromPicture * direction)] +=
+                glm::dvec4(glm::dvec3(radiance / lightUnit), 1) * double(skyTexelAngle(size, y));
+        }
+    return sums;
+}
+
 struct SkySent {
     ImageHandle irradiance, gloss;
 };
@@ -114,7 +133,8 @@ SkySent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, 
         .read("noise", noise)
         .push(io::SkyCastPush{.step = step,
                               .shift = blueNoiseShift(step),
-                              .offset = io::kBvhOffset * in.occluders.extent,
+                              .offset = io::kRayOffset * in.occluders.extent,
+                              .pixelOffset = in.occluders.trees.snapping / float(gbuffer.spacing),
                               .reach = kRayReaches * in.occluders.extent,
                               .known = seen.valid,
                               .keep = keep})
@@ -154,12 +174,9 @@ Turn turnOf(uint32_t turns, const SkySettings& s, uint32_t sinceChange) {
 
 }  // namespace
 
-SkyTable makeSkyTable(FunctionRef<void(AddRadiance)> add) {
+SkyTable makeSkyTable(const SkyPicture& picture, float lightUnit) {
     constexpr uint32_t kTexels = io::kSkySide * io::kSkySide;
-    std::vector<glm::dvec4> sums(kTexels, glm::dvec4(0));
-    add([&](glm::vec3 direction, glm::vec3 radiance, float solidAngle) {
-        sums[texelOf(direction)] += glm::dvec4(glm::dvec3(radiance), 1) * double(solidAngle);
-    });
+    const std::vector<glm::dvec4> sums = radianceOfTexels(picture, lightUnit);
     SkyTable table;
     table.texels.resize(kTexels);
     float total = 0;
@@ -239,7 +256,7 @@ BufferHandle addSkyOnPoints(GraphScope scope, const SurfaceEmitters& emitters, c
         .push(io::SkyPointsPush{.count = count,
                                 .rays = s.pointRays,
                                 .step = step,
-                                .offset = io::kBvhOffset * in.occluders.extent,
+                                .offset = io::kRayOffset * in.occluders.extent,
                                 .reach = kRayReaches * in.occluders.extent,
                                 .valid = irradiance.valid,
                                 .mostLength = moving ? float(s.movingLength * s.pointRays) : kMostPointRays})

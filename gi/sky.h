@@ -3,9 +3,9 @@
 // uncertain it is. Rays meet triangles, so that nothing leaks, and whatever moves is in the way.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "engine/core/function_ref.h"
 #include "engine/core/setting_fields.h"
 #include "gi/inputs.h"
 #include "gi/settling.h"
@@ -55,10 +55,14 @@ struct SkyTable {
     std::vector<float> upTo;   // how likely a draw by power is a cell or one before
     bool empty() const { return texels.empty(); }
 };
-// `add` is called with a function to give radiance to: the direction, W/(m² sr), and for how much solid
-// angle, sr, that stands; from all directions, at least some 65,536 of them.
-using AddRadiance = FunctionRef<void(glm::vec3 direction, glm::vec3 radiance, float solidAngle)>;
-SkyTable makeSkyTable(FunctionRef<void(AddRadiance)> add);
+// Of a picture of all directions, W/(m² sr) (engine/core/equirectangular.h), turned into the world; the table
+// is over `lightUnit`.
+struct SkyPicture {
+    glm::ivec2 size{0};
+    std::span<const glm::vec3> radiance;
+    glm::mat3 worldFromPicture{1};
+};
+SkyTable makeSkyTable(const SkyPicture& picture, float lightUnit);
 
 // The same on the device.
 struct SkyOnDevice {

@@ -12,25 +12,10 @@ namespace {
 
 using io::kMostHalf;
 
-// Its texels one by one where they are finer than the table's, else places between them.
-void addPicture(const Sky& sky, float lightUnit, gi::AddRadiance add) {
-    constexpr glm::ivec2 kLeast{512, 256};
-    const glm::ivec2 own(sky.radiance.width, sky.radiance.height);
-    const bool fine = own.x >= kLeast.x && own.y >= kLeast.y;
-    const glm::ivec2 size = fine ? own : kLeast;
-    for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x) {
-            const glm::vec3 direction = skyDirection((glm::vec2(x, y) + 0.5f) / glm::vec2(size));
-            const glm::vec3 radiance = fine ? sky.radiance.at(x, y) : skyRadiance(sky, direction);
-            add(direction, radiance / lightUnit, skyTexelAngle(size, y));
-        }
-}
-
 }  // namespace
 
 gi::SkyTable skyTable(const Sky& sky, float lightUnit) {
-    const auto add = [&](gi::AddRadiance to) { addPicture(sky, lightUnit, to); };
-    return gi::makeSkyTable(add);
+    return gi::makeSkyTable({{sky.radiance.width, sky.radiance.height}, sky.radiance.pixels}, lightUnit);
 }
 
 // A sun in its picture is small, and not what surfaces get.

@@ -81,30 +81,8 @@ glm::vec3 skyIrradiance(const Image& picture) {
 
 }  // namespace
 
-glm::vec2 skyPlace(glm::vec3 d) {
-    const float turn = std::atan2(d.z, d.x) / (2 * kPi) + 0.5f;
-    return {turn, std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi};
-}
-
-glm::vec3 skyDirection(glm::vec2 place) {
-    const float phi = (place.x - 0.5f) * 2 * kPi, theta = place.y * kPi;
-    return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
-}
-
 glm::vec3 skyRadiance(const Sky& sky, glm::vec3 direction) {
-    const Image& p = sky.radiance;
-    const glm::vec2 at = skyPlace(direction) * glm::vec2(p.width, p.height) - 0.5f;
-    const glm::vec2 low = glm::floor(at), f = at - low;
-    const auto texel = [&](int dx, int dy) {
-        const int x = (int(low.x) + dx + p.width) % p.width, y = std::clamp(int(low.y) + dy, 0, p.height - 1);
-        return p.at(x, y);
-    };
-    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
-}
-
-float skyTexelAngle(glm::ivec2 size, int row) {
-    const float step = kPi / float(size.y);
-    return 2 * kPi / float(size.x) * (std::cos(float(row) * step) - std::cos(float(row + 1) * step));
+    return lookUpDirection({sky.radiance.width, sky.radiance.height}, sky.radiance.pixels, direction);
 }
 
 Sky constantSky(glm::vec3 radiance) {

@@ -1,28 +1,21 @@
 // The light of the sky: radiance from every direction in which nothing stands, as an equirectangular picture.
 #pragma once
 
+#include "engine/core/equirectangular.h"
 #include "engine/core/image.h"
 
 namespace ag {
 
 struct Sky {
-    // W/(m² sr). Rows from the zenith (+Y) to the nadir; columns go round from -X by -Z, +X and +Z. One
-    // texel: the same from everywhere.
+    // W/(m² sr), as engine/core/equirectangular.h has it. One texel: the same from everywhere.
     Image radiance;
     // Of a clear sky (analyticSky); turbidity 0: it is of another kind.
     glm::vec3 sunDirection{0, -1, 0};
     float turbidity = 0;
 };
 
-// The place in the picture that a unit direction looks at, both coordinates in [0, 1], and back.
-glm::vec2 skyPlace(glm::vec3 direction);
-glm::vec3 skyDirection(glm::vec2 place);
-
 // Bilinear.
 glm::vec3 skyRadiance(const Sky& sky, glm::vec3 direction);
-
-// Solid angle in sr of a texel in row `row` of a picture of that size.
-float skyTexelAngle(glm::ivec2 size, int row);
 
 Sky constantSky(glm::vec3 radiance);
 // A clear sky (Preetham, Shirley and Smits 1999, A Practical Analytic Model for Daylight) without the sun's

@@ -49,7 +49,7 @@ layout(constant_id = 3) const bool kEndless = true;  // light goes on after its 
 #include "cluster_members/aim.glsl"
 #include "later_bounces/arriving.glsl"
 #include "texel_rays/met_surface.glsl"
-#include "texel_rays/pixel_start.glsl"
+#include "gbuffer/pixel_start.glsl"
 #define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
 #include "texel_rays/incident.glsl"
 

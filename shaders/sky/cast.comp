@@ -30,6 +30,7 @@ layout(set = 0, binding = 14, rgba32f) uniform writeonly image2D shone;   // wha
 layout(constant_id = 0) const bool kGlossy = false;
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
+#include "gbuffer/pixel_start.glsl"
 #define AG_SKY_UP_TO(cell) upTo.items[gl_WorkGroupID.x * kSkyCells + (cell)]
 #include "sky/draw.glsl"
 
@@ -69,8 +70,9 @@ void main() {
     float depth = texelFetch(depthMap, pixel, 0).x;
     vec4 normalAndRoughness = texelFetch(normalMap, pixel, 0), reflectance = kGlossy ? texelFetch(reflectanceMap, pixel, 0) : vec4(0.0);
     vec3 normal = normalAndRoughness.xyz, xi = fract(vec3(noiseAt(at), noiseAt(at + 32u).x) + push.p.shift);
-    vec3 surface = worldFromPixel(camera.camera.worldFromClip, size, pixel, depth), place = surface + normal * push.p.offset;
-    SpecularLobe lobe = specularLobe(normalAndRoughness, normalize(camera.camera.position - surface), reflectance);
+    PixelStart start = startOf(pixel, depth);
+    vec3 place = start.place + normal * start.offset;
+    SpecularLobe lobe = specularLobe(normalAndRoughness, normalize(camera.camera.position - start.place), reflectance);
     bool glossy = kGlossy && there && depth > 0.0 && reflectance.w > 0.0;
     SkyDraw d = drawSky(xi);
     float cosine = dot(normal, d.direction);

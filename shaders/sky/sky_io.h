@@ -23,12 +23,13 @@ struct SkyChoosePush {
 };
 
 struct SkyCastPush {
-    uint step;     // another in each frame with new rays
-    vec3 shift;    // of the noise
-    float offset;  // m: rays leave surfaces so far before them
-    float reach;   // m: beyond it nothing stands
-    uint known;    // 0: there is no frame before
-    float keep;    // of what earlier frames learned
+    uint step;          // another in each frame with new rays
+    vec3 shift;         // of the noise
+    float offset;       // m: rays leave surfaces so far before them,
+    float pixelOffset;  // and pixels
+    float reach;        // m: beyond it nothing stands
+    uint known;         // 0: there is no frame before
+    float keep;         // of what earlier frames learned
 };
 
 struct SkyPointsPush {

@@ -55,7 +55,7 @@ layout(constant_id = 1) const bool kTexelLobes = false;
 #include "bvh/trace.glsl"
 #include "texel_rays/blocks.glsl"
 #include "texel_rays/met_surface.glsl"
-#include "texel_rays/pixel_start.glsl"
+#include "gbuffer/pixel_start.glsl"
 #include "texel_rays/ray_weights.glsl"
 #define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
 #include "texel_rays/incident.glsl"
