@@ -221,6 +221,13 @@ AgiResult agiSetLights(AgiScene scene, uint32_t count, const AgiLight* given) {
     });
 }
 
+AgiResult agiSetSky(AgiScene scene, const AgiSky* given) {
+    return across([&] {
+        refuseUnless(scene != nullptr, "scene is null");
+        scene->scene.setSky(skyOf(given));
+    });
+}
+
 AgiResult agiSetProbes(AgiScene scene, uint32_t count, const AgiProbe* given) {
     return across([&] {
         refuseUnless(scene && (given || count == 0), "scene or probes is null");

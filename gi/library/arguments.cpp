@@ -11,6 +11,8 @@
 namespace ag::guest {
 namespace {
 
+constexpr float kMostSkyRadiance = 1e6f;  // W/(m² sr)
+
 glm::vec3 vec3Of(const float* v) {
     return {v[0], v[1], v[2]};
 }
@@ -31,12 +33,14 @@ GuestMaterial materialOf(const AgiMaterial& m) {
                  "a material's albedoMapMean is not finite or is negative");
     refuseUnless(m.alphaCutoff >= 0 && m.alphaCutoff <= 1, "a material's alphaCutoff is not between 0 and 1");
     refuseUnless(m.coverage >= 0 && m.coverage <= 1, "a material's coverage is not between 0 and 1");
+    refuseUnless(isLight(m.emissive, 3), "a material's emissive is not finite or is negative");
     return {.albedo = vec3Of(m.albedo),
             .mean = vec3Of(m.albedoMapMean),
             .map = m.albedoMap,
             .alphaCutoff = m.albedoMap ? m.alphaCutoff : 0,
             .coverage = m.coverage,
-            .doubleSided = m.doubleSided != 0};
+            .doubleSided = m.doubleSided != 0,
+            .emissive = vec3Of(m.emissive)};
 }
 
 template <class T>
@@ -71,6 +75,8 @@ GuestMesh meshOf(const AgiMesh& m, size_t materials) {
     }
     for (const uint32_t index : mesh.indices)
         refuseUnless(index < m.vertexCount, "a mesh's index is past its vertices");
+    for (size_t i = 0; m.clockwise && i < mesh.indices.size(); i += 3)
+        std::swap(mesh.indices[i], mesh.indices[i + 1]);
     for (const glm::vec3& p : mesh.positions) {
         refuseUnless(isFinite(&p.x, 3), "a mesh's position is not finite");
         mesh.bounds.add(p);
@@ -121,6 +127,31 @@ bool isRotation(const float* m) {
     const glm::vec3 skew(glm::dot(x, y), glm::dot(y, z), glm::dot(z, x));
     return isFinite(m, 9) && glm::all(glm::lessThan(glm::abs(lengths - 1.0f), glm::vec3(1e-3f))) &&
            glm::all(glm::lessThan(glm::abs(skew), glm::vec3(1e-3f)));
+}
+
+// The picture of a sky, and where it points.
+GuestSky skyOf(const AgiSky& s) {
+    const bool single = s.width == 1 && s.height == 1;
+    refuseUnless(single || (s.width == 2 * s.height && s.height > 0 && s.height <= 8192),
+                 "a sky is neither a single texel nor twice as wide as high, at most 16384 texels");
+    refuseUnless(s.radiance != nullptr, "a sky's radiance is null");
+    const float* const turn = s.worldFromPicture;
+    const bool turned = std::any_of(turn, turn + 9, [](float x) { return x != 0; });
+    refuseUnless(!turned || isRotation(turn), "a sky's worldFromPicture is neither zero nor a rotation");
+    std::vector<glm::vec3> radiance(size_t(s.width) * s.height);
+    GuestSky sky;
+    for (size_t i = 0; i < radiance.size(); ++i) {
+        radiance[i] = vec3Of(s.radiance + 3 * i);
+        for (int c = 0; c < 3; ++c)
+            refuseUnless(radiance[i][c] >= 0 && radiance[i][c] <= kMostSkyRadiance,
+                         "a sky's radiance is not 0 to 1e6");
+        sky.mean += std::max({radiance[i].x, radiance[i].y, radiance[i].z}) / float(radiance.size());
+    }
+    gi::SkyPicture picture{.size = {int(s.width), int(s.height)}, .radiance = radiance};
+    if (turned) picture.worldFromPicture = glm::mat3(vec3Of(turn), vec3Of(turn + 3), vec3Of(turn + 6));
+    sky.table = gi::makeSkyTable(picture, 1);
+    sky.version = hashBytes(std::as_bytes(std::span(sky.table.texels))) | 1;
+    return sky;
 }
 
 bool isPerspective(const float* m) {
@@ -184,6 +215,10 @@ std::vector<GuestProbe> probesOf(uint32_t count, const AgiProbe* given) {
     return probes;
 }
 
+GuestSky skyOf(const AgiSky* given) {
+    return given ? skyOf(whole(given, "sky is null")) : GuestSky{};
+}
+
 void refuseBadFrame(const AgiFrame& f, uint64_t lastFrame) {
     refuseUnless(f.frame > 0 && f.frame >= lastFrame, "frames' numbers grow from 1");
     refuseUnless(f.framesDone < f.frame, "a frame that is being recorded cannot be done");
@@ -192,6 +227,7 @@ void refuseBadFrame(const AgiFrame& f, uint64_t lastFrame) {
     refuseUnless(isFinite(f.cameraPosition, 3), "a frame's cameraPosition is not finite");
     refuseUnless(isRotation(f.viewFromWorld), "a frame's viewFromWorld is not a rotation");
     refuseUnless(isPerspective(f.clipFromView), "a frame's clipFromView is not a perspective");
+    refuseUnless(isFinite(f.jitter, 2), "a frame's jitter is not finite");
     refuseBadImages(f);
 }
 

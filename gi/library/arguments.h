@@ -13,6 +13,7 @@ std::vector<GuestMaterial> materialsOf(uint32_t count, const AgiMaterial* materi
 std::vector<GuestMesh> meshesOf(uint32_t count, const AgiMesh* meshes, size_t materials);
 std::vector<GuestInstance> instancesOf(uint32_t count, const AgiInstance* instances, const GuestScene& scene);
 std::vector<GuestLight> lightsOf(uint32_t count, const AgiLight* lights);
+GuestSky skyOf(const AgiSky* sky);  // null: none
 std::vector<GuestProbe> probesOf(uint32_t count, const AgiProbe* probes);
 // `lastFrame`: the highest number so far.
 void refuseBadFrame(const AgiFrame& frame, uint64_t lastFrame);

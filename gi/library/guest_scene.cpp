@@ -10,13 +10,20 @@ namespace {
 
 constexpr uint32_t kSurfaceSamples = 1u << 17;  // over the whole scene
 constexpr uint32_t kBouncePoints = 1u << 12;    // of them, for light that bounces on
+constexpr uint32_t kEmissivePoints = 1u << 12;  // on emissive surfaces
 
-gi::SampledMesh sampledOf(const GuestMesh& mesh) {
+gi::SampledMesh sampledOf(const GuestMesh& mesh, bool doubleSided) {
     return {.positions = gi::Strided<glm::vec3>::of(mesh.positions.data()),
             .normals = gi::Strided<glm::vec3>::of(mesh.normals.data()),
             .uvs = mesh.uvs.empty() ? gi::Strided<glm::vec2>{} : gi::Strided<glm::vec2>::of(mesh.uvs.data()),
             .indices = mesh.indices,
-            .blocksLight = mesh.there};
+            .blocksLight = mesh.there,
+            .doubleSided = doubleSided};
+}
+
+// Of all its map.
+glm::vec3 albedoOf(const GuestMaterial& m) {
+    return m.map ? m.albedo * m.mean : m.albedo;
 }
 
 }  // namespace
@@ -58,13 +65,22 @@ void GuestScene::setInstance(const GuestInstance& given) {
     GuestInstance& old = instances_[known->second];
     if (old.standsAs(given)) return;
     if (old.mesh != given.mesh || old.movable != given.movable) {
-        --meshes_[old.mesh].instances;
-        ++meshes_[given.mesh].instances;
+        count(old, -1);
+        count(given, 1);
         ++setVersion_;
     }
     staticVersion_ += !old.movable || !given.movable;
     old = given;
     old.moved = ++movedVersion_;
+}
+
+// A mesh that begins to move needs a tree of its own; one that no longer does keeps it.
+void GuestScene::count(const GuestInstance& instance, int by) {
+    GuestMesh& mesh = meshes_[instance.mesh];
+    mesh.instances += uint32_t(by);
+    if (!instance.movable) return;
+    mesh.movable += uint32_t(by);
+    movingVersion_ += by > 0 && mesh.movable == 1;
 }
 
 void GuestScene::addInstance(const GuestInstance& given) {
@@ -73,7 +89,7 @@ void GuestScene::addInstance(const GuestInstance& given) {
     rowOf_.emplace(given.id, instances_.size());
     instances_.push_back(given);
     instances_.back().moved = ++movedVersion_;
-    ++meshes_[given.mesh].instances;
+    count(given, 1);
     ++setVersion_;
     staticVersion_ += !given.movable;
 }
@@ -81,7 +97,7 @@ void GuestScene::addInstance(const GuestInstance& given) {
 void GuestScene::removeInstance(uint64_t id) {
     const auto known = rowOf_.find(id);
     const size_t row = known->second;
-    --meshes_[instances_[row].mesh].instances;
+    count(instances_[row], -1);
     staticVersion_ += !instances_[row].movable;
     rowOf_.erase(known);
     if (row + 1 != instances_.size()) {
@@ -130,7 +146,7 @@ template <class Use>
 void GuestScene::withSurfaces(glm::dvec3 middle, Use&& use) {
     std::vector<gi::SampledMesh> meshes;
     for (const GuestMesh& mesh : meshes_)
-        meshes.push_back(sampledOf(mesh));
+        meshes.push_back(sampledOf(mesh, mesh.there && materials_[mesh.given.material].doubleSided));
     std::vector<gi::SampledInstance> instances;
     for (const GuestInstance& instance : instances_)
         instances.push_back(
@@ -146,30 +162,70 @@ void GuestScene::withSurfaces(glm::dvec3 middle, Use&& use) {
     };
     const DoubleBounds& all = bounds();
     const Bounds box{glm::vec3(all.min - middle), glm::vec3(all.max - middle)};
-    use(gi::SampledScene{meshes, instances, box, isCutOut});
+    use(meshes, gi::SampledScene{meshes, instances, box, isCutOut});
 }
 
 const GuestPoints& GuestScene::points() {
     if (points_.set == setVersion_) return points_;
     const auto albedoAt = [&](uint32_t instance, glm::vec2) {
-        const GuestMaterial& m = materials_[meshes_[instances_[instance].mesh].given.material];
-        return m.map ? m.albedo * m.mean : m.albedo;
+        return albedoOf(materialOf(instances_[instance].mesh));
     };
     GuestPoints fresh{.set = setVersion_};
-    withSurfaces(middle(), [&](const gi::SampledScene& scene) {
+    withSurfaces(middle(), [&](std::span<gi::SampledMesh> meshes, const gi::SampledScene& scene) {
         fresh.samples = gi::sampleSurfaces(scene, kSurfaceSamples);
         if (!fresh.samples.samples.empty())
-            fresh.bounces = gi::chooseBouncePoints(scene.instances, fresh.samples, albedoAt, kBouncePoints);
+            fresh.reflecting =
+                gi::chooseBouncePoints(scene.instances, fresh.samples, albedoAt, kBouncePoints);
+        if (mostEmissive() > 0) fresh.emissive = chooseEmissivePoints(meshes, scene);
     });
     points_ = std::move(fresh);
     return points_;
 }
 
-const GuestTrees& GuestScene::trees() {
-    if (trees_.version == staticVersion()) return trees_;
-    GuestTrees fresh{.version = staticVersion(), .middle = middle()};
-    withSurfaces(fresh.middle, [&](const gi::SampledScene& scene) {
-        fresh.trees = gi::buildOccluderTrees(scene, gi::TreesOf::kStatic);
+const GuestMaterial& GuestScene::materialOf(uint32_t mesh) const {
+    return materials_[meshes_[mesh].given.material];
+}
+
+float GuestScene::mostEmissive() const {
+    float most = 0;
+    for (const GuestMesh& mesh : meshes_) {
+        if (!mesh.there || mesh.instances == 0) continue;
+        const glm::vec3 e = materials_[mesh.given.material].emissive;
+        most = std::max({most, e.x, e.y, e.z});
+    }
+    return most;
+}
+
+// As if nothing else were there. Of a surface that shines to both sides, one point to each in turn.
+std::vector<io::BouncePoint> GuestScene::chooseEmissivePoints(std::span<gi::SampledMesh> meshes,
+                                                              const gi::SampledScene& scene) const {
+    for (uint32_t i = 0; i < meshes.size(); ++i)
+        meshes[i].blocksLight = meshes[i].blocksLight && materialOf(i).emissive != glm::vec3(0);
+    const gi::SurfaceSamples samples = gi::sampleSurfaces(scene, 4 * kEmissivePoints);
+    if (samples.samples.empty()) return {};
+    const auto radianceAt = [&](uint32_t instance, glm::vec2) {
+        return materialOf(scene.instances[instance].mesh).emissive;
+    };
+    auto points = gi::chooseBouncePoints(scene.instances, samples, radianceAt, kEmissivePoints);
+    for (size_t i = 0; i < points.size(); ++i) {
+        io::BouncePoint& p = points[i];
+        if (!materialOf(scene.instances[p.instance].mesh).doubleSided) continue;
+        p.area *= 2;
+        if (i % 2) p.normalLocal = -p.normalLocal;
+    }
+    return points;
+}
+
+const GuestTrees& GuestScene::trees(float lightUnit) {
+    if (mostEmissive() == 0) lightUnit = 1;  // it does not matter
+    if (trees_.version == treesVersion() && trees_.lightUnit == lightUnit) return trees_;
+    GuestTrees fresh{.version = treesVersion(), .lightUnit = lightUnit, .middle = middle()};
+    const auto sentAt = [&](uint32_t mesh, glm::vec2) {
+        const GuestMaterial& m = materialOf(mesh);
+        return gi::SentAt{albedoOf(m), m.emissive / lightUnit};
+    };
+    withSurfaces(fresh.middle, [&](std::span<gi::SampledMesh>, const gi::SampledScene& scene) {
+        fresh.trees = gi::buildOccluderTrees(scene, gi::TreesOf::kAll, sentAt);
     });
     trees_ = std::move(fresh);
     return trees_;

@@ -7,11 +7,13 @@
 #include <unordered_map>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "engine/core/render_probe.h"
 #include "gi/bounce_points.h"
 #include "gi/inputs.h"
 #include "gi/library/guest_context.h"
 #include "gi/occluder_trees.h"
+#include "gi/sky.h"
 
 namespace ag::guest {
 
@@ -20,6 +22,7 @@ struct GuestMaterial {
     VkImageView map = VK_NULL_HANDLE;
     float alphaCutoff = 0, coverage = 1;
     bool doubleSided = false;
+    glm::vec3 emissive{0};  // W/(m² sr)
 
     bool operator==(const GuestMaterial&) const = default;
 };
@@ -28,10 +31,10 @@ struct GuestMesh {
     AgiMesh given;  // its buffers; host pointers are not kept
     std::vector<glm::vec3> positions, normals;
     std::vector<glm::vec2> uvs;
-    std::vector<uint32_t> indices;
-    Bounds bounds;  // m, of the mesh itself
+    std::vector<uint32_t> indices;  // fronts are counter-clockwise
+    Bounds bounds;                  // m, of the mesh itself
     bool there = true;
-    uint32_t instances = 0;
+    uint32_t instances = 0, movable = 0;  // of its instances, those that move
 };
 
 struct GuestInstance {
@@ -60,18 +63,26 @@ struct GuestProbe {
     glm::vec3 normal{0};
 };
 
-// Points on all surfaces, in the meshes' own coordinates; areas in m².
+// Points on all surfaces, in the meshes' own coordinates; areas in m², what they shine in W/(m² sr).
 struct GuestPoints {
     uint64_t set = 0;  // which instances and meshes they are on
     gi::SurfaceSamples samples;
-    std::vector<io::BouncePoint> bounces;
+    std::vector<io::BouncePoint> reflecting, emissive;
 };
 
-// What is static as a tree for rays, about a place in the world, in m.
+// Trees for rays: of what is static about a place in the world, in m; of meshes that move in their own
+// coordinates. Radiance is over `lightUnit`.
 struct GuestTrees {
-    uint64_t version = 0;  // GuestScene::staticVersion
+    uint64_t version = 0;  // GuestScene::treesVersion
+    float lightUnit = 0;
     glm::dvec3 middle{0};
     gi::OccluderTrees trees;
+};
+
+struct GuestSky {
+    gi::SkyTable table;    // W/(m² sr); empty: there is none
+    float mean = 0;        // of all directions, the strongest channel
+    uint64_t version = 0;  // 0: there is none
 };
 
 class GuestScene {
@@ -87,12 +98,15 @@ class GuestScene {
     void removeInstance(uint64_t id);
     void setLights(std::vector<GuestLight> lights);
     void setProbes(std::vector<GuestProbe> probes) { probes_ = std::move(probes); }
+    void setSky(GuestSky sky) { sky_ = std::move(sky); }
 
     const std::vector<GuestMaterial>& materials() const { return materials_; }
     const std::vector<GuestMesh>& meshes() const { return meshes_; }
     const std::vector<GuestInstance>& instances() const { return instances_; }
     const std::vector<GuestLight>& lights() const { return lights_; }
     const std::vector<GuestProbe>& probes() const { return probes_; }
+    const GuestSky& sky() const { return sky_; }
+    float mostEmissive() const;  // W/(m² sr), of the materials that instances have; 0: nothing shines
     bool allHaveBuffers() const { return withoutBuffers_ == 0; }  // meshes, so that the library can draw them
     bool has(uint64_t instance) const { return rowOf_.contains(instance); }
 
@@ -106,9 +120,11 @@ class GuestScene {
 
     // Chosen anew if the set changed: some 100 ms for a large scene.
     const GuestPoints& points();
-    // Built anew if what is static changed: half a second for 250,000 triangles.
-    const GuestTrees& trees();
+    // Built anew if what they are of changed: half a second for 250,000 triangles.
+    const GuestTrees& trees(float lightUnit);
     uint64_t staticVersion() const { return staticVersion_; }  // what is static and where; never 0
+    // Also which meshes move; never 0.
+    uint64_t treesVersion() const { return combineHash(staticVersion_, movingVersion_); }
     // In the world; m.
     struct DoubleBounds {
         glm::dvec3 min{1e300}, max{-1e300};
@@ -118,7 +134,11 @@ class GuestScene {
 
   private:
     void addInstance(const GuestInstance& instance);
+    void count(const GuestInstance& instance, int by);
     glm::dvec3 middle();
+    const GuestMaterial& materialOf(uint32_t mesh) const;
+    std::vector<io::BouncePoint> chooseEmissivePoints(std::span<gi::SampledMesh> meshes,
+                                                      const gi::SampledScene& scene) const;
     template <class Use>
     void withSurfaces(glm::dvec3 middle, Use&& use);
 
@@ -132,7 +152,8 @@ class GuestScene {
     std::vector<GuestLight> lights_;
     std::vector<GuestProbe> probes_;
     uint64_t setVersion_ = 1, movedVersion_ = 1, lightsVersion_ = 1, drawnVersion_ = 1;
-    uint64_t staticVersion_ = 1;
+    uint64_t staticVersion_ = 1, movingVersion_ = 1;
+    GuestSky sky_;
     GuestPoints points_;
     GuestTrees trees_;
     DoubleBounds bounds_;

@@ -55,6 +55,16 @@ RenderCamera cameraOf(const AgiFrame& f, glm::vec3 position, float length) {
     return camera;
 }
 
+// As far as subtracting the jitter is exact.
+bool isNearly(const glm::mat4& a, const glm::mat4& b) {
+    float most = 0, difference = 0;
+    for (int i = 0; i < 16; ++i) {
+        most = std::max(most, std::abs(a[i / 4][i % 4]));
+        difference = std::max(difference, std::abs(a[i / 4][i % 4] - b[i / 4][i % 4]));
+    }
+    return difference <= 1e-6f * most;
+}
+
 bool wantsGloss(const AgiFrame& f) {
     return f.gloss.view && f.baseColor.view && f.roughnessMetallic.view;
 }
@@ -108,6 +118,14 @@ void GuestView::noteCamera(const AgiFrame& f) {
     const RenderCamera now = cameraOf(f, surfaces_->toOurs(position), surfaces_->units().length);
     if (now.clipFromWorld != camera_.clipFromWorld) ++cameraVersion_;
     camera_ = now;
+    AgiFrame still = f;
+    for (int axis = 0; axis < 2; ++axis)
+        still.clipFromView[8 + axis] -= f.jitter[axis] * f.clipFromView[11];
+    const glm::mat4 steady = cameraOf(still, camera_.position, surfaces_->units().length).clipFromWorld;
+    if (!isNearly(steady, steadyClip_)) {
+        steadyClip_ = steady;
+        ++viewVersion_;
+    }
 }
 
 gi::Surfaces GuestView::readSurfaces(GraphScope scope, const AgiFrame& f, const Images& images) const {
@@ -154,13 +172,16 @@ gi::Surfaces GuestView::readSurfaces(GraphScope scope, const AgiFrame& f, const 
 
 namespace {
 
-void writeLight(GraphScope scope, const char* name, ImageHandle light, ImageHandle any, ImageHandle to,
-                float scale) {
+// The sum of what there is of both.
+void writeLight(GraphScope scope, const char* name, ImageHandle light, ImageHandle sky, ImageHandle any,
+                ImageHandle to, float scale) {
     const glm::uvec2 size = scope.info(to).size;
     scope.compute(name, "guest/write_light.comp")
         .sample("light", light ? light : any)
+        .sample("sky", sky ? sky : any)
         .write("result", to)
         .constant("kLit", bool(light))
+        .constant("kSky", bool(sky))
         .push(scale)
         .dispatchThreads(size.x, size.y);
 }
@@ -168,13 +189,14 @@ void writeLight(GraphScope scope, const char* name, ImageHandle light, ImageHand
 }  // namespace
 
 gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const AgiFrame& f,
-                                   const Images& images, gi::BounceLightHistory& history) {
+                                   const Images& images, History& history) {
     // What the camera sees
     const gi::Surfaces surfaces = readSurfaces(scope, f, images);
 
     // Indirect light
     gi::World world = surfaces_->world();
-    world.versions.camera = world.versions.view = cameraVersion_;
+    world.versions.camera = cameraVersion_;
+    world.versions.view = viewVersion_;
     const gi::Occluders occluders = surfaces_->occluders(scope);
     const auto draw = [&](GraphScope at, gi::RsmSet& rsm) {
         if (f.drawRsmFace)
@@ -186,10 +208,15 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
     const gi::BounceLightInputs in{.surfaces = surfaces,
                                    .world = world,
                                    .occluders = occluders,
+                                   .sky = surfaces_->sky(scope),
                                    .drawRsm = draw,
                                    .probes = surfaces_->probes(),
                                    .lightUnit = unit};
-    const gi::BounceLight light = gi::addBounceLight(scope, in, settings_, history);
+    const gi::BounceLight light = gi::addBounceLight(scope, in, settings_, history.bounce);
+
+    // Light of the sky
+    const gi::SkyLight sky = gi::addSkyLight(scope, surfaces, settings_.spacing,
+                                             {in.sky, occluders, world.versions}, settings_.sky, history.sky);
 
     // To the host
     const Borrowed written{VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL};
@@ -197,10 +224,10 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
         const ImageInfo info{.format = kHalf4, .size = surfaces.size};
         return image ? scope.borrowImage(name, *image, written) : scope.borrowImage(name, info, written);
     };
-    writeLight(scope, "guest.write_irradiance", light.irradiance.image, surfaces.normal,
+    writeLight(scope, "guest.write_irradiance", light.irradiance.image, sky.image, surfaces.normal,
                result("guest.irradiance", images.irradiance), unit);
     if (wantsGloss(f))
-        writeLight(scope, "guest.write_gloss", light.gloss, surfaces.normal,
+        writeLight(scope, "guest.write_gloss", light.gloss, sky.gloss, surfaces.normal,
                    result("guest.gloss", images.gloss), unit);
     return light;
 }
@@ -208,7 +235,7 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
 // Readings of a frame that the device is not done with are none.
 void GuestView::keepReadings(const AgiFrame& f, gi::ProbeReadings before) {
     uint64_t& slot = hostFrames_[graph_->frame() % kFramesInFlight];
-    if (slot > f.framesDone) history_.probes = std::move(before);
+    if (slot > f.framesDone) history_.bounce.probes = std::move(before);
     slot = f.frame;
 }
 
@@ -224,7 +251,7 @@ void GuestView::record(GuestScene& scene, VkCommandBuffer commands, const AgiFra
     surfaces_->upload(commands);
     const Images images(context_.gpu(), f);
     graph_->beginFrame({.timing = f.timed ? TimingMode::kBracketed : TimingMode::kOff});
-    gi::ProbeReadings before = history_.probes;
+    gi::ProbeReadings before = history_.bounce.probes;
     const gi::BounceLight light = declare(*graph_, scene, f, images, history_);
     keepReadings(f, std::move(before));
     graph_->execute(commands);
@@ -239,17 +266,25 @@ void GuestView::prepare(GuestScene& scene, const AgiFrame& f) {
     surfaces_->update(scene, glm::dvec3(f.cameraPosition[0], f.cameraPosition[1], f.cameraPosition[2]));
     noteCamera(f);
     FrameGraph plan(&context_.gpu(), &context_.pipelines());
-    plan.beginFrame({});
-    gi::BounceLightHistory none;
-    declare(plan, scene, f, Images(), none);
-    plan.preparePipelines();
+    // While nothing changes, from the second frame on, there are rays.
+    History none;
+    for (int i = 0; i < 2; ++i) {
+        plan.beginFrame({});
+        declare(plan, scene, f, Images(), none);
+        plan.preparePipelines();
+    }
     surfaces_ = std::move(surfaces);
     camera_ = camera;
 }
 
 float GuestView::settled() const {
-    const uint32_t frames = std::max(settings_.valClustering.settleFrames, 1u);
-    return std::min(float(history_.valClustering.settling.sinceChange) / float(frames), 1.0f);
+    const auto share = [](uint32_t since, uint32_t frames) {
+        return std::min(float(since) / float(std::max(frames, 1u)), 1.0f);
+    };
+    const gi::BounceLightHistory& h = history_.bounce;
+    const float lights = share(h.valClustering.settling.sinceChange, settings_.valClustering.settleFrames);
+    const float rays = share(h.gatherGrid.light.sinceChange, gi::framesToRest(settings_));
+    return settings_.texelRays.enabled ? 0.5f * (lights + rays) : lights;
 }
 
 }  // namespace ag::guest

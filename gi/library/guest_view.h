@@ -26,7 +26,7 @@ class GuestView {
 
     Settings& options() { return options_; }
     FrameGraph& graph() { return *graph_; }
-    const gi::ProbeReadings& readings() const { return history_.probes; }
+    const gi::ProbeReadings& readings() const { return history_.bounce.probes; }
     uint32_t virtualLights() const { return virtualLights_; }
     float settled() const;
     GuestContext& context() const { return context_; }
@@ -34,8 +34,12 @@ class GuestView {
 
   private:
     struct Images;
+    struct History {
+        gi::BounceLightHistory bounce;
+        gi::SkyHistory sky;
+    };
     gi::BounceLight declare(GraphScope scope, GuestScene& scene, const AgiFrame& frame, const Images& images,
-                            gi::BounceLightHistory& history);
+                            History& history);
     gi::Surfaces readSurfaces(GraphScope scope, const AgiFrame& frame, const Images& images) const;
     void noteCamera(const AgiFrame& frame);
     void keepReadings(const AgiFrame& frame, gi::ProbeReadings before);
@@ -44,11 +48,13 @@ class GuestView {
     gi::BounceLightSettings settings_;
     Settings options_;
     std::unique_ptr<FrameGraph> graph_;
-    gi::BounceLightHistory history_;
+    History history_;
     std::unique_ptr<SceneOnDevice> surfaces_;
     std::unique_ptr<RsmDraws> rsms_;
     RenderCamera camera_;
-    uint64_t cameraVersion_ = 1;
+    // Of the camera, and of where it would look without its jitter.
+    uint64_t cameraVersion_ = 1, viewVersion_ = 1;
+    glm::mat4 steadyClip_{0};
     uint32_t virtualLights_ = 0;
     std::array<uint64_t, kFramesInFlight> hostFrames_{};  // in which the graph's last frames were recorded
 };

@@ -1,7 +1,10 @@
 #include "gi/library/scene_on_device.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <numbers>
+#include <utility>
 
 #include "engine/core/floating_origin.h"
 #include "engine/core/hash.h"
@@ -24,8 +27,8 @@ io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 a
 }  // namespace
 
 SceneOnDevice::~SceneOnDevice() {
-    for (auto* buffer :
-         {&instances_, &samples_, &pointAreas_, &bouncePoints_, &treeNodes_, &treeTriangles_, &treePlace_})
+    for (auto* buffer : {&instances_, &samples_, &pointAreas_, &bouncePoints_, &treeNodes_, &treeTriangles_,
+                         &treePlaces_, &moverNodes_, &skyTexels_, &skyCells_, &skyUpTo_})
         gpu::retire(context_, std::move(*buffer));
 }
 
@@ -33,7 +36,7 @@ bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
     const bool other = scene_ != scene.id();
     if (other) {
         scene_ = scene.id();
-        setVersion_ = movedVersion_ = lightsVersion_ = pointsSet_ = 0;
+        setVersion_ = movedVersion_ = lightsVersion_ = pointsSet_ = treesBuilt_ = skyVersion_ = 0;
         upkeep_.forget();
         originIsChosen_ = false;
         units_ = {};
@@ -48,6 +51,7 @@ bool SceneOnDevice::update(GuestScene& scene, glm::dvec3 camera) {
     takePoints(scene);
     takeInstances(scene);
     takeTrees(scene);
+    takeSky(scene);
     takeLights(scene);
     return other || !(units_ == before);
 }
@@ -68,7 +72,7 @@ void SceneOnDevice::chooseUnits(GuestScene& scene) {
     if (scene.instances().empty()) return;
     const Bounds metres{glm::vec3(all.min - origin_), glm::vec3(all.max - origin_)};
     const float diagonal = glm::length(metres.max - metres.min);
-    float most = 0;
+    float most = std::numbers::pi_v<float> * std::max(scene.mostEmissive(), scene.sky().mean);
     for (const GuestLight& l : scene.lights())
         most = std::max(most, gi::irradianceOf(l.light.intensity, l.light.kind == LightKind::kDirectional,
                                                l.light.range, diagonal));
@@ -93,21 +97,45 @@ std::unique_ptr<gpu::Buffer> SceneOnDevice::make(const char* name, std::span<con
     return buffer;
 }
 
+// The same into a buffer with room for some more, where that suffices.
+template <class T>
+void SceneOnDevice::fill(std::unique_ptr<gpu::Buffer>& buffer, const char* name, const std::vector<T>& items,
+                         VkFormat texelFormat) {
+    const uint64_t bytes = std::max<uint64_t>(items.size() * sizeof(T), 64);
+    if (!buffer || buffer->sizeBytes() < bytes) {
+        gpu::retire(context_, std::move(buffer));
+        buffer = std::make_unique<gpu::Buffer>(
+            context_, gpu::BufferDesc{.name = name,
+                                      .sizeBytes = bytes + bytes / 2 / sizeof(T) * sizeof(T),
+                                      .texelFormat = texelFormat});
+    }
+    if (!items.empty()) stage(std::as_bytes(std::span(items)), *buffer, 0);
+}
+
 void SceneOnDevice::takePoints(GuestScene& scene) {
     const GuestPoints& points = scene.points();
-    const uint64_t set = combineHash(points.set, hashValue(units_.length));
+    const uint64_t set =
+        combineHash(points.set, combineHash(hashValue(units_.length), hashValue(units_.light)));
     if (pointsSet_ == set) return;
     pointsSet_ = set;
     const float area = 1 / (units_.length * units_.length);
     std::vector<float> areas = points.samples.pointAreas;
     for (float& a : areas)
         a *= area;
-    std::vector<io::BouncePoint> bounces = points.bounces;
-    for (io::BouncePoint& b : bounces)
-        b.area *= area;
+    std::vector<io::BouncePoint> bounces = points.reflecting, emissive = points.emissive;
+    for (io::BouncePoint& e : emissive)
+        e.albedo /= units_.light;
+    for (auto* all : {&bounces, &emissive})
+        for (io::BouncePoint& b : *all)
+            b.area *= area;
+    bounceArea_ = gi::meanArea(bounces);
+    emissiveArea_ = gi::meanArea(emissive);
+    emissiveFlux_ = gi::emittedFlux(emissive);
     sampleCount_ = uint32_t(points.samples.samples.size());
     staticCount_ = points.samples.staticCount;
     bounceCount_ = uint32_t(bounces.size());
+    emissiveCount_ = uint32_t(emissive.size());
+    bounces.insert(bounces.end(), emissive.begin(), emissive.end());
     for (auto* buffer : {&samples_, &pointAreas_, &bouncePoints_})
         gpu::retire(context_, std::move(*buffer));
     samples_ =
@@ -157,30 +185,71 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
     movedVersion_ = scene.movedVersion();
 }
 
-// They lie about a place of their own in the world, in m: only where that is changes with origin and units.
+// Where what is static moved they stay as they are until they are built anew, good for rays to the sky alone.
 void SceneOnDevice::takeTrees(GuestScene& scene) {
     using enum gi::TreeUpkeep::Task;
-    const auto task = upkeep_.next(scene.staticVersion());
-    treesVersion_ = task == kNone ? 0 : combineHash(scene_, scene.staticVersion());
+    const float lightUnit = scene.mostEmissive() > 0 ? units_.light : 1;
+    const auto task = upkeep_.next(combineHash(scene.treesVersion(), hashValue(lightUnit)));
+    const bool moves = std::exchange(movedBefore_, scene.movedVersion()) != scene.movedVersion();
+    treesAreStale_ = task == kNone;
     if (task == kNone) return;
-    const GuestTrees& trees = scene.trees();
-    if (task == kBuild) {
+    if (task == kBuild || treesBuilt_ == 0) {
+        const GuestTrees& trees = scene.trees(lightUnit);
         for (auto* buffer : {&treeNodes_, &treeTriangles_})
             gpu::retire(context_, std::move(*buffer));
         treeNodes_ = make("guest.tree_nodes", std::span<const glm::uvec4>(trees.trees.nodes), kWords);
         treeTriangles_ =
             make("guest.tree_triangles", std::span<const io::BvhTriangle>(trees.trees.triangles), kWords);
+        treesBuilt_ = combineHash(combineHash(scene_, trees.version), hashValue(lightUnit));
+        treesPlaced_ = 0;
     }
+    // Without a sky rays are cast while nothing moves.
+    if (moves && treesPlaced_ != 0 && scene.sky().version == 0) return;
+    placeTrees(scene);
+}
+
+// The static one lies about a place of its own in the world, in m: only where that is changes with origin and
+// units.
+void SceneOnDevice::placeTrees(GuestScene& scene) {
+    const GuestTrees& trees = scene.trees(scene.mostEmissive() > 0 ? units_.light : 1);
     const glm::dvec3 from = origin_ - trees.middle;
-    const uint64_t placed =
-        combineHash(treesVersion_, combineHash(hashValue(from), hashValue(units_.length)));
+    treesStand_ = combineHash(treesBuilt_, combineHash(hashValue(from), hashValue(units_.length)));
+    const uint64_t placed = combineHash(treesStand_, scene.movedVersion());
     if (treesPlaced_ == placed) return;
     treesPlaced_ = placed;
+    const float perMetre = 1 / units_.length;
+    std::vector<gi::SampledInstance> instances;
+    for (const GuestInstance& i : scene.instances())
+        if (i.movable)
+            instances.push_back({.worldFromLocal = glm::mat4x3(i.linear[0] * perMetre, i.linear[1] * perMetre,
+                                                               i.linear[2] * perMetre, toOurs(i.position)),
+                                 .mesh = i.mesh,
+                                 .movable = true});
+    gi::placeTrees(trees.trees, instances, movers_);
     glm::mat4x3 treeFromOurs(units_.length);
     treeFromOurs[3] = glm::vec3(from);
-    const io::BvhPlace place = gi::placeOf(trees.trees.everythingStatic, treeFromOurs);
-    gpu::retire(context_, std::move(treePlace_));
-    treePlace_ = make("guest.tree_place", std::span(&place, 1), kWords);
+    movers_.places[io::kBvhStatic] = gi::placeOf(trees.trees.everythingStatic, treeFromOurs);
+    fill(treePlaces_, "guest.tree_places", movers_.places, kWords);
+    fill(moverNodes_, "guest.mover_nodes", movers_.nodes, kWords);
+}
+
+void SceneOnDevice::takeSky(const GuestScene& scene) {
+    const GuestSky& sky = scene.sky();
+    const uint64_t version = sky.version ? combineHash(sky.version, hashValue(units_.light)) : 0;
+    if (skyVersion_ == version) return;
+    skyVersion_ = version;
+    for (auto* buffer : {&skyTexels_, &skyCells_, &skyUpTo_})
+        gpu::retire(context_, std::move(*buffer));
+    if (version == 0) return;
+    gi::SkyTable table = sky.table;
+    for (io::SkyTexel& texel : table.texels)
+        texel.radiance /= units_.light;
+    for (auto* powers : {&table.cells, &table.upTo})
+        for (float& power : *powers)
+            power /= units_.light;
+    skyTexels_ = make("guest.sky_texels", std::span<const io::SkyTexel>(table.texels), gpu::kVec4Texels);
+    skyCells_ = make("guest.sky_cells", std::span<const float>(table.cells), VK_FORMAT_UNDEFINED);
+    skyUpTo_ = make("guest.sky_up_to", std::span<const float>(table.upTo), VK_FORMAT_UNDEFINED);
 }
 
 void SceneOnDevice::takeLights(const GuestScene& scene) {
@@ -252,12 +321,27 @@ gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
     o.pointAreas = scope.importBuffer("guest.point_areas", *pointAreas_, pointsSet_);
     o.bouncePoints = scope.importBuffer("guest.bounce_points", *bouncePoints_, pointsSet_);
     o.bouncePointCount = bounceCount_;
-    if (treesVersion_ != 0)
-        o.trees = {.nodes = scope.importBuffer("guest.tree_nodes", *treeNodes_, treesVersion_),
-                   .triangles = scope.importBuffer("guest.tree_triangles", *treeTriangles_, treesVersion_),
-                   .places = scope.importBuffer("guest.tree_place", *treePlace_, treesPlaced_),
-                   .staticVersion = treesPlaced_};
+    o.emissivePointCount = emissiveCount_;
+    o.emissiveFlux = emissiveFlux_;
+    o.bouncePointArea = bounceArea_;
+    o.emissivePointArea = emissiveArea_;
+    if (treesBuilt_ != 0)
+        o.trees = {.nodes = scope.importBuffer("guest.tree_nodes", *treeNodes_, treesBuilt_),
+                   .triangles = scope.importBuffer("guest.tree_triangles", *treeTriangles_, treesBuilt_),
+                   .places = scope.importBuffer("guest.tree_places", *treePlaces_, treesPlaced_),
+                   .moverNodes = scope.importBuffer("guest.mover_nodes", *moverNodes_, treesPlaced_),
+                   .staticVersion = treesStand_,
+                   .snapping = std::exp2(-float(context_.info().limits.subPixelPrecisionBits)),
+                   .stale = treesAreStale_};
     return o;
+}
+
+gi::SkyOnDevice SceneOnDevice::sky(GraphScope scope) const {
+    if (skyVersion_ == 0) return {};
+    return {.texels = scope.importBuffer("guest.sky_texels", *skyTexels_, skyVersion_),
+            .cells = scope.importBuffer("guest.sky_cells", *skyCells_, skyVersion_),
+            .upTo = scope.importBuffer("guest.sky_up_to", *skyUpTo_, skyVersion_),
+            .version = skyVersion_};
 }
 
 }  // namespace ag::guest

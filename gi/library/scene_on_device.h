@@ -27,6 +27,7 @@ class SceneOnDevice {
     // Of the frame: valid until the next update().
     gi::World world() const;
     gi::Occluders occluders(GraphScope scope) const;
+    gi::SkyOnDevice sky(GraphScope scope) const;
     std::span<const RenderProbe> probes() const { return probes_; }
     // Of an instance, in our units.
     const Bounds& boundsOf(size_t row) const { return rowBounds_[row]; }
@@ -44,10 +45,15 @@ class SceneOnDevice {
     void takeInstances(GuestScene& scene);
     void takePoints(GuestScene& scene);
     void takeTrees(GuestScene& scene);
+    void placeTrees(GuestScene& scene);
+    void takeSky(const GuestScene& scene);
     void takeLights(const GuestScene& scene);
     void stage(std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset);
     template <class T>
     std::unique_ptr<gpu::Buffer> make(const char* name, std::span<const T> items, VkFormat texelFormat);
+    template <class T>
+    void fill(std::unique_ptr<gpu::Buffer>& buffer, const char* name, const std::vector<T>& items,
+              VkFormat texelFormat);
 
     gpu::Context& context_;
     uint64_t scene_ = 0;  // GuestScene::id
@@ -62,12 +68,19 @@ class SceneOnDevice {
     bool allAnew_ = true;  // every row: origin, units or set are others
 
     std::unique_ptr<gpu::Buffer> instances_, samples_, pointAreas_, bouncePoints_;
-    uint32_t sampleCount_ = 0, staticCount_ = 0, bounceCount_ = 0;
+    uint32_t sampleCount_ = 0, staticCount_ = 0, bounceCount_ = 0, emissiveCount_ = 0;
+    float emissiveFlux_ = 0, bounceArea_ = 0, emissiveArea_ = 0;  // in our units
     uint64_t pointsSet_ = 0;
     gi::TreeUpkeep upkeep_;
-    std::unique_ptr<gpu::Buffer> treeNodes_, treeTriangles_, treePlace_;
-    uint64_t treesVersion_ = 0;  // of what is in them; 0: they are not to be used
-    uint64_t treesPlaced_ = 0;   // a hash of that and of where they stand
+    std::unique_ptr<gpu::Buffer> treeNodes_, treeTriangles_, treePlaces_, moverNodes_;
+    gi::MoverTree movers_;
+    uint64_t treesBuilt_ = 0;     // a hash of what is in them; 0: there are none
+    uint64_t treesStand_ = 0;     // of that and of where what is static in them stands,
+    uint64_t treesPlaced_ = 0;    // and of where all of it does
+    uint64_t movedBefore_ = 0;    // GuestScene::movedVersion of the last frame
+    bool treesAreStale_ = false;  // they are of what was static some frames ago
+    std::unique_ptr<gpu::Buffer> skyTexels_, skyCells_, skyUpTo_;
+    uint64_t skyVersion_ = 0;  // a hash of the sky and its unit; 0: there is none
     std::vector<Bounds> rowBounds_;
     std::vector<uint64_t> rowVersions_;
     std::vector<gi::RsmLight> lights_;

@@ -7,7 +7,8 @@
  *     agiCreateContext   once a device          agiCreateView    once a camera
  *     agiCreateScene     once a world           agiSetLights     when lights change
  *     agiAddMaterials    at loading             agiSetInstances  when things come or move
- *     agiAddMeshes       at loading             agiRecord        once a frame and view
+ *     agiAddMeshes       at loading             agiSetSky        when the sky changes
+ *                                               agiRecord        once a frame and view
  *
  * It never submits, waits, prints, aborts or throws. A call that fails returns a negative code, and
  * agiLastError says in one sentence what is wrong. Nothing global: contexts of several devices live side by
@@ -38,7 +39,7 @@
 #include <vulkan/vulkan_core.h>
 
 #define AGI_VERSION_MAJOR 1 /* the soname: another one where something is removed or means another thing */
-#define AGI_VERSION_MINOR 1
+#define AGI_VERSION_MINOR 2
 #define AGI_VERSION ((AGI_VERSION_MAJOR << 16) | AGI_VERSION_MINOR)
 
 #if defined(__GNUC__)
@@ -144,6 +145,8 @@ typedef struct AgiMaterial {
     float alphaCutoff;      /* > 0: texels of albedoMap with less alpha are holes */
     float coverage;         /* then: the share of the surface that is no hole, 0 to 1 */
     uint32_t doubleSided;   /* else light that meets the back is absorbed */
+    float emissive[3]; /* since 1.2: W/(m² sr) that it shines by itself, the mean of its map; from its front
+                          alone if it is not doubleSided */
 } AgiMaterial;
 
 /* Ids are firstId, firstId + 1, ... */
@@ -187,10 +190,12 @@ typedef struct AgiInstance {
 } AgiInstance;
 
 /* New ids are added, known ones moved. Cost: when an id or a mesh is new, points on all surfaces are chosen
- * anew by the next agiPrepare or agiRecord (some 100 ms for a large scene); a move costs a row of 64 bytes.
- * What is not movable is kept as a tree for rays, about 80 bytes a triangle in host memory and in each view:
- * built in the first frame and when such instances have come, gone or moved and then rested for 16 frames,
- * half a second for 250,000 triangles; until then shadow maps are made from points. */
+ * anew by the next agiPrepare or agiRecord (some 100 ms for a large scene); a move costs a row of 64 bytes,
+ * and 64 more of the tree over what is movable wherever rays are cast. Triangles are kept as trees for rays,
+ * about 80 bytes each in host memory and in each view: of what is not movable one, of each mesh that movable
+ * instances have another; built in the first frame and when such instances have come, gone or moved, or a
+ * mesh became movable, and then rested for 16 frames, half a second for 250,000 triangles; until then shadow
+ * maps are made from points, and no rays are cast but to the sky. */
 AGI_API AgiResult agiSetInstances(AgiScene scene, uint32_t count, const AgiInstance* instances);
 /* Ids that are not there are an error. */
 AGI_API AgiResult agiRemoveInstances(AgiScene scene, uint32_t count, const uint64_t* ids);
@@ -222,6 +227,22 @@ typedef struct AgiLight {
 /* All of them, in the place of those before. */
 AGI_API AgiResult agiSetLights(AgiScene scene, uint32_t count, const AgiLight* lights);
 
+/* Light from everywhere where nothing stands, since 1.2: a picture of all directions, twice as wide as high
+ * or a single texel. Rows go from the zenith (+Y) to the nadir, columns round from -X by -Z, +X and +Z. A sun
+ * in it lights like a large one: give it as a directional light instead. */
+typedef struct AgiSky {
+    size_t structSize;
+    const void* next;
+    uint32_t width, height;
+    const float* radiance; /* host memory, copied: 3 * width * height floats, W/(m² sr), 0 to 1e6 */
+    float
+        worldFromPicture[9]; /* columns: where the picture's axes point in the world; all zero: as they are */
+} AgiSky;
+
+/* In the place of the one before; null: none. Its light is found by rays, one a pixel that light is gathered
+ * at and frame, and is whole where it stands still for some hundred frames. */
+AGI_API AgiResult agiSetSky(AgiScene scene, const AgiSky* sky);
+
 /* A point whose irradiance you want to read. */
 typedef struct AgiProbe {
     uint64_t id;
@@ -230,7 +251,7 @@ typedef struct AgiProbe {
 } AgiProbe;
 typedef struct AgiReading {
     float direct[3];  /* W/m², of the lights that bounce */
-    float bounced[3]; /* W/m² */
+    float bounced[3]; /* W/m², and of what is emissive; nothing straight from the sky */
 } AgiReading;
 
 /* All of them, at most 4096, in the place of those before. */
@@ -314,7 +335,9 @@ typedef struct AgiFrame {
 
     /* Results: R16G16B16A16_SFLOAT with STORAGE usage, in GENERAL before and after. What they held is
      * overwritten. */
-    AgiImage irradiance; /* W/m² on each pixel's surface, of all bounces */
+    /* W/m² on each pixel's surface: of the sky, of what is emissive, and of all bounces of these and the
+     * lights. While nothing changes rays make it truer, for up to a thousand frames (AgiStatus::settled). */
+    AgiImage irradiance;
     AgiImage gloss; /* W/(m² sr): what glossy materials reflect of the same light beyond that; or null */
 
     uint32_t cut;   /* the camera jumped: what was known of the pixels counts for nothing */
@@ -329,12 +352,17 @@ typedef struct AgiFrame {
     void* drawRsmUser;
     uint64_t drawRsmVersion; /* change it when what you would draw changes. While it and all faces are as they
                                 were, nothing is called; else every face is. */
+
+    /* Since 1.2: what clipFromView is moved by for anti-aliasing, in clip space over w (pixel offsets times 2
+     * / size). A camera that differs in nothing else stands still: without it, one that jitters never does.
+     */
+    float jitter[2];
 } AgiFrame;
 
 /* Records the frame's indirect light into `commands`, which is in the recording state. After an error the
  * command buffer must not be submitted; record the frame again, with the same number, into another one.
- * Unless it was AGI_ERROR_ARGUMENT, all views of that frame start anew. Without any light that bounces the
- * results are black. */
+ * Unless it was AGI_ERROR_ARGUMENT, all views of that frame start anew. Without any light, sky or emissive
+ * material the results are black. */
 AGI_API AgiResult agiRecord(AgiView view, AgiScene scene, VkCommandBuffer commands, const AgiFrame* frame);
 
 /* ---- What happened ---- */
@@ -356,7 +384,8 @@ typedef struct AgiStatus {
     size_t structSize;
     const void* next;
     uint32_t virtualLights; /* in the frame recorded last */
-    float settled;          /* 0 to 1: how far the light has settled since anything last changed */
+    float settled; /* 0 to 1: how far the light has settled since anything last changed: half way when the
+                      virtual lights have, 1 when rays make it no truer */
 } AgiStatus;
 AGI_API AgiResult agiGetStatus(AgiView view, AgiStatus* status);
 
