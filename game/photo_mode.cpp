@@ -57,6 +57,9 @@ void PhotoMode::enter(Game& game) {
     hour_ = daylight_.amount > 0 ? hourOf(daylight_) : 0;
     LevelSky& sky = world.resource<LevelSky>();
     skyBefore_ = sky.sky;
+    seenBefore_ = game.scene().sky;
+    changedSky_ = seenBefore_ != skyBefore_;
+    rested_ = 0;
     sky.everywhere = true;  // the camera may go where the player is not
     lookAt(game);
 }
@@ -67,6 +70,7 @@ void PhotoMode::leave(Game& game) {
     World& world = game.world();
     world.resource<FreeEyes>().open = false;
     world.resource<LevelSky>() = {.sky = std::exchange(skyBefore_, nullptr)};
+    world.resource<RenderScene>().sky = std::exchange(seenBefore_, nullptr);
 }
 
 void PhotoMode::lookAt(Game& game) {
@@ -86,6 +90,7 @@ void PhotoMode::setHour(Game& game, float hour) {
     if (daylight_.amount <= 0) return;
     hour_ = std::clamp(hour, kFirstHour, kLastHour);
     rested_ = 0;
+    changedSky_ = true;
     const LevelDaylight then{sunDirectionAt(daylight_, hour_), daylight_.amount};
     game.world().resource<LevelSky>().sky = std::make_shared<const Sky>(skyOf(then));
 }

@@ -16,6 +16,8 @@ class PhotoMode {
     bool on() const { return on_; }
     void enter(Game& game);  // at the player's eyes
     void leave(Game& game);
+    void forget() { on_ = false; }                   // of a game that is gone
+    bool changedSky() const { return changedSky_; }  // since it was entered, or what is seen of it
 
     // Flies, and turns the view.
     void move(Game& game, const Input& input, float seconds);
@@ -41,7 +43,8 @@ class PhotoMode {
     bool on_ = false, showsLines_ = true;
     FreeCamera camera_;
     LevelDaylight daylight_;
-    std::shared_ptr<const Sky> skyBefore_;
+    std::shared_ptr<const Sky> skyBefore_, seenBefore_;
+    bool changedSky_ = false;
     float hour_ = 0, rested_ = 0;
 };
 

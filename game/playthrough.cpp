@@ -55,10 +55,11 @@ Status Playthrough::reload() {
 }
 
 Status Playthrough::startAnew() {
-    if (Status room = save_.makeRoomForNewGame(*demo_.game); !room) return room;
     if (begun_ || !isFresh())
         if (Status loaded = reload(); !loaded) return loaded;
     begun_ = true;
+    const Status room = save_.makeRoomForNewGame(*demo_.game);
+    if (!room) spdlog::warn("{}", room.error().message);
     return Ok{};
 }
 
@@ -74,9 +75,9 @@ Status Playthrough::endRecording() {
 Status Playthrough::startRoom(int32_t room) {
     const Status kept = endRecording();
     if (Status loaded = reload(); !loaded) return loaded;
-    startAtRoom(*demo_.game, room);
+    begun_ = startAtRoom(*demo_.game, room);
     isElsewhere();
-    begun_ = true;
+    if (!begun_) return Error{"the level has no such room"};
     return kept;
 }
 

@@ -35,7 +35,10 @@ bool parseLine(const std::string& line, const SaveLimits& limits, Saved& saved) 
         good = f.node < limits.nodes && f.openness >= 0 && f.openness <= 1;
     } else if (word == "played") {
         in >> saved.played;
-        good = saved.played >= 0 && saved.played < double(kMostSeconds);
+        good = saved.played >= -1 && saved.played < double(kMostSeconds);
+        saved.timed = true;
+    } else if (word == "won") {
+        good = saved.won = true;
     } else if (word == "spent") {
         SavedTime& t = saved.times.emplace_back();
         in >> t.room >> t.seconds;

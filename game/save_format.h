@@ -33,8 +33,10 @@ struct Saved {
     std::vector<SavedRoom> rooms;
     std::vector<SavedFlower> flowers;
     std::vector<SavedBody> bodies;
+    bool timed = false;  // it says how long was played
     double played = -1;  // s since the level's start; negative: not known
     std::vector<SavedTime> times;
+    bool won = false;
 };
 
 // What a save of a level may say.

@@ -23,6 +23,8 @@ uint64_t levelHash(const SceneAsset& level) {
 
 namespace {
 
+constexpr size_t kMostTimedRooms = 64;
+constexpr double kNotKnown = -1e9;     // s
 constexpr double kMarginOfLevel = 50;  // m about it where things may have come to lie
 
 SaveLimits limitsOf(const Game& game) {
@@ -46,8 +48,11 @@ void apply(World& world, const Saved& saved) {
     player.pitch = saved.pitch;
     player.position = player.before = saved.feet + glm::dvec3(0, double(player.eyeHeight), 0);
     physics.moveWalker(player.body.walker, {CharacterSettings{}.radius, player.body.height}, saved.feet);
+    world.resource<Progress>().won = saved.won;
     PlayTime& played = world.resource<PlayTime>();
     played.known = saved.played >= 0;
+    // A save of before times were kept: what was spent in a room is not known.
+    if (!saved.timed) played.rooms.assign(kMostTimedRooms, kNotKnown);
     played.whole = std::max(saved.played, 0.0);
     for (const SavedTime& t : saved.times) {
         if (size_t(t.room) >= played.rooms.size()) played.rooms.resize(size_t(t.room) + 1);
@@ -82,7 +87,8 @@ std::string saveText(Game& game) {
     text +=
         fmt::format("player {} {} {} {} {}\n", p.body.feet.x, p.body.feet.y, p.body.feet.z, p.yaw, p.pitch);
     const PlayTime& played = world.resource<PlayTime>();
-    if (played.known) text += fmt::format("played {}\n", played.whole);
+    text += fmt::format("played {}\n", played.known ? played.whole : -1);
+    if (game.progress().won) text += "won\n";
     for (size_t i = 0; i < played.rooms.size(); ++i)
         if (played.rooms[i] > 0) text += fmt::format("spent {} {}\n", i, played.rooms[i]);
     View<const Room>(world, {}).each([&](const Room& r) {
@@ -132,7 +138,7 @@ Status restoreGame(Game& game, const std::string& text, const std::string& path)
 
 bool startAtRoom(Game& game, int32_t room) {
     constexpr double kInside = 0.9;  // m from the door
-    Saved saved;
+    Saved saved{.timed = true};
     bool found = false;
     View<const Room>(game.world(), {}).each([&](const Room& r) {
         if (r.index < room) saved.rooms.push_back({r.index, 59});

@@ -35,9 +35,10 @@ constexpr int kMostTicksPerFrame = 12;        // a slower frame slows the world 
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
 constexpr double kCpuBudgetMs = 80, kGpuBudgetMs = 13;  // of a frame's passes, where none is given
 constexpr const char* kGoal = "Flowers open in light that has bounced.\nLight the walls, not the flowers.";
-constexpr auto kBenchmark = std::chrono::seconds(1);
+constexpr auto kBenchmark = std::chrono::seconds(1), kLongestBenchmark = std::chrono::seconds(5);
 constexpr double kLongestStep = 0.1;  // s
-constexpr uint32_t kMessageFrames = 60;
+constexpr double kMessageSeconds = 4;
+constexpr uint32_t kFramesOfPhoto = kFramesInFlight + 8;  // until light has come back that was forgotten
 constexpr float kRestSeconds = 0.5f;  // of the photo mode's camera, before all pixels are rendered
 constexpr const char* kPhotoKeys =
     "arrows: view, time of day   1-9: layers   Enter: save   H: hide   Esc: back";
@@ -127,7 +128,11 @@ class WindowedRun {
                     obey(event);
                 }
             } else if (photo_.on()) {
-                photoKey(key);
+                // A gamepad's A flies up, as it jumps; its Y takes the picture.
+                photoKey(!pad || key == GLFW_KEY_ESCAPE            ? key
+                         : pad == kPadCode + GLFW_GAMEPAD_BUTTON_Y ? GLFW_KEY_ENTER
+                         : key == GLFW_KEY_ENTER                   ? 0
+                                                                   : key);
             } else if (key == GLFW_KEY_ESCAPE) {
                 openMenu();
             }
@@ -135,9 +140,14 @@ class WindowedRun {
         }
     }
     void photoKey(int key) {
-        if (key == GLFW_KEY_ESCAPE) photo_.leave(*demo_.game);
+        if (key == GLFW_KEY_ESCAPE) leavePhotos();
         if (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_F12) wantsPhoto_ = true;
         photo_.press(*demo_.game, key);
+    }
+    // Where the sky was another one, light that went on from it is forgotten, too.
+    void leavePhotos() {
+        if (photo_.changedSky()) renderer_.startAnew();
+        photo_.leave(*demo_.game);
     }
     void takePhotos() {
         play();
@@ -160,7 +170,7 @@ class WindowedRun {
         if (key == GLFW_KEY_F3) panels_.showStatus = !panels_.showStatus;
         if (key == GLFW_KEY_F4) panels_.showWorld = !panels_.showWorld;
         if (key == GLFW_KEY_F9) panels_.showProfiler = !panels_.showProfiler;
-        if (key == GLFW_KEY_F8 && !menu_.open) photo_.on() ? photo_.leave(*demo_.game) : takePhotos();
+        if (key == GLFW_KEY_F8 && !menu_.open) photo_.on() ? leavePhotos() : takePhotos();
         if (key == GLFW_KEY_F10) capture_.start(demo_.files.captures(), demo_.options.captureFrames);
         if (key == GLFW_KEY_TAB && !menu_.open) window_.captureCursor(!window_.cursorCaptured());
         if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9 && !menu_.waitsForKey)
@@ -205,12 +215,12 @@ class WindowedRun {
     // The menu stays open, with the reason, where it cannot begin.
     template <class... Args>
     void start(Status (Playthrough::*how)(Args...), Args... args) {
-        photo_.leave(*demo_.game);
         const Game* before = demo_.game.get();
-        behind_ = 0;
         const Status started = (playing_.*how)(args...);
         report(started);
-        if (started || demo_.game.get() != before) play();
+        const bool other = demo_.game.get() != before;
+        if (other) photo_.forget(), behind_ = 0;
+        if (playing_.hasBegun() && (started || other)) play();
     }
     void startRoom() { start(&Playthrough::startRoom, int32_t(menu_.room)); }
     void advance(double elapsed) {
@@ -252,13 +262,16 @@ class WindowedRun {
     const render::QualityStep& quality() const { return render::qualitySteps()[budget_.step()]; }
     void adapt() {
         const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
+        const auto sinceStart = Clock::now() - start_;
+        if (photo_.on() || sinceStart > kLongestBenchmark) isMeasuring_ = false;
         if (!automatic() || photo_.on() || (menu_.open && !isMeasuring_)) return;
         bool moved = budget_.frame(cost);
-        if (isMeasuring_ && budget_.hasMeasured() && Clock::now() - start_ > kBenchmark) {
+        if (isMeasuring_ && budget_.hasMeasured() && sinceStart > kBenchmark) {
             isMeasuring_ = false;
+            const std::string before = quality().name;
             moved = budget_.chooseAtOnce() || moved;
-            spdlog::info("quality {}: the first second's frames took {:.0f} ms, {:.0f} ms are wanted",
-                         quality().name, cost, budget_.budgetMs());
+            spdlog::info("quality '{}': at '{}' a frame's passes take {:.0f} ms, {:.0f} ms are wanted",
+                         quality().name, before, cost, budget_.budgetMs());
         }
         if (moved) usePlayerSettings();
     }
@@ -282,7 +295,7 @@ class WindowedRun {
         const auto image = swapchain_.acquire(window_.framebufferSize());
         if (!image) return false;
         const glm::uvec2 size = glm::max(window_.framebufferSize(), glm::uvec2(16));
-        demo_.game->frame(size, menu_.open ? 1.0f : float(behind_ / kTick));
+        demo_.game->frame(size, menu_.open || photo_.on() ? 1.0f : float(behind_ / kTick));
         capture_.noteSystems(demo_.game->frameSchedule());
         speaker_.listenFrom(demo_.game->world().resource<ActiveCamera>().pose);
         drawUi();
@@ -308,7 +321,7 @@ class WindowedRun {
              .signal = image->rendered});
         // Readings are of some frames ago: none of the photo mode's reach the game.
         sincePhoto_ = photo_.on() ? 0 : sincePhoto_ + 1;
-        if (sincePhoto_ > kFramesInFlight) demo_.game->takeReadings(renderer_.probeReadings());
+        if (sincePhoto_ > kFramesOfPhoto) demo_.game->takeReadings(renderer_.probeReadings());
         swapchain_.present(*image);
         if (std::exchange(wantsPhoto_, false)) savePhoto();
         if (capture_.recording()) capture_.note(subject(size));
@@ -320,16 +333,25 @@ class WindowedRun {
         renderer_.waitIdle();
         Status saved = openFolder({demo_.files.photos()});
         if (saved) saved = saveImage(render::readImage(renderer_, shown_), stem + ".png");
-        if (saved && light_) saved = saveImage(render::readImage(renderer_, light_), stem + ".exr");
+        if (saved && light_) {
+            const render::LayerInfo& info = render::layerInfo(demo_.layer.value_or(render::Layer::kRadiance));
+            Image light = render::readImage(renderer_, light_);
+            light.attributes = {{"layer", std::string(info.name)},
+                                {"unit", std::string(info.unit)},
+                                {"meaning", std::string(info.meaning)},
+                                {"device", device_.info().name}};
+            saved = saveImage(light, stem + ".exr");
+        }
         message_ =
             saved ? fmt::format("saved {}.png{}", stem, light_ ? " and .exr" : "") : saved.error().message;
-        messageFrames_ = kMessageFrames;
+        messageUntil_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(kMessageSeconds));
     }
     capture::Subject subject(glm::uvec2 size) {
         return {.scene = demo_.game->scene(),
                 .name = demo_.game->level().name,
                 .settings = fmt::format("the game, {} quality", qualityName(demo_.user.quality)),
-                .gi = demo_.gi,
+                .gi = settings(),
                 .graph = demo_.graph,
                 .size = size,
                 .schedules = {&demo_.game->tickSchedule(), &demo_.game->frameSchedule()}};
@@ -337,7 +359,7 @@ class WindowedRun {
     void drawUi() {
         MenuEvent event = MenuEvent::kNone;
         std::string message = capture_.message();
-        if (message.empty() && messageFrames_ > 0 && messageFrames_--) message = message_;
+        if (message.empty() && Clock::now() < messageUntil_) message = message_;
         const Menu before = menu_;
         ui_.build(panels_, window_.pointer(), demo_.settings, renderer_.graph(), demo_.game->world(),
                   statusLine(), [&] {
@@ -373,7 +395,7 @@ class WindowedRun {
     }
     std::string statusLine() const {
         const glm::vec2 shown(window_.framebufferSize());
-        const glm::uvec2 size(shown * demo_.gi.antialiasing.scale + 0.5f);  // rendered
+        const glm::uvec2 size(shown * settings().antialiasing.scale + 0.5f);  // rendered
         const glm::dvec3 at = demo_.game->player().position;
         return fmt::format("{:.1f} ms  {:.1f}/s  {}x{} {}  at {:.2f} {:.2f}{}", frameMs_,
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y,
@@ -406,9 +428,9 @@ class WindowedRun {
     PhotoMode photo_;
     ImageHandle shown_, light_;  // light_: of a photo
     bool wantsPhoto_ = false;
-    uint32_t sincePhoto_ = kFramesInFlight;  // frames
+    uint32_t sincePhoto_ = kFramesOfPhoto;  // frames
     std::string message_;
-    uint32_t messageFrames_ = 0;
+    Clock::time_point messageUntil_{};
     bool isMeasuring_ = true;  // what the device can do
     Clock::time_point start_ = Clock::now();
     glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels

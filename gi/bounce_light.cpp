@@ -10,6 +10,12 @@
 
 namespace ag::gi {
 
+bool canCastRays(const gpu::DeviceInfo& info, const BounceLightSettings& s) {
+    const bool buffers =
+        !info.storageTexels || info.limits.maxPerStageDescriptorStorageBuffers >= gpu::kStorageBuffersOfRays;
+    return buffers && s.ismAtlas.enabled;
+}
+
 BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                            BounceLightHistory& h) {
     BounceLight f{.term = s.term};

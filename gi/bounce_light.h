@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/function_ref.h"
+#include "engine/gpu/device_info.h"
 #include "gi/gather_grid.h"
 #include "gi/inputs.h"
 #include "gi/refresh.h"
@@ -57,6 +58,9 @@ struct BounceLight {
     SurfacePoints surfacePoints;
     IsmAtlas isms;
 };
+
+// Whether rays to lights can be cast on a device; not for light without visibility.
+bool canCastRays(const gpu::DeviceInfo& info, const BounceLightSettings& settings);
 
 // Where light lands, as few area lights that see through shadow maps of their own; and where it goes on.
 BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,

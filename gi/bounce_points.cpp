@@ -56,6 +56,16 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
     return points;
 }
 
+void shineToBothSides(std::span<const SampledInstance> instances,
+                      FunctionRef<bool(uint32_t instance)> doubleSided, std::span<io::BouncePoint> points) {
+    for (size_t i = 0; i < points.size(); ++i) {
+        io::BouncePoint& p = points[i];
+        if (instances[p.instance].deformed || !doubleSided(p.instance)) continue;
+        p.area *= 2;
+        if (i % 2) p.normalLocal = -p.normalLocal;
+    }
+}
+
 float meanArea(std::span<const io::BouncePoint> points) {
     double sum = 0;
     for (const io::BouncePoint& p : points)

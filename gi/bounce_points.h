@@ -15,6 +15,11 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
                                                 const SurfaceSamples& samples, AlbedoAt albedoAt,
                                                 uint32_t count);
 
+// Points that shine, of surfaces that do so to both sides: one to each in turn, for the area of both. Those
+// that joints bend have their normals from the device: they shine to the front.
+void shineToBothSides(std::span<const SampledInstance> instances,
+                      FunctionRef<bool(uint32_t instance)> doubleSided, std::span<io::BouncePoint> points);
+
 // m² that a point stands for in the mean; 0: there are none.
 float meanArea(std::span<const io::BouncePoint> points);
 // Of points that shine, W, mean of the channels.

@@ -152,8 +152,8 @@ FollowedCamera followFrames(const Surfaces& gbuffer, const SkyInputs& in, SkyHis
     const uint64_t light = combineHash(in.sky.version, in.versions.instances);
     history.sinceChange = history.lightVersion == light ? history.sinceChange + 1 : 0;
     history.lightVersion = light;
-    history.sinceStep = history.cameraVersion == in.versions.camera ? history.sinceStep + 1 : 0;
-    history.cameraVersion = in.versions.camera;
+    history.sinceStep = history.viewVersion == in.versions.view ? history.sinceStep + 1 : 0;
+    history.viewVersion = in.versions.view;
     return before;
 }
 
@@ -202,12 +202,16 @@ SkyTable makeSkyTable(const SkyPicture& picture, float lightUnit) {
     return table;
 }
 
+uint32_t framesToRest(const SkySettings& s, uint32_t spacing) {
+    return turnsOf(spacing, s) * s.settleFrames;
+}
+
 SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,
                      const SkySettings& s, SkyHistory& history) {
     if (!s.enabled || !in.sky || !in.occluders.trees.moverNodes) return {};
     const uint64_t seen = combineHash(in.sky.version, combineHash(in.versions.camera, in.versions.instances));
     const uint32_t turns = turnsOf(spacing, s);
-    const uint32_t step = history.settling.advance(seen, turns * s.settleFrames);
+    const uint32_t step = history.settling.advance(seen, framesToRest(s, spacing));
     const Turn turn = turnOf(turns, s, history.settling.sinceChange);
     const Downsampling at = Downsampling::ofTurn(spacing, turn.number);
     Surfaces gbuffer = addDownsampled(scope, surfaces, at, kSkyDownsampling);

@@ -75,7 +75,7 @@ struct SkyOnDevice {
 struct SkyHistory {
     Settling settling;
     RenderCamera camera;
-    uint64_t originVersion = 0, lightVersion = 0, cameraVersion = 0;
+    uint64_t originVersion = 0, lightVersion = 0, viewVersion = 0;
     uint32_t sinceChange = 0, sinceStep = 0;  // frames: of the light's last change, and of the camera's
 };
 
@@ -89,6 +89,9 @@ struct SkyLight {
     ImageHandle image;  // irradiance, W/m²; invalid: no sky, or nothing to cast rays into yet
     ImageHandle gloss;  // what specular lobes reflect of it, W/(m² sr); invalid: no material has one
 };
+
+// Until it comes to rest once nothing changes.
+uint32_t framesToRest(const SkySettings& settings, uint32_t spacing);
 
 // On each pixel of `surfaces`, gathered at every spacing-th; while nothing changes at all, one after another.
 SkyLight addSkyLight(GraphScope scope, const Surfaces& surfaces, uint32_t spacing, const SkyInputs& in,

@@ -18,11 +18,9 @@ uint64_t steadyNs() {
                         .count());
 }
 
-// Not for techniques without visibility, nor where joints bend what rays would meet as it was modelled.
+// Not where joints bend what rays would meet as it was modelled.
 bool canCastTexelRays(const gpu::DeviceInfo& info, const RenderSettings& s, const RenderScene& scene) {
-    const bool buffers =
-        !info.storageTexels || info.limits.maxPerStageDescriptorStorageBuffers >= gpu::kStorageBuffersOfRays;
-    return buffers && s.bounce.ismAtlas.enabled && scene.skinnedMeshes.empty();
+    return gi::canCastRays(info, s.bounce) && scene.skinnedMeshes.empty();
 }
 
 }  // namespace
@@ -85,8 +83,8 @@ void Renderer::loadMaterials(const GeometryArrays& geometry) {
     scene_.changeMaterials(geometry, units_);
 }
 
-// Without anything of the frames before.
 void Renderer::startAnew() {
+    waitIdle();
     graph_.reset();
     history_ = {};
 }

@@ -41,6 +41,8 @@ class Renderer {
     void load(const GeometryArrays& geometry);
     // Blocking: of what was loaded only materials' factors changed, and its version. Histories go on.
     void loadMaterials(const GeometryArrays& geometry);
+    // Nothing of the frames before is known any more.
+    void startAnew();
 
     // One frame: `finish` is called with the declared frame before it runs, to add passes and name outputs.
     using Finish = FunctionRef<void(GraphScope, const SceneView&, const RenderFrame&)>;
@@ -62,7 +64,6 @@ class Renderer {
     uint64_t deviceBytes() const { return graph_.transientBytes() + scene_.deviceBytes(); }
 
   private:
-    void startAnew();
     const RenderScene& inOwnUnits(const RenderScene& scene);
     // Command buffers of a queue, used again every kFramesInFlight frames.
     struct Commands {

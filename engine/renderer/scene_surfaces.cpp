@@ -261,14 +261,8 @@ std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint
         const gi::SurfaceSamples samples = gi::sampleSurfaces(s, 4 * count);
         if (samples.samples.empty()) return std::vector<io::BouncePoint>{};
         auto points = chooseBouncePoints(s.instances, samples, radiance, count);
-        // Of a surface that shines to both sides, one point to each in turn. Those that joints bend have
-        // their normals from the device: they shine to the front.
-        for (size_t i = 0; i < points.size(); ++i) {
-            io::BouncePoint& p = points[i];
-            if (s.instances[p.instance].deformed || !materialOf(scene, p.instance).doubleSided) continue;
-            p.area *= 2;
-            if (i % 2) p.normalLocal = -p.normalLocal;
-        }
+        const auto doubleSided = [&](uint32_t instance) { return materialOf(scene, instance).doubleSided; };
+        gi::shineToBothSides(s.instances, doubleSided, points);
         return points;
     });
 }

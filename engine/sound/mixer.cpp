@@ -151,6 +151,12 @@ void Mixer::load(std::span<const Tone> tones, std::span<const Tone> loops) {
         alSourcei(source, AL_LOOPING, AL_TRUE);
         alSourcei(source, AL_SOURCE_RELATIVE, AL_TRUE);
     }
+    // A device with few voices keeps them for sounds.
+    if (alGetError() == AL_NO_ERROR) return;
+    for (const Surrounding& surrounding : impl_->surroundings)
+        alDeleteSources(1, &surrounding.source);
+    impl_->surroundings.clear();
+    alGetError();
 }
 
 void Mixer::surroundWith(std::optional<uint32_t> loop) {

@@ -13,6 +13,10 @@ namespace {
 
 constexpr float kMostSkyRadiance = 1e6f;  // W/(m² sr)
 
+// Hosts built against an earlier version hand over its padding, too.
+constexpr size_t kMaterialOf11 = 64, kFrameOf11 = offsetof(AgiFrame, drawRsmVersion) + sizeof(uint64_t);
+static_assert(offsetof(AgiMaterial, emissive) >= kMaterialOf11 && kFrameOf11 % alignof(AgiFrame) == 0);
+
 glm::vec3 vec3Of(const float* v) {
     return {v[0], v[1], v[2]};
 }

@@ -74,13 +74,14 @@ void GuestScene::setInstance(const GuestInstance& given) {
     old.moved = ++movedVersion_;
 }
 
-// A mesh that begins to move needs a tree of its own; one that no longer does keeps it.
+// A mesh that begins to move needs a tree of its own; one that no longer does keeps it until others are
+// built.
 void GuestScene::count(const GuestInstance& instance, int by) {
     GuestMesh& mesh = meshes_[instance.mesh];
     mesh.instances += uint32_t(by);
-    if (!instance.movable) return;
-    mesh.movable += uint32_t(by);
-    movingVersion_ += by > 0 && mesh.movable == 1;
+    if (!instance.movable || by < 0 || mesh.hasTree) return;
+    mesh.hasTree = true;  // as soon as they are built anew
+    ++movingVersion_;
 }
 
 void GuestScene::addInstance(const GuestInstance& given) {
@@ -196,7 +197,7 @@ float GuestScene::mostEmissive() const {
     return most;
 }
 
-// As if nothing else were there. Of a surface that shines to both sides, one point to each in turn.
+// As if nothing else were there.
 std::vector<io::BouncePoint> GuestScene::chooseEmissivePoints(std::span<gi::SampledMesh> meshes,
                                                               const gi::SampledScene& scene) const {
     for (uint32_t i = 0; i < meshes.size(); ++i)
@@ -207,27 +208,26 @@ std::vector<io::BouncePoint> GuestScene::chooseEmissivePoints(std::span<gi::Samp
         return materialOf(scene.instances[instance].mesh).emissive;
     };
     auto points = gi::chooseBouncePoints(scene.instances, samples, radianceAt, kEmissivePoints);
-    for (size_t i = 0; i < points.size(); ++i) {
-        io::BouncePoint& p = points[i];
-        if (!materialOf(scene.instances[p.instance].mesh).doubleSided) continue;
-        p.area *= 2;
-        if (i % 2) p.normalLocal = -p.normalLocal;
-    }
+    const auto doubleSided = [&](uint32_t instance) {
+        return materialOf(scene.instances[instance].mesh).doubleSided;
+    };
+    gi::shineToBothSides(scene.instances, doubleSided, points);
     return points;
 }
 
-const GuestTrees& GuestScene::trees(float lightUnit) {
-    if (mostEmissive() == 0) lightUnit = 1;  // it does not matter
-    if (trees_.version == treesVersion() && trees_.lightUnit == lightUnit) return trees_;
-    GuestTrees fresh{.version = treesVersion(), .lightUnit = lightUnit, .middle = middle()};
+const GuestTrees& GuestScene::trees() {
+    if (trees_.version == treesVersion()) return trees_;
+    GuestTrees fresh{.version = treesVersion(), .middle = middle()};
     const auto sentAt = [&](uint32_t mesh, glm::vec2) {
         const GuestMaterial& m = materialOf(mesh);
-        return gi::SentAt{albedoOf(m), m.emissive / lightUnit};
+        return gi::SentAt{albedoOf(m), m.emissive};
     };
     withSurfaces(fresh.middle, [&](std::span<gi::SampledMesh>, const gi::SampledScene& scene) {
         fresh.trees = gi::buildOccluderTrees(scene, gi::TreesOf::kAll, sentAt);
     });
     trees_ = std::move(fresh);
+    for (size_t i = 0; i < meshes_.size(); ++i)
+        meshes_[i].hasTree = !trees_.trees.ofMesh[i].empty();
     return trees_;
 }
 

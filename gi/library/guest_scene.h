@@ -34,7 +34,8 @@ struct GuestMesh {
     std::vector<uint32_t> indices;  // fronts are counter-clockwise
     Bounds bounds;                  // m, of the mesh itself
     bool there = true;
-    uint32_t instances = 0, movable = 0;  // of its instances, those that move
+    uint32_t instances = 0;
+    bool hasTree = false;  // of its own: it moves, or did
 };
 
 struct GuestInstance {
@@ -71,10 +72,9 @@ struct GuestPoints {
 };
 
 // Trees for rays: of what is static about a place in the world, in m; of meshes that move in their own
-// coordinates. Radiance is over `lightUnit`.
+// coordinates. Radiance in W/(m² sr).
 struct GuestTrees {
     uint64_t version = 0;  // GuestScene::treesVersion
-    float lightUnit = 0;
     glm::dvec3 middle{0};
     gi::OccluderTrees trees;
 };
@@ -121,7 +121,7 @@ class GuestScene {
     // Chosen anew if the set changed: some 100 ms for a large scene.
     const GuestPoints& points();
     // Built anew if what they are of changed: half a second for 250,000 triangles.
-    const GuestTrees& trees(float lightUnit);
+    const GuestTrees& trees();
     uint64_t staticVersion() const { return staticVersion_; }  // what is static and where; never 0
     // Also which meshes move; never 0.
     uint64_t treesVersion() const { return combineHash(staticVersion_, movingVersion_); }

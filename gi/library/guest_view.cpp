@@ -116,16 +116,15 @@ void GuestView::startAnew() {
 void GuestView::noteCamera(const AgiFrame& f) {
     const glm::dvec3 position(f.cameraPosition[0], f.cameraPosition[1], f.cameraPosition[2]);
     const RenderCamera now = cameraOf(f, surfaces_->toOurs(position), surfaces_->units().length);
-    if (now.clipFromWorld != camera_.clipFromWorld) ++cameraVersion_;
-    camera_ = now;
+    if (now.clipFromWorld != eyes_.camera.clipFromWorld) ++eyes_.cameraVersion;
+    eyes_.camera = now;
     AgiFrame still = f;
     for (int axis = 0; axis < 2; ++axis)
         still.clipFromView[8 + axis] -= f.jitter[axis] * f.clipFromView[11];
-    const glm::mat4 steady = cameraOf(still, camera_.position, surfaces_->units().length).clipFromWorld;
-    if (!isNearly(steady, steadyClip_)) {
-        steadyClip_ = steady;
-        ++viewVersion_;
-    }
+    const glm::mat4 steady = cameraOf(still, now.position, surfaces_->units().length).clipFromWorld;
+    if (isNearly(steady, eyes_.steadyClip)) return;
+    eyes_.steadyClip = steady;
+    ++eyes_.viewVersion;
 }
 
 gi::Surfaces GuestView::readSurfaces(GraphScope scope, const AgiFrame& f, const Images& images) const {
@@ -141,12 +140,12 @@ gi::Surfaces GuestView::readSurfaces(GraphScope scope, const AgiFrame& f, const 
                    .normal = scope.image("guest.read_normal", {.format = kHalf4, .size = size}),
                    .size = size,
                    .normalMapped = true,
-                   .view = camera_};
+                   .view = eyes_.camera};
     if (glossy) {
         s.albedo = scope.image("guest.read_albedo", {.format = kHalf4, .size = size});
         s.reflectance = scope.image("guest.read_reflectance", {.format = kHalf4, .size = size});
     }
-    s.camera = gi::addCamera(scope, "guest.camera", camera_, size);
+    s.camera = gi::addCamera(scope, "guest.camera", eyes_.camera, size);
     const HostPerspective p(f);
     const io::ReadSurfacesPush push{.depthScale = p.nearest / p.b,
                                     .depthOffset = -p.nearest * p.a / (p.sign * p.b),
@@ -195,8 +194,8 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
 
     // Indirect light
     gi::World world = surfaces_->world();
-    world.versions.camera = cameraVersion_;
-    world.versions.view = viewVersion_;
+    world.versions.camera = eyes_.cameraVersion;
+    world.versions.view = eyes_.viewVersion;
     const gi::Occluders occluders = surfaces_->occluders(scope);
     const auto draw = [&](GraphScope at, gi::RsmSet& rsm) {
         if (f.drawRsmFace)
@@ -212,7 +211,7 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
                                    .drawRsm = draw,
                                    .probes = surfaces_->probes(),
                                    .lightUnit = unit};
-    const gi::BounceLight light = gi::addBounceLight(scope, in, settings_, history.bounce);
+    const gi::BounceLight light = gi::addBounceLight(scope, in, raySettings(), history.bounce);
 
     // Light of the sky
     const gi::SkyLight sky = gi::addSkyLight(scope, surfaces, settings_.spacing,
@@ -260,9 +259,17 @@ void GuestView::record(GuestScene& scene, VkCommandBuffer commands, const AgiFra
 }
 
 void GuestView::prepare(GuestScene& scene, const AgiFrame& f) {
-    // Of a frame that counts for nothing: with a graph, an origin and a camera of its own.
-    auto surfaces = std::exchange(surfaces_, std::make_unique<SceneOnDevice>(context_.gpu()));
-    const RenderCamera camera = camera_;
+    // Of a frame that counts for nothing: with a graph, an origin and a camera of its own, whatever happens.
+    struct Kept {
+        GuestView& view;
+        std::unique_ptr<SceneOnDevice> surfaces =
+            std::exchange(view.surfaces_, std::make_unique<SceneOnDevice>(view.context_.gpu()));
+        Eyes eyes = view.eyes_;
+        ~Kept() {
+            view.surfaces_ = std::move(surfaces);
+            view.eyes_ = eyes;
+        }
+    } kept{*this};
     surfaces_->update(scene, glm::dvec3(f.cameraPosition[0], f.cameraPosition[1], f.cameraPosition[2]));
     noteCamera(f);
     FrameGraph plan(&context_.gpu(), &context_.pipelines());
@@ -273,8 +280,13 @@ void GuestView::prepare(GuestScene& scene, const AgiFrame& f) {
         declare(plan, scene, f, Images(), none);
         plan.preparePipelines();
     }
-    surfaces_ = std::move(surfaces);
-    camera_ = camera;
+}
+
+// Without rays where the device cannot cast them.
+gi::BounceLightSettings GuestView::raySettings() const {
+    gi::BounceLightSettings s = settings_;
+    if (!gi::canCastRays(context_.gpu().info(), s)) s.texelRays.enabled = false;
+    return s;
 }
 
 float GuestView::settled() const {
@@ -282,9 +294,13 @@ float GuestView::settled() const {
         return std::min(float(since) / float(std::max(frames, 1u)), 1.0f);
     };
     const gi::BounceLightHistory& h = history_.bounce;
-    const float lights = share(h.valClustering.settling.sinceChange, settings_.valClustering.settleFrames);
-    const float rays = share(h.gatherGrid.light.sinceChange, gi::framesToRest(settings_));
-    return settings_.texelRays.enabled ? 0.5f * (lights + rays) : lights;
+    float sum = share(h.valClustering.settling.sinceChange, settings_.valClustering.settleFrames), parts = 1;
+    if (raySettings().texelRays.enabled)
+        sum += share(h.gatherGrid.light.sinceChange, gi::framesToRest(settings_)), ++parts;
+    if (surfaces_->hasSky() && settings_.sky.enabled)
+        sum += share(history_.sky.settling.sinceChange, gi::framesToRest(settings_.sky, settings_.spacing)),
+            ++parts;
+    return sum / parts;
 }
 
 }  // namespace ag::guest

@@ -42,6 +42,7 @@ class GuestView {
                             History& history);
     gi::Surfaces readSurfaces(GraphScope scope, const AgiFrame& frame, const Images& images) const;
     void noteCamera(const AgiFrame& frame);
+    gi::BounceLightSettings raySettings() const;
     void keepReadings(const AgiFrame& frame, gi::ProbeReadings before);
 
     GuestContext& context_;
@@ -51,10 +52,13 @@ class GuestView {
     History history_;
     std::unique_ptr<SceneOnDevice> surfaces_;
     std::unique_ptr<RsmDraws> rsms_;
-    RenderCamera camera_;
-    // Of the camera, and of where it would look without its jitter.
-    uint64_t cameraVersion_ = 1, viewVersion_ = 1;
-    glm::mat4 steadyClip_{0};
+    struct Eyes {
+        RenderCamera camera;
+        glm::mat4 steadyClip{0};  // without the camera's jitter
+        // Of the camera, and of where it would look without its jitter.
+        uint64_t cameraVersion = 1, viewVersion = 1;
+    };
+    Eyes eyes_;
     uint32_t virtualLights_ = 0;
     std::array<uint64_t, kFramesInFlight> hostFrames_{};  // in which the graph's last frames were recorded
 };

@@ -24,6 +24,14 @@ io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 a
             .ids = {material, instance.mesh, io::kNoSkinnedMesh, 0}};
 }
 
+// What shines, over the light's unit: a power of two, so that packing loses nothing.
+std::vector<io::BvhTriangle> inLightUnits(std::vector<io::BvhTriangle> triangles, float lightUnit) {
+    for (io::BvhTriangle& t : triangles)
+        if (t.front >= io::kEmissiveFront - 1)
+            t.sends = io::packRadiance(io::unpackRadiance(t.sends) / lightUnit);
+    return triangles;
+}
+
 }  // namespace
 
 SceneOnDevice::~SceneOnDevice() {
@@ -117,7 +125,7 @@ void SceneOnDevice::takePoints(GuestScene& scene) {
     const uint64_t set =
         combineHash(points.set, combineHash(hashValue(units_.length), hashValue(units_.light)));
     if (pointsSet_ == set) return;
-    pointsSet_ = set;
+    pointsSet_ = 0;
     const float area = 1 / (units_.length * units_.length);
     std::vector<float> areas = points.samples.pointAreas;
     for (float& a : areas)
@@ -143,6 +151,7 @@ void SceneOnDevice::takePoints(GuestScene& scene) {
     pointAreas_ = make("guest.point_areas", std::span<const float>(areas), VK_FORMAT_R32_SFLOAT);
     bouncePoints_ =
         make("guest.bounce_points", std::span<const io::BouncePoint>(bounces), VK_FORMAT_UNDEFINED);
+    pointsSet_ = set;
 }
 
 void SceneOnDevice::takeInstances(GuestScene& scene) {
@@ -185,59 +194,64 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
     movedVersion_ = scene.movedVersion();
 }
 
-// Where what is static moved they stay as they are until they are built anew, good for rays to the sky alone.
+// Where what is static moved they are those of before until they are built anew, good for rays to the sky
+// alone.
 void SceneOnDevice::takeTrees(GuestScene& scene) {
-    using enum gi::TreeUpkeep::Task;
-    const float lightUnit = scene.mostEmissive() > 0 ? units_.light : 1;
-    const auto task = upkeep_.next(combineHash(scene.treesVersion(), hashValue(lightUnit)));
     const bool moves = std::exchange(movedBefore_, scene.movedVersion()) != scene.movedVersion();
-    treesAreStale_ = task == kNone;
-    if (task == kNone) return;
-    if (task == kBuild || treesBuilt_ == 0) {
-        const GuestTrees& trees = scene.trees(lightUnit);
-        for (auto* buffer : {&treeNodes_, &treeTriangles_})
-            gpu::retire(context_, std::move(*buffer));
-        treeNodes_ = make("guest.tree_nodes", std::span<const glm::uvec4>(trees.trees.nodes), kWords);
-        treeTriangles_ =
-            make("guest.tree_triangles", std::span<const io::BvhTriangle>(trees.trees.triangles), kWords);
-        treesBuilt_ = combineHash(combineHash(scene_, trees.version), hashValue(lightUnit));
-        treesPlaced_ = 0;
-    }
-    // Without a sky rays are cast while nothing moves.
-    if (moves && treesPlaced_ != 0 && scene.sky().version == 0) return;
-    placeTrees(scene);
+    treesAreStale_ = upkeep_.next(scene.treesVersion()) == gi::TreeUpkeep::Task::kNone;
+    if (!treesAreStale_) uploadTrees(scene);
+    if (treesBuilt_ != 0) placeTrees(scene, moves);
+}
+
+void SceneOnDevice::uploadTrees(GuestScene& scene) {
+    const GuestTrees& trees = scene.trees();
+    const float lightUnit = scene.mostEmissive() > 0 ? units_.light : 1;
+    const uint64_t built = combineHash(combineHash(scene_, trees.version), hashValue(lightUnit));
+    if (treesBuilt_ == built) return;
+    treesBuilt_ = treesPlaced_ = 0;
+    for (auto* buffer : {&treeNodes_, &treeTriangles_})
+        gpu::retire(context_, std::move(*buffer));
+    treeNodes_ = make("guest.tree_nodes", std::span<const glm::uvec4>(trees.trees.nodes), kWords);
+    const std::vector<io::BvhTriangle> triangles = inLightUnits(trees.trees.triangles, lightUnit);
+    treeTriangles_ = make("guest.tree_triangles", std::span<const io::BvhTriangle>(triangles), kWords);
+    ranges_.everythingStatic = trees.trees.everythingStatic;
+    ranges_.ofMesh = trees.trees.ofMesh;
+    treesMiddle_ = trees.middle;
+    treesBuilt_ = built;
 }
 
 // The static one lies about a place of its own in the world, in m: only where that is changes with origin and
-// units.
-void SceneOnDevice::placeTrees(GuestScene& scene) {
-    const GuestTrees& trees = scene.trees(scene.mostEmissive() > 0 ? units_.light : 1);
-    const glm::dvec3 from = origin_ - trees.middle;
-    treesStand_ = combineHash(treesBuilt_, combineHash(hashValue(from), hashValue(units_.length)));
-    const uint64_t placed = combineHash(treesStand_, scene.movedVersion());
-    if (treesPlaced_ == placed) return;
-    treesPlaced_ = placed;
+// units. Without a sky rays are cast while nothing moves: what moves is placed once it rests.
+void SceneOnDevice::placeTrees(const GuestScene& scene, bool moves) {
+    const glm::dvec3 from = origin_ - treesMiddle_;
+    const uint64_t stand = combineHash(treesBuilt_, combineHash(hashValue(from), hashValue(units_.length)));
+    const uint64_t placed = combineHash(stand, scene.movedVersion());
+    const bool waits = moves && treesPlaced_ != 0 && treesStand_ == stand && scene.sky().version == 0;
+    if (treesPlaced_ == placed || waits) return;
+    treesPlaced_ = 0;
     const float perMetre = 1 / units_.length;
     std::vector<gi::SampledInstance> instances;
     for (const GuestInstance& i : scene.instances())
-        if (i.movable)
+        if (i.movable && i.mesh < ranges_.ofMesh.size())  // others came since they were built
             instances.push_back({.worldFromLocal = glm::mat4x3(i.linear[0] * perMetre, i.linear[1] * perMetre,
                                                                i.linear[2] * perMetre, toOurs(i.position)),
                                  .mesh = i.mesh,
                                  .movable = true});
-    gi::placeTrees(trees.trees, instances, movers_);
+    gi::placeTrees(ranges_, instances, movers_);
     glm::mat4x3 treeFromOurs(units_.length);
     treeFromOurs[3] = glm::vec3(from);
-    movers_.places[io::kBvhStatic] = gi::placeOf(trees.trees.everythingStatic, treeFromOurs);
+    movers_.places[io::kBvhStatic] = gi::placeOf(ranges_.everythingStatic, treeFromOurs);
     fill(treePlaces_, "guest.tree_places", movers_.places, kWords);
     fill(moverNodes_, "guest.mover_nodes", movers_.nodes, kWords);
+    treesStand_ = stand;
+    treesPlaced_ = placed;
 }
 
 void SceneOnDevice::takeSky(const GuestScene& scene) {
     const GuestSky& sky = scene.sky();
     const uint64_t version = sky.version ? combineHash(sky.version, hashValue(units_.light)) : 0;
     if (skyVersion_ == version) return;
-    skyVersion_ = version;
+    skyVersion_ = 0;
     for (auto* buffer : {&skyTexels_, &skyCells_, &skyUpTo_})
         gpu::retire(context_, std::move(*buffer));
     if (version == 0) return;
@@ -250,6 +264,7 @@ void SceneOnDevice::takeSky(const GuestScene& scene) {
     skyTexels_ = make("guest.sky_texels", std::span<const io::SkyTexel>(table.texels), gpu::kVec4Texels);
     skyCells_ = make("guest.sky_cells", std::span<const float>(table.cells), VK_FORMAT_UNDEFINED);
     skyUpTo_ = make("guest.sky_up_to", std::span<const float>(table.upTo), VK_FORMAT_UNDEFINED);
+    skyVersion_ = version;
 }
 
 void SceneOnDevice::takeLights(const GuestScene& scene) {
@@ -325,7 +340,7 @@ gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
     o.emissiveFlux = emissiveFlux_;
     o.bouncePointArea = bounceArea_;
     o.emissivePointArea = emissiveArea_;
-    if (treesBuilt_ != 0)
+    if (treesPlaced_ != 0)
         o.trees = {.nodes = scope.importBuffer("guest.tree_nodes", *treeNodes_, treesBuilt_),
                    .triangles = scope.importBuffer("guest.tree_triangles", *treeTriangles_, treesBuilt_),
                    .places = scope.importBuffer("guest.tree_places", *treePlaces_, treesPlaced_),

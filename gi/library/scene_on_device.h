@@ -28,6 +28,7 @@ class SceneOnDevice {
     gi::World world() const;
     gi::Occluders occluders(GraphScope scope) const;
     gi::SkyOnDevice sky(GraphScope scope) const;
+    bool hasSky() const { return skyVersion_ != 0; }
     std::span<const RenderProbe> probes() const { return probes_; }
     // Of an instance, in our units.
     const Bounds& boundsOf(size_t row) const { return rowBounds_[row]; }
@@ -45,7 +46,8 @@ class SceneOnDevice {
     void takeInstances(GuestScene& scene);
     void takePoints(GuestScene& scene);
     void takeTrees(GuestScene& scene);
-    void placeTrees(GuestScene& scene);
+    void uploadTrees(GuestScene& scene);
+    void placeTrees(const GuestScene& scene, bool moves);
     void takeSky(const GuestScene& scene);
     void takeLights(const GuestScene& scene);
     void stage(std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset);
@@ -73,6 +75,8 @@ class SceneOnDevice {
     uint64_t pointsSet_ = 0;
     gi::TreeUpkeep upkeep_;
     std::unique_ptr<gpu::Buffer> treeNodes_, treeTriangles_, treePlaces_, moverNodes_;
+    gi::OccluderTrees ranges_;  // of what is in them: neither nodes nor triangles
+    glm::dvec3 treesMiddle_{0};
     gi::MoverTree movers_;
     uint64_t treesBuilt_ = 0;     // a hash of what is in them; 0: there are none
     uint64_t treesStand_ = 0;     // of that and of where what is static in them stands,

@@ -94,6 +94,22 @@ TEST(PhotoMode, TellsWhatFlowersNearByRead) {
     photo.enter(game);
     EXPECT_EQ(photo.lines(game, {}, "bounce1").size(), 1u) << "nothing was measured yet";
     EXPECT_NE(photo.lines(game, {}, "bounce1")[0].find("bounce1"), std::string::npos);
+    // All flowers read the same: those of the first room are near.
+    std::vector<io::ProbeRow> rows;
+    size_t near = 0;
+    View<const Flower>(game.world(), {}).each([&](Entity entity, const Flower& flower) {
+        rows.push_back({.direct = glm::vec3(0.5f),
+                        .idLow = uint32_t(entity.bits()),
+                        .bounced = {0.25f, 0.125f, 1},
+                        .idHigh = uint32_t(entity.bits() >> 32)});
+        near += flower.room == 0;
+    });
+    gi::ProbeReadings readings;
+    readings.set(std::as_bytes(std::span(rows)), 2);
+    const std::vector<std::string> lines = photo.lines(game, readings, "");
+    ASSERT_EQ(lines.size(), 1 + near);
+    EXPECT_NE(lines[1].find(": 0.5000 0.2500 2.0000 W/m² bounced, 1.0000 direct; wants"), std::string::npos)
+        << lines[1];
 }
 
 TEST(PhotoMode, NeverSavesOverAPhoto) {
@@ -204,15 +220,21 @@ TEST(Save, OutlivesAKill) {
     ASSERT_TRUE(saveGame(game, path));
     std::set<std::string> texts;
     for (useconds_t i = 0; i < 40; ++i) {
+        int saved[2];
+        ASSERT_EQ(pipe(saved), 0);
         const pid_t child = fork();
         ASSERT_GE(child, 0);
         if (child == 0)
             for (SaveSlot slot(path);;) {
                 game.tick({.forward = 1, .look = {float(i), 0}});
                 slot.save(game);
+                if (write(saved[1], "s", 1) != 1) _exit(1);
             }
-        usleep(2000 + 700 * i);
+        char first = 0;
+        EXPECT_EQ(read(saved[0], &first, 1), 1) << "it saves";
+        usleep(500 * (i % 20));
         kill(child, SIGKILL);
+        close(saved[0]), close(saved[1]);
         waitpid(child, nullptr, 0);
         const auto text = readFile(path);
         ASSERT_TRUE(text);

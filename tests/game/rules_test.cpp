@@ -202,7 +202,7 @@ TEST(Save, ABrokenOneIsRefusedAndKept) {
          {std::string(), std::string("hello"), cut, damaged, good.substr(0, good.size() - 4), good + "more\n",
           head + "player 1e30 0 0 0 0\nend\n", head + "player 0 0 0 nan 0\nend\n", head + "room -1 0\nend\n",
           head + "room 1000 0\nend\n", head + "room 0 inf\nend\n", head + "flower 4000000000 1\nend\n",
-          head + "body 1 0 1e9 0 1 0 0 0\nend\n", head + "played -1\nend\n", head + "spent 0 nan\nend\n",
+          head + "body 1 0 1e9 0 1 0 0 0\nend\n", head + "played -2\nend\n", head + "spent 0 nan\nend\n",
           head + "spent 1000 1\nend\n"}) {
         const uint64_t before = game.stateHash();
         const Status restored = restoreGame(game, text, path);

@@ -184,6 +184,13 @@ TEST_F(GuestArguments, OlderAndNewerHostsAreUnderstood) {
     lights[1].light.id = 4;
     EXPECT_EQ(agiSetLights(guest_.scene, 2, &lights[0].light), AGI_OK) << agiLastError();
 
+    // One of version 1.1 knows of no emission: what stood in its padding is none.
+    AgiMaterial old{AGI_INIT(AgiMaterial)};
+    old.structSize = 64;
+    old.reserved = ~0u;
+    old.emissive[0] = kNan;
+    EXPECT_EQ(agiUpdateMaterials(guest_.scene, 0, 1, &old), AGI_OK) << agiLastError();
+
     AgiStatus status{AGI_INIT(AgiStatus)};
     status.structSize = offsetof(AgiStatus, settled);
     status.settled = -1;

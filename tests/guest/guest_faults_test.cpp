@@ -33,12 +33,13 @@ class FaultyHost {
         AgiViewInfo viewInfo{AGI_INIT(AgiViewInfo)};
         viewInfo.width = camera_.frame().width;
         viewInfo.height = camera_.frame().height;
-        viewInfo.preset = "low";
+        viewInfo.preset = "medium";  // rays are cast, from the second frame on
         arm();
         if (step([&] { return agiCreateContext(&info, &context_); }) &&
             step([&] { return agiCreateScene(context_, &scene_); }) &&
-            step([&] { return room_.fill(scene_); }) &&
-            step([&] { return agiCreateView(context_, &viewInfo, &view_); }))
+            step([&] { return room_.fill(scene_); }) && step([&] { return addLight(); }) &&
+            step([&] { return agiCreateView(context_, &viewInfo, &view_); }) &&
+            step([&] { return agiPrepare(view_, scene_); }))
             for (int i = 0; i < 3 && step([&] { return drawFrame(); }); ++i) {
             }
         disarm_();
@@ -64,6 +65,19 @@ class FaultyHost {
         result = what();
         EXPECT_EQ(result, AGI_OK) << agiLastError();
         return result == AGI_OK;
+    }
+
+    // A sky, and a box that shines.
+    AgiResult addLight() {
+        const float white[3] = {1, 1, 1};
+        AgiSky sky{AGI_INIT(AgiSky)};
+        sky.width = sky.height = 1;
+        sky.radiance = white;
+        AgiMaterial shining{AGI_INIT(AgiMaterial)};
+        for (float& channel : shining.emissive)
+            channel = 1;
+        const AgiResult result = agiSetSky(scene_, &sky);
+        return result == AGI_OK ? agiUpdateMaterials(scene_, 1, 1, &shining) : result;
     }
 
     AgiResult drawFrame() {

@@ -93,6 +93,29 @@ TEST(Guest, ARoomFarFromTheOriginIsLitTheSame) {
     EXPECT_LT(relativeError(camera.irradiance(), expected), 0.01);
 }
 
+// Coordinates are about a place near the camera: trees that stand still follow it, whatever else moves.
+TEST(Guest, ALongWayBesideAMovingThingIsLitTheSame) {
+    const glm::dvec3 there(2000, 0, 0);
+    const HostRoom room;
+    const HostCamera here(room.room(), {}), camera(room.room(), {}, there), fresh(room.room(), {}, there);
+    const auto walk = [&](const HostCamera& end, bool travels) {
+        Guest guest(room, {}, there);
+        const AgiView view = guest.addView(end, "medium");
+        AgiInstance box = room.instances(there)[1];
+        box.movable = 1;
+        const double stands = box.position[2];
+        for (int left = travels ? 44 : 24; left > 0; --left) {
+            box.position[2] = stands + 0.001 * left;
+            EXPECT_EQ(agiSetInstances(guest.scene, 1, &box), AGI_OK);
+            guest.drawFrame({{view, left > 24 ? &here : &end}});
+        }
+        return end.irradiance();
+    };
+    const auto travelled = walk(camera, true), stayed = walk(fresh, false);
+    EXPECT_NEAR(meanOf(travelled) / meanOf(stayed), 1, 0.03);
+    EXPECT_LT(relativeError(travelled, stayed), 0.15);
+}
+
 TEST(Guest, GlossIsWhatAMetalReflects) {
     const HostRoom room;
     const HostCamera camera(room.room(), {.gloss = true});

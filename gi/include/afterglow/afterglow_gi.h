@@ -145,13 +145,17 @@ typedef struct AgiMaterial {
     float alphaCutoff;      /* > 0: texels of albedoMap with less alpha are holes */
     float coverage;         /* then: the share of the surface that is no hole, 0 to 1 */
     uint32_t doubleSided;   /* else light that meets the back is absorbed */
-    float emissive[3]; /* since 1.2: W/(m² sr) that it shines by itself, the mean of its map; from its front
-                          alone if it is not doubleSided */
+    uint32_t reserved;      /* not read */
+    /* Since 1.2: W/(m² sr) that it shines by itself, the mean of its map; from its front alone if it is not
+     * doubleSided. */
+    float emissive[3];
 } AgiMaterial;
 
 /* Ids are firstId, firstId + 1, ... */
 AGI_API AgiResult agiAddMaterials(AgiScene scene, uint32_t count, const AgiMaterial* materials,
                                   uint32_t* firstId);
+/* Cost: where one differs, points and trees are made anew as by a new instance (see agiSetInstances). A lamp
+ * that flickers is better given as a light. */
 AGI_API AgiResult agiUpdateMaterials(AgiScene scene, uint32_t firstId, uint32_t count,
                                      const AgiMaterial* materials);
 
@@ -235,8 +239,9 @@ typedef struct AgiSky {
     const void* next;
     uint32_t width, height;
     const float* radiance; /* host memory, copied: 3 * width * height floats, W/(m² sr), 0 to 1e6 */
-    float
-        worldFromPicture[9]; /* columns: where the picture's axes point in the world; all zero: as they are */
+    /* Columns: where the picture's axes point in the world; all zero: as they are. */
+    float worldFromPicture[9];
+    uint32_t reserved; /* not read */
 } AgiSky;
 
 /* In the place of the one before; null: none. Its light is found by rays, one a pixel that light is gathered
@@ -336,7 +341,8 @@ typedef struct AgiFrame {
     /* Results: R16G16B16A16_SFLOAT with STORAGE usage, in GENERAL before and after. What they held is
      * overwritten. */
     /* W/m² on each pixel's surface: of the sky, of what is emissive, and of all bounces of these and the
-     * lights. While nothing changes rays make it truer, for up to a thousand frames (AgiStatus::settled). */
+     * lights. While nothing changes rays make it truer, for a thousand frames and more (AgiStatus::settled).
+     */
     AgiImage irradiance;
     AgiImage gloss; /* W/(m² sr): what glossy materials reflect of the same light beyond that; or null */
 
@@ -354,8 +360,8 @@ typedef struct AgiFrame {
                                 were, nothing is called; else every face is. */
 
     /* Since 1.2: what clipFromView is moved by for anti-aliasing, in clip space over w (pixel offsets times 2
-     * / size). A camera that differs in nothing else stands still: without it, one that jitters never does.
-     */
+     * / size). For bounced light a camera that differs in nothing else stands still; without it, one that
+     * jitters never does. Of the sky's light the pixels that are gathered first are averaged on. */
     float jitter[2];
 } AgiFrame;
 
@@ -384,8 +390,9 @@ typedef struct AgiStatus {
     size_t structSize;
     const void* next;
     uint32_t virtualLights; /* in the frame recorded last */
-    float settled; /* 0 to 1: how far the light has settled since anything last changed: half way when the
-                      virtual lights have, 1 when rays make it no truer */
+    float settled; /* 0 to 1: how far the light has settled since anything last changed: the mean of how far
+                      the virtual lights have, rays to lights (not in preset low), and rays to the sky where
+                      there is one */
 } AgiStatus;
 AGI_API AgiResult agiGetStatus(AgiView view, AgiStatus* status);
 
