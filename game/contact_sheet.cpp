@@ -8,19 +8,11 @@ constexpr int kGap = 4;  // pixels between pictures
 }  // namespace
 
 ContactSheet ContactSheet::moments(uint32_t count, uint32_t frames) {
-    ContactSheet sheet;
-    sheet.count_ = count;
-    sheet.frames_ = frames;
-    sheet.columns_ = 4;
-    return sheet;
+    return {count, 0, frames, 4};
 }
 
 ContactSheet ContactSheet::film(uint32_t count, uint32_t first) {
-    ContactSheet sheet;
-    sheet.count_ = count;
-    sheet.first_ = first;
-    sheet.columns_ = 6;
-    return sheet;
+    return {count, first, 0, 6};
 }
 
 bool ContactSheet::wants(uint32_t frame) const {

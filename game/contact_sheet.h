@@ -10,7 +10,7 @@ namespace ag::game {
 
 class ContactSheet {
   public:
-    ContactSheet() = default;
+    ContactSheet() = default;  // of nothing
     // So many of a run of `frames`, four a row.
     static ContactSheet moments(uint32_t count, uint32_t frames);
     // So many frames one after the other, from frame `first` on, six a row.
@@ -22,6 +22,9 @@ class ContactSheet {
     const std::vector<Image>& pictures() const { return images_; }
 
   private:
+    ContactSheet(uint32_t count, uint32_t first, uint32_t frames, int columns)
+        : count_(count), first_(first), frames_(frames), columns_(columns) {}
+
     uint32_t count_ = 0, first_ = 0;
     uint32_t frames_ = 0;  // of the run that moments are spread over; 0: a film
     int columns_ = 1;

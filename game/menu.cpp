@@ -35,11 +35,16 @@ void openPage(Menu& menu, MenuPage page) {
 // Only what can be done.
 std::vector<MainLine> mainLines(const Menu& menu, const UserSettings& settings) {
     std::vector<MainLine> lines;
-    if (menu.started) lines.insert(lines.end(), {MainLine::kResume, MainLine::kPhoto});
-    if (menu.hasSave) lines.push_back(MainLine::kContinue);
-    lines.push_back(MainLine::kNew);
-    if (settings.roomsReached > 1) lines.push_back(MainLine::kRooms);
-    lines.insert(lines.end(), {MainLine::kSettings, MainLine::kKeys, MainLine::kGamepad, MainLine::kQuit});
+    const auto add = [&](bool possible, MainLine line) {
+        if (possible) lines.push_back(line);
+    };
+    add(menu.started, MainLine::kResume);
+    add(menu.started, MainLine::kPhoto);
+    add(menu.hasSave, MainLine::kContinue);
+    add(true, MainLine::kNew);
+    add(settings.roomsReached > 1, MainLine::kRooms);
+    for (const MainLine line : {MainLine::kSettings, MainLine::kKeys, MainLine::kGamepad, MainLine::kQuit})
+        add(true, line);
     return lines;
 }
 

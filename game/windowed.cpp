@@ -18,9 +18,11 @@
 #include "engine/core/program.h"
 #include "engine/core/safe_file.h"
 #include "engine/scene/describe_components.h"
+#include "game/automatic_quality.h"
 #include "game/demo_options.h"
 #include "game/hud.h"
 #include "game/menu.h"
+#include "game/photo_album.h"
 #include "game/photo_mode.h"
 #include "game/playthrough.h"
 #include "game/speaker.h"
@@ -35,9 +37,8 @@ constexpr int kMostTicksPerFrame = 12;        // a slower frame slows the world 
 constexpr double kShortestFrame = 1.0 / 144;  // s: nothing here is worth more frames
 constexpr double kCpuBudgetMs = 80, kGpuBudgetMs = 13;  // of a frame's passes, where none is given
 constexpr const char* kGoal = "Flowers open in light that has bounced.\nLight the walls, not the flowers.";
-constexpr auto kBenchmark = std::chrono::seconds(1), kLongestBenchmark = std::chrono::seconds(5);
 constexpr double kLongestStep = 0.1;  // s
-constexpr double kMessageSeconds = 4;
+constexpr auto kMessage = std::chrono::seconds(4);
 constexpr uint32_t kFramesOfPhoto = kFramesInFlight + 8;  // until light has come back that was forgotten
 constexpr float kRestSeconds = 0.5f;  // of the photo mode's camera, before all pixels are rendered
 constexpr const char* kPhotoKeys =
@@ -53,10 +54,9 @@ class WindowedRun {
           renderer_(device, demo.options.serial ? 1 : 0),
           ui_(window.handle()),
           imgui_(device),
-          budget_(demo.options.budgetMs > 0 ? demo.options.budgetMs
-                  : device.info().isCpu     ? kCpuBudgetMs
-                                            : kGpuBudgetMs,
-                  0),
+          quality_(demo.options.budgetMs > 0 ? demo.options.budgetMs
+                   : device.info().isCpu     ? kCpuBudgetMs
+                                             : kGpuBudgetMs),
           capture_(renderer_, renderDoc),
           playing_(demo, renderer_) {
         describeSceneComponents();
@@ -128,16 +128,17 @@ class WindowedRun {
                     obey(event);
                 }
             } else if (photo_.on()) {
-                // A gamepad's A flies up, as it jumps; its Y takes the picture.
-                photoKey(!pad || key == GLFW_KEY_ESCAPE            ? key
-                         : pad == kPadCode + GLFW_GAMEPAD_BUTTON_Y ? GLFW_KEY_ENTER
-                         : key == GLFW_KEY_ENTER                   ? 0
-                                                                   : key);
+                photoKey(photoKeyOf(key, pad));
             } else if (key == GLFW_KEY_ESCAPE) {
                 openMenu();
             }
             debugKey(key);
         }
+    }
+    // A gamepad's A flies up, as it jumps; its Y takes the picture.
+    static int photoKeyOf(int key, int pad) {
+        if (pad == kPadCode + GLFW_GAMEPAD_BUTTON_Y) return GLFW_KEY_ENTER;
+        return pad && key == GLFW_KEY_ENTER ? 0 : key;
     }
     void photoKey(int key) {
         if (key == GLFW_KEY_ESCAPE) leavePhotos();
@@ -254,31 +255,18 @@ class WindowedRun {
 
     // --- The picture ---
     void usePlayerSettings() {
-        useQuality(demo_, demo_.user.quality, quality());
+        useQuality(demo_, demo_.user.quality, quality_.step());
         if (fullscreen_ != demo_.user.fullscreen) window_.setFullscreen(fullscreen_ = demo_.user.fullscreen);
         demo_.game->world().resource<Player>().verticalFov = glm::radians(demo_.user.fieldOfView);
     }
     bool automatic() const { return demo_.user.quality == Quality::kAutomatic; }
-    const render::QualityStep& quality() const { return render::qualitySteps()[budget_.step()]; }
     void adapt() {
-        const double cost = cost_.add(renderer_.graph().report(), renderer_.timesArePartial());
-        const auto sinceStart = Clock::now() - start_;
-        if (photo_.on() || sinceStart > kLongestBenchmark) isMeasuring_ = false;
-        if (!automatic() || photo_.on() || (menu_.open && !isMeasuring_)) return;
-        bool moved = budget_.frame(cost);
-        if (isMeasuring_ && budget_.hasMeasured() && sinceStart > kBenchmark) {
-            isMeasuring_ = false;
-            const std::string before = quality().name;
-            moved = budget_.chooseAtOnce() || moved;
-            spdlog::info("quality '{}': at '{}' a frame's passes take {:.0f} ms, {:.0f} ms are wanted",
-                         quality().name, before, cost, budget_.budgetMs());
-        }
-        if (moved) usePlayerSettings();
+        if (photo_.on()) quality_.endMeasuring();
+        if (automatic() && quality_.frame(renderer_, !menu_.open && !photo_.on())) usePlayerSettings();
     }
-    // The first second tells what the device can do: nothing is skipped in it.
     FrameGraphOptions graphOptions() const {
         FrameGraphOptions graph = demo_.graph;
-        graph.skip = graph.skip && !(isMeasuring_ && automatic());
+        graph.skip = graph.skip && !(automatic() && quality_.isMeasuring());
         return capture_.options(graph);
     }
     // In photo mode the world stands still, so that rays pay; pixels are as many as shown once the camera
@@ -327,25 +315,12 @@ class WindowedRun {
         if (capture_.recording()) capture_.note(subject(size));
         return true;
     }
-    // What is shown, without what is written over it, and its light: W/(m² sr), or the layer's own unit.
     void savePhoto() {
-        const std::string stem = nextPhoto(demo_.files.photos());
-        renderer_.waitIdle();
-        Status saved = openFolder({demo_.files.photos()});
-        if (saved) saved = saveImage(render::readImage(renderer_, shown_), stem + ".png");
-        if (saved && light_) {
-            const render::LayerInfo& info = render::layerInfo(demo_.layer.value_or(render::Layer::kRadiance));
-            Image light = render::readImage(renderer_, light_);
-            light.attributes = {{"layer", std::string(info.name)},
-                                {"unit", std::string(info.unit)},
-                                {"meaning", std::string(info.meaning)},
-                                {"device", device_.info().name}};
-            saved = saveImage(light, stem + ".exr");
-        }
+        const auto stem = game::savePhoto(
+            renderer_, shown_, light_, demo_.layer.value_or(render::Layer::kRadiance), demo_.files.photos());
         message_ =
-            saved ? fmt::format("saved {}.png{}", stem, light_ ? " and .exr" : "") : saved.error().message;
-        messageUntil_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                           std::chrono::duration<double>(kMessageSeconds));
+            stem ? fmt::format("saved {}.png{}", *stem, light_ ? " and .exr" : "") : stem.error().message;
+        messageUntil_ = Clock::now() + kMessage;
     }
     capture::Subject subject(glm::uvec2 size) {
         return {.scene = demo_.game->scene(),
@@ -399,7 +374,7 @@ class WindowedRun {
         const glm::dvec3 at = demo_.game->player().position;
         return fmt::format("{:.1f} ms  {:.1f}/s  {}x{} {}  at {:.2f} {:.2f}{}", frameMs_,
                            1000 / std::max(frameMs_, 1e-3), size.x, size.y,
-                           automatic() ? fmt::format("auto ({})", quality().name)
+                           automatic() ? fmt::format("auto ({})", quality_.step().name)
                                        : std::string(qualityName(demo_.user.quality)),
                            at.x, at.z,
                            demo_.layer ? fmt::format("\n{}", render::layerInfo(*demo_.layer).name) : "");
@@ -417,8 +392,7 @@ class WindowedRun {
     render::Renderer renderer_;
     DebugUi ui_;
     ImGuiPass imgui_;
-    render::BudgetController budget_;
-    render::FrameCost cost_;
+    AutomaticQuality quality_;
     capture::LiveCapture capture_;
     Speaker speaker_;
     DebugUiState panels_;
@@ -431,8 +405,6 @@ class WindowedRun {
     uint32_t sincePhoto_ = kFramesOfPhoto;  // frames
     std::string message_;
     Clock::time_point messageUntil_{};
-    bool isMeasuring_ = true;  // what the device can do
-    Clock::time_point start_ = Clock::now();
     glm::vec2 turned_{0};  // mouse movement no tick has seen yet, pixels
     double behind_ = 0, frameMs_ = 16;
     bool fullscreen_ = false, quit_ = false;
