@@ -145,7 +145,7 @@ SubstancePictures drawSubstance(const Substance& substance) {
             const uint8_t tone = byteOf(encoded(texels[size_t(y) * kTexels + size_t(x)].x));
             const glm::vec3 normal =
                 glm::normalize(glm::vec3(slope * (height(x - 1, y) - height(x + 1, y)),
-                                         slope * (height(x, y - 1) - height(x, y + 1)), 1));
+                                         slope * (height(x, y + 1) - height(x, y - 1)), 1));
             out.color.insert(out.color.end(), {tone, tone, tone, 255});
             for (int c = 0; c < 3; ++c)
                 out.normal.push_back(byteOf(normal[c] * 0.5f + 0.5f));

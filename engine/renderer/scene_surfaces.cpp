@@ -72,10 +72,10 @@ glm::vec3 colorOf(const GeometryArrays& g, const Material& m, int32_t layer, siz
                      : linearOf(&g.textures[size_t(m.textureClass)].srgb[size_t(layer)][texel * 4]);
 }
 
-float bumpCosineAt(const GeometryArrays& g, const Material& m, size_t texel) {
+float bumpShareAt(const GeometryArrays& g, const Material& m, size_t texel) {
     if (m.normalLayer < 0) return 1;
     const uint8_t* const at = &g.textures[size_t(m.textureClass)].linear[size_t(m.normalLayer)][texel * 4];
-    return io::bumpCosine(glm::vec3(at[0], at[1], at[2]) / 127.5f - 1.0f, m.normalScale);
+    return io::bumpShareOfHemisphere(glm::vec3(at[0], at[1], at[2]) / 127.5f - 1.0f, m.normalScale);
 }
 
 constexpr int kAlbedoWindows = 8;
@@ -92,7 +92,7 @@ glm::vec3 albedoAbout(const GeometryArrays& g, const Material& m, glm::vec2 uv, 
     if (m.baseColorLayer < 0 && m.metallicRoughnessLayer < 0 && m.normalLayer < 0)
         return reflects(base, glm::vec2(1));
     return meanAbout(m, uv, kAlbedoWindows, [&](size_t texel) {
-        return bumpCosineAt(g, m, texel) *
+        return bumpShareAt(g, m, texel) *
                reflects(base * colorOf(g, m, m.baseColorLayer, texel), roughnessAndMetallicAt(g, m, texel));
     });
 }

@@ -26,7 +26,7 @@ void main() {
     InstanceTransform t = fetchInstance(drawnInstance());
     outPosition = transformPoint(t, position);
     outNormal = transformNormal(t, normal);
-    outTangent = vec4(transformDirection(t, tangent.xyz), tangent.w);
+    outTangent = vec4(transformDirection(t, tangent.xyz), tangent.w * handednessOf(t));
     outUv = uv;
     outMaterial = t.material;
     outColor = color.rgb;

@@ -42,8 +42,8 @@ bool isPeeled(Blend b) {
 void main() {
     SurfaceMaterial m = tintedMaterial(material, uv, color);
     vec3 n = unitNormal(normal);
-    if (!gl_FrontFacing) n = -n;
     if (kNormalMaps) n = bentNormal(m, position, n, tangent);
+    if (!gl_FrontFacing) n = -n;
     outNormal = vec4(n, m.roughness);
     outAlbedo = vec4(diffuseAlbedo(m.baseColor.rgb, m.metallic), m.metallic);
 #ifdef AG_EMISSIVE

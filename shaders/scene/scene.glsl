@@ -38,13 +38,15 @@ vec3 transformDirection(InstanceTransform t, vec3 d) {
     return vec3(dot(t.row0.xyz, d), dot(t.row1.xyz, d), dot(t.row2.xyz, d));
 }
 
+// -1 where a mirrored scale turns triangles over.
+float handednessOf(InstanceTransform t) { return sign(dot(t.row0.xyz, cross(t.row1.xyz, t.row2.xyz))); }
+
 // By the cofactor matrix: right for any scale, also mirrored ones.
 vec3 transformNormal(InstanceTransform t, vec3 n) {
     vec3 cofactor0 = cross(t.row1.xyz, t.row2.xyz);
     vec3 cofactor1 = cross(t.row2.xyz, t.row0.xyz);
     vec3 cofactor2 = cross(t.row0.xyz, t.row1.xyz);
-    float handedness = sign(dot(t.row0.xyz, cofactor0));
-    return handedness * vec3(dot(cofactor0, n), dot(cofactor1, n), dot(cofactor2, n));
+    return handednessOf(t) * vec3(dot(cofactor0, n), dot(cofactor1, n), dot(cofactor2, n));
 }
 #endif
 

@@ -3,16 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
 #include "gi/upsampling.h"
 #include "tests/gi_gpu/bench.h"
-#include "tools/reference/reference.h"
+#include "tests/gi_gpu/bumpy.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
 using namespace render;
+using test::withWaves;
 namespace {
 
 std::unique_ptr<Bench> stochasticBench(SceneAsset asset, glm::uvec2 size, const char* preset = "stochastic") {
@@ -103,29 +103,6 @@ TEST(Upsampling, IsWhatAllPixelsWouldHave) {
     }
 }
 
-// Waves of 16 texels and 20 degrees in the normals of everything, four of them a metre.
-SceneAsset withWaves(SceneAsset asset) {
-    constexpr uint32_t kSize = 256;
-    std::vector<uint8_t> texels(size_t(kSize) * kSize * 4, 255);
-    const auto toByte = [](float v) { return uint8_t(std::lround(127.5f + 127.5f * v)); };
-    for (uint32_t i = 0; i < kSize * kSize; ++i) {
-        const glm::vec2 phase = glm::vec2(i % kSize, i / kSize) * (glm::two_pi<float>() / 16);
-        const glm::vec3 n =
-            glm::normalize(glm::vec3(0.36f * std::sin(phase.x), 0.36f * std::sin(phase.y), 1));
-        for (int c = 0; c < 3; ++c)
-            texels[i * 4 + size_t(c)] = toByte(n[c]);
-    }
-    GeometryArrays& g = asset.geometry;
-    g.textures[size_t(TextureClass::k256)].linear.push_back(std::move(texels));
-    for (Material& m : g.materials)
-        m.textureClass = TextureClass::k256, m.normalLayer = 0;
-    for (size_t v = 0; v < g.positions.size(); ++v) {
-        const glm::vec3 p = g.positions[v];  // of axis-aligned walls, relative to their nodes
-        g.attributes[v].uv = glm::vec2(p.x + 0.4f * p.z, p.y + 0.6f * p.z) / 4.0f;
-    }
-    return asset;
-}
-
 // A surface that is turned from pixel to pixel takes light by its own normal, not by the gathered
 // neighbours'.
 TEST(Upsampling, TakesLightAsEachPixelIsTurned) {
@@ -146,20 +123,6 @@ TEST(Upsampling, TakesLightAsEachPixelIsTurned) {
     std::printf("waves: off by %.4f of the mean, mean ratio %.4f\n", off, meanOf(image) / meanOf(truth));
     EXPECT_LT(off, 0.025);  // 0.03 with the light as the gathered pixels took it
     EXPECT_NEAR(meanOf(image) / meanOf(truth), 1, 0.01);
-}
-
-// Waves receive less light than the flat wall that they are on, and send less on.
-TEST(BumpySurfaces, SendOnWhatTheirBumpsReceive) {
-    Bench b(withWaves(*scenegen::buildScene("cornell", 0)), {96, 54});
-    const reference::RayScene rays(b.scene);
-    JobRunner runner(2);
-    const auto truth = reference::makeReference(
-        rays, b.size, {.paths = {.bounces = 1}, .samplesPerPixel = 256, .layer = "bounce1"}, runner,
-        [](double) {});
-    const Image image = renderLayer(b.renderer, b.scene, b.size, b.settings, Layer::kBounce1, 16);
-    const double ratio = meanOf(image) / meanOf(truth.bounces[1]);
-    std::printf("waves: mean over path tracing's %.4f\n", ratio);
-    EXPECT_NEAR(ratio, 1, 0.02);  // 1.05 as if they were flat
 }
 
 // The mean over many frames does not depend on radius or samples but for the light beyond the disk, and with

@@ -111,26 +111,61 @@ TEST(Brdf, MeanFresnelIsThatOfEvenLight) {
     }
 }
 
-// Of waves that lean no way on average, whatever their map is scaled by: the mean of their cosines to a
-// light.
+struct Bumps {
+    std::vector<glm::vec3> normals;
+    glm::vec3 mean{0};
+};
+
+// Waves whose slopes reach `steepest`, and which lean no way on average.
+Bumps waves(float steepest) {
+    Bumps b;
+    for (int i = 0; i < 64; ++i)
+        for (int j = 0; j < 8; ++j) {
+            const float phase = float(i) * 2 * kPi / 64, slope = steepest * (float(j) + 0.5f) / 8;
+            b.normals.push_back(
+                glm::normalize(glm::vec3(slope * std::sin(phase), slope * std::cos(phase), 1)));
+            b.mean += b.normals.back() / 512.0f;
+        }
+    return b;
+}
+
+// A bump that turns away from the light takes nothing from those that face it.
 TEST(Brdf, BumpsReceiveTheMeanOfTheirCosines) {
-    const glm::vec3 light = glm::normalize(glm::vec3(0.3f, 0.1f, 1));
-    for (const float scale : {1.0f, 0.5f}) {
-        glm::vec3 mapped(0);
-        double lit = 0;
-        for (int i = 0; i < 256; ++i) {
-            const float phase = float(i) * 2 * kPi / 256;
-            const glm::vec3 n = glm::normalize(glm::vec3(0.5f * std::sin(phase), 0.5f * std::cos(phase), 1));
-            mapped += n / 256.0f;
-            lit += double(glm::dot(glm::normalize(glm::vec3(scale * glm::vec2(n), n.z)), light)) / 256;
-            EXPECT_NEAR(bumpCosine(n, scale), 1 / glm::length(glm::vec3(scale * glm::vec2(n) / n.z, 1)),
-                        1e-5);
+    for (const float steepest : {0.2f, 0.6f, 1.0f})
+        for (const float cosine : {0.9f, 0.6f, 0.4f, 0.2f}) {
+            const Bumps b = waves(steepest);
+            const glm::vec3 light(std::sqrt(1 - cosine * cosine), 0, cosine);
+            double lit = 0;
+            for (const glm::vec3 n : b.normals)
+                lit += std::max(double(glm::dot(n, light)), 0.0) / 512;
+            EXPECT_NEAR(bumpCosine(b.mean, light, cosine) / lit, 1, 0.07) << steepest << ", " << cosine;
+            EXPECT_NEAR(bumpCosine(b.normals[0], b.normals[0], cosine), 1, 1e-6);
+            EXPECT_NEAR(bumpCosine(b.normals[0], -b.normals[0], cosine), 0, 1e-6);
         }
-        if (scale == 1) {
-            EXPECT_NEAR(bumpCosine(mapped, scale) * light.z, lit, 1e-5);
-        }
+}
+
+// Light from everywhere above the surface: quadrature over the hemisphere.
+TEST(Brdf, BumpsReceiveTheirShareOfLightFromEverywhere) {
+    const Bumps b = waves(0.8f);
+    constexpr uint kDirections = 1u << 10;
+    double lit = 0;
+    for (uint i = 0; i < kDirections; ++i) {
+        const vec2 xi = hammersley(i, kDirections);
+        const float across = std::sqrt(xi.x * (2 - xi.x)), phi = 2 * kPi * xi.y;
+        const glm::vec3 l(across * std::cos(phi), across * std::sin(phi), 1 - xi.x);
+        for (const glm::vec3 n : b.normals)
+            lit += std::max(double(glm::dot(n, l)), 0.0) * 2 / kDirections / double(b.normals.size());
     }
-    EXPECT_EQ(bumpCosine(glm::vec3(0), 1), 1);
+    EXPECT_NEAR(bumpShareOfHemisphere(b.mean, 1), lit, 0.002);
+    EXPECT_EQ(bumpShareOfHemisphere(glm::vec3(0), 1), 1);
+}
+
+// A single normal stays one when its strength is scaled, and the mean of several keeps its length.
+TEST(Brdf, ScaledBumpsKeepTheirLength) {
+    const glm::vec3 n = glm::normalize(glm::vec3(0.6f, -0.3f, 1));
+    EXPECT_LT(glm::distance(scaledBumps(n, 0.5f), glm::normalize(glm::vec3(0.3f, -0.15f, 1))), 1e-6f);
+    EXPECT_LT(glm::distance(scaledBumps(0.7f * n, 1), 0.7f * n), 1e-6f);
+    EXPECT_EQ(scaledBumps(glm::vec3(0), 1), glm::vec3(0, 0, 1));
 }
 
 }  // namespace

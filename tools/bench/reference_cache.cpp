@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 // Raised when the tracer's results change.
 constexpr uint64_t kTracerVersion = 6;
+constexpr int32_t kNormalMapsVersion = 2;  // of scenes with normal maps alone
 
 template <class T>
 uint64_t hashArray(const std::vector<T>& items, uint64_t seed) {
@@ -33,6 +34,7 @@ uint64_t hashMaterial(const Material& m, uint64_t h) {
     for (const int32_t v : {int32_t(m.alphaMode), int32_t(m.doubleSided), int32_t(m.textureClass),
                             m.baseColorLayer, m.emissiveLayer, m.normalLayer, m.metallicRoughnessLayer})
         h = hashValue(v, h);
+    if (m.normalLayer >= 0) h = hashValue(kNormalMapsVersion, h);
     h = hashValue(m.uvTransform, h);
     return m.alphaMode == AlphaMode::kBlend ? hashValue(m.transmission + float(m.coversWholly), h) : h;
 }

@@ -4,6 +4,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "common/brdf.h"
+#include "common/tangent_frame.h"
 #include "common/tonemap.h"
 #include "tools/reference/ray_scene.h"
 
@@ -208,32 +209,24 @@ glm::vec3 RayScene::shadingNormal(const Part& part, const Surface& s, const UvAr
     const float u = s.u, v = s.v, w = 1 - u - v;
     glm::vec3 n =
         glm::normalize(part.normalFromLocal * (a[i[0]].normal * w + a[i[1]].normal * u + a[i[2]].normal * v));
-    if (glm::dot(n, s.geometricNormal) < 0) n = -n;
-    if (m.normalLayer < 0) return n;
+    const float side = glm::dot(n, s.geometricNormal) < 0 ? -1.0f : 1.0f;
+    if (m.normalLayer < 0) return side * n;
 
     const glm::vec4 tangent = a[i[0]].tangent * w + a[i[1]].tangent * u + a[i[2]].tangent * v;
-    glm::vec3 t = part.worldFromLocal * glm::vec3(tangent), b;
-    if (glm::dot(t, t) > 1e-12f) {
-        t = glm::normalize(t - n * glm::dot(n, t));
-        b = glm::cross(n, t) * tangent.w;
-    } else {  // along the triangle's own texture coordinates
-        const glm::vec3* p = part.vertices.positions;
-        const glm::vec3 e1 = part.worldFromLocal * (p[i[1]] - p[i[0]]),
-                        e2 = part.worldFromLocal * (p[i[2]] - p[i[0]]);
-        const glm::vec2 d1 = a[i[1]].uv - a[i[0]].uv, d2 = a[i[2]].uv - a[i[0]].uv;
-        const float sign = d1.x * d2.y - d1.y * d2.x < 0 ? -1.0f : 1.0f;
-        t = (e1 * d2.y - e2 * d1.y) * sign;
-        b = (e2 * d1.x - e1 * d2.x) * sign;
-        const float scale = std::sqrt(std::max(glm::dot(t, t), glm::dot(b, b)));
-        if (!(scale > 0)) return n;
-        t /= scale;
-        b /= scale;
-    }
+    const glm::vec3 along = part.worldFromLocal * glm::vec3(tangent);
+    const auto uvStep = [&](size_t corner) {
+        return m.uvTransform * glm::vec3(a[i[corner]].uv - a[i[0]].uv, 0);
+    };
+    const auto c = cornersOf(part, s.triangle);
+    const io::TangentFrame frame =
+        glm::dot(along, along) > 1e-12f
+            ? io::frameOfTangent(n, glm::vec4(along, part.mirrored ? -tangent.w : tangent.w))
+            : io::frameOfSteps(n, c[1] - c[0], c[2] - c[0], uvStep(1), uvStep(2));
     glm::vec3 mapped = glm::vec3(sampleTexture(g, m, m.normalLayer, uv, false)) * 2.0f - 1.0f;
     mapped.x *= m.normalScale;
     mapped.y *= m.normalScale;
-    const glm::vec3 bent = t * mapped.x + b * mapped.y + n * mapped.z;
-    return glm::dot(bent, bent) > 1e-12f ? glm::normalize(bent) : n;
+    const glm::vec3 bent = io::fromFrame(frame, mapped);
+    return side * (glm::dot(bent, bent) > 1e-12f ? glm::normalize(bent) : n);
 }
 
 }  // namespace ag::reference
