@@ -53,10 +53,11 @@ struct Grid {
     }
 };
 
-// Rounded outwards, so that rounding never hides what is inside.
+// Rounded outwards, so that rounding never hides what is inside. Coordinates are above 0, where to cut off is
+// to round down.
 glm::uvec4 packed(const BvhNode& node, const Grid& grid, uint32_t firstNode, uint32_t firstItem) {
-    const glm::uvec3 low(glm::clamp(glm::floor(grid(node.bounds.min)), 0.0f, io::kBvhGrid));
-    const glm::uvec3 high(glm::clamp(glm::ceil(grid(node.bounds.max)), 0.0f, io::kBvhGrid));
+    const glm::uvec3 low(glm::clamp(grid(node.bounds.min), 0.0f, io::kBvhGrid));
+    const glm::uvec3 high(glm::clamp(grid(node.bounds.max) + 1.0f, 0.0f, io::kBvhGrid));
     const uint32_t link = node.count > 0
                               ? io::kBvhLeafBit | node.count << io::kBvhCountShift | (firstItem + node.first)
                               : firstNode + node.next;
@@ -202,20 +203,20 @@ void placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> ins
     result.nodes.clear();
     result.places.assign(io::kBvhFirstMover, {});
     result.places[io::kBvhStatic] = placeOf(trees.everythingStatic, glm::mat4x3(1));
-    std::vector<const SampledInstance*> movers;
-    std::vector<Bounds> boxes;
-    movers.reserve(instances.size());
-    boxes.reserve(instances.size());
+    auto& [movers, boxes, places, bvh] = result.scratch;
+    boxes.clear();
+    places.clear();
     for (const SampledInstance& instance : instances) {
         if (!instance.isPresent || !instance.movable || trees.ofMesh[instance.mesh].empty()) continue;
-        const Bounds box = transformed(instance.worldFromLocal, trees.ofMesh[instance.mesh].bounds);
-        if (!std::isfinite(glm::length(box.max - box.min)) ||
+        const TreeRange& tree = trees.ofMesh[instance.mesh];
+        const Bounds box = transformed(instance.worldFromLocal, tree.bounds);
+        const glm::vec3 size = box.max - box.min;
+        if (!std::isfinite(glm::dot(size, size)) ||
             std::abs(glm::determinant(glm::mat3(instance.worldFromLocal))) < 1e-30f)
             continue;
-        movers.push_back(&instance);
         boxes.push_back(box);
+        places.push_back(placeOf(tree, inverseOf(instance.worldFromLocal)));
     }
-    Bvh& bvh = result.scratch;
     if (boxes.size() > kMostSorted)
         buildBvhAlongCurve(boxes, bvh);
     else
@@ -226,10 +227,8 @@ void placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> ins
     for (const BvhNode& node : bvh.nodes)
         result.nodes.push_back(packed(node, grid, 0, 0));
     result.places[io::kBvhMovers] = placeOf(range, glm::mat4x3(1));
-    for (const uint32_t item : bvh.order) {
-        const SampledInstance& mover = *movers[item];
-        result.places.push_back(placeOf(trees.ofMesh[mover.mesh], inverseOf(mover.worldFromLocal)));
-    }
+    for (const uint32_t item : bvh.order)
+        result.places.push_back(places[item]);
 }
 
 void readTrees(PassBuilder& pass, const TracedOccluders& trees) {

@@ -73,7 +73,12 @@ io::BvhPlace placeOf(const TreeRange& tree, const glm::mat4x3& treeFromWorld);
 struct MoverTree {
     std::vector<glm::uvec4> nodes;  // items: movable instances, in the order of places from kBvhFirstMover on
     std::vector<io::BvhPlace> places;  // of all trees
-    Bvh scratch;
+    struct Scratch {
+        std::vector<SampledInstance> movers;
+        std::vector<Bounds> boxes;
+        std::vector<io::BvhPlace> places;  // of the boxes
+        Bvh bvh;
+    } scratch;
 };
 
 // Where the trees stand now: some 2 ms for 10,000 movable instances.

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
-#include <iterator>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -38,19 +37,27 @@ uint64_t shapeHash(const RenderScene& scene, const RenderInstance& instance) {
     return combineHash(combineHash(hash, skinnedMesh.poseVersion), skinnedMesh.firstDeformed);
 }
 
-// Where an instance is on a curve through cells of space: those of a primitive are ranked along it, so that
-// blocks of ranks are small and few of them are in a view. In small scenes all are in one.
-uint32_t cellOf(const RenderScene& scene, const RenderInstance& instance) {
-    constexpr size_t kWorthCells = 4096;  // instances
-    constexpr float kCell = 16;           // m
-    if (scene.instances.size() < kWorthCells) return 0;
-    const glm::vec3 at = glm::clamp(instance.worldFromLocal[3] / kCell, -511.0f, 511.0f) + 512.0f;
-    return gi::mortonCode(at, {glm::vec3(0), glm::vec3(1023)});
+// Of a word of 64 bits those of a range.
+uint64_t bitsBetween(uint32_t begin, uint32_t end, uint32_t word) {
+    const uint32_t first = word * 64;
+    const uint64_t fromBegin = begin <= first ? ~uint64_t(0) : ~uint64_t(0) << (begin - first);
+    return end >= first + 64 ? fromBegin : fromBegin & ((uint64_t(1) << (end - first)) - 1);
 }
+
+// Of hashes in their order (Fletcher's two sums): cheap where there are many.
+class OrderedHash {
+  public:
+    void add(uint64_t hash) { sum_ += hash, sumOfSums_ += sum_; }
+    uint64_t value() const { return combineHash(sum_, sumOfSums_); }
+
+  private:
+    uint64_t sum_ = 0, sumOfSums_ = 0;
+};
 
 }  // namespace
 
-void ViewDraws::add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t row, bool movable) {
+void ViewDraws::drawLast(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t count,
+                         bool movable) {
     BucketRange& range = buckets[bucket];
     if (range.commandCount == 0) range.firstCommand = uint32_t(commands.size());
     const bool layerBegins = movable && range.commandCount == range.staticCount;
@@ -58,23 +65,26 @@ void ViewDraws::add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, 
         range.commandCount > 0 && !layerBegins && commands.back().firstIndex == shape.firstIndex &&
         commands.back().indexCount == shape.indexCount && commands.back().vertexOffset == shape.vertexOffset;
     if (same) {
-        ++commands.back().instanceCount;
+        commands.back().instanceCount += count;
     } else {
         commands.push_back(
-            {shape.indexCount, 1, shape.firstIndex, shape.vertexOffset, uint32_t(rows.size())});
+            {shape.indexCount, count, shape.firstIndex, shape.vertexOffset, uint32_t(rows.size()) - count});
         ++range.commandCount;
         range.staticCount += !movable;
     }
-    rows.push_back(row);
 }
 
-void DrawLists::startAnew(uint64_t geometryVersion) {
-    geometryVersion_ = geometryVersion;
+void DrawLists::startAnew(const RenderScene& scene) {
+    constexpr float kCellsAcross = 256;
+    geometryVersion_ = scene.geometry->version;
+    const glm::vec3 size = scene.bounds.empty() ? glm::vec3(1) : scene.bounds.max - scene.bounds.min;
+    cell_ = std::max({size.x, size.y, size.z}) / kCellsAcross;
+    if (!(cell_ > 0 && cell_ < 1e30f)) cell_ = 1;
     buckets_.clear();
     kinds_.clear();
     cells_.clear();
-    rankOf_.clear();
-    order_.clear();
+    drawn_.clear();
+    nearby_.clear();
     firstBlended_ = 0;
     views_.clear();
     commandPool_.clear();
@@ -100,45 +110,58 @@ DrawLists::Kind DrawLists::kindOf(const RenderScene& scene, const RenderInstance
             instance.movable};
 }
 
-// The others keep their order. `rows`, ascending: those of another kind than they were, or that came or went.
+// Where an instance is on a curve through cells of space.
+uint32_t DrawLists::cellOf(const RenderScene& scene, const RenderInstance& instance) const {
+    const Bounds local = boundsLocal(scene, instance);
+    const glm::vec3 middle = instance.worldFromLocal * glm::vec4(0.5f * (local.min + local.max), 1);
+    if (!std::isfinite(glm::dot(middle, middle))) return 0;
+    return gi::mortonCode(glm::clamp(middle / cell_, -511.0f, 511.0f) + 512.0f,
+                          {glm::vec3(0), glm::vec3(1023)});
+}
+
+// `rows`, ascending: those of another kind than they were, or that came or went.
 void DrawLists::rankAnew(std::span<const uint32_t> rows) {
-    const auto key = [&](uint32_t i) {
-        const Kind& k = kinds_[i];
-        return std::tuple(buckets_[k.bucket].blended, k.bucket, k.movable, k.primitive, cells_[i], i);
-    };
     std::vector<uint32_t> arrived;
     std::vector<bool> leaves(kinds_.size(), false);
     for (const uint32_t row : rows) {
         leaves[row] = true;
         if (kinds_[row].bucket != kNoBucket) arrived.push_back(row);
     }
-    std::ranges::sort(arrived, {}, key);
-    std::swap(order_, orderBefore_);
-    std::vector<uint32_t> order = orderBefore_;
-    std::erase_if(order, [&](uint32_t i) { return leaves[i]; });
-    order_.clear();
-    std::ranges::merge(order, arrived, std::back_inserter(order_), {}, key, key);
     const auto blended = [&](uint32_t i) { return buckets_[kinds_[i].bucket].blended; };
-    firstBlended_ = uint32_t(std::ranges::partition_point(order_, std::not_fn(blended)) - order_.begin());
-    moveToRanks(orderBefore_);
+    drawn_.change(leaves, arrived, [&](uint32_t i) {
+        const Kind& k = kinds_[i];
+        return std::tuple(blended(i), k.bucket, k.movable, k.primitive, cells_[i], i);
+    });
+    // What moves is by itself, so that blocks of what is static do not change.
+    nearby_.change(leaves, arrived, [&](uint32_t i) { return std::tuple(kinds_[i].movable, cells_[i], i); });
+    firstBlended_ = drawn_.size();
+    while (firstBlended_ > 0 && blended(drawn_[firstBlended_ - 1]))
+        --firstBlended_;
+    moveAlong();
 }
 
-// What is kept by rank, from the ranks it had in `before` to those it has now.
-void DrawLists::moveToRanks(const std::vector<uint32_t>& before) {
+// What is kept by rank and place.
+void DrawLists::moveAlong() {
     InstanceBounds bounds;
-    bounds.resize(order_.size());
-    std::vector<uint64_t> hashes(order_.size(), 0);
-    for (uint32_t rank = 0; rank < order_.size(); ++rank) {
-        const uint32_t old = rankOf_[order_[rank]];
-        if (old >= before.size() || before[old] != order_[rank]) continue;
-        bounds.copy(rank, bounds_, old);
-        hashes[rank] = transformHash_[old];
-    }
-    for (uint32_t rank = 0; rank < order_.size(); ++rank)
-        rankOf_[order_[rank]] = rank;
+    bounds.resize(nearby_.size());
+    for (uint32_t place = 0; place < nearby_.size(); ++place)
+        if (nearby_.before()[place] != KeptOrder::kNowhere)
+            bounds.copy(place, bounds_, nearby_.before()[place]);
+    std::vector<uint64_t> hashes(drawn_.size(), 0);
+    for (uint32_t rank = 0; rank < drawn_.size(); ++rank)
+        if (drawn_.before()[rank] != KeptOrder::kNowhere) hashes[rank] = hashes_[drawn_.before()[rank]];
     std::swap(bounds_, bounds);
-    std::swap(transformHash_, hashes);
-    changed_.assign((order_.size() + 63) / 64, ~uint64_t(0));
+    std::swap(hashes_, hashes);
+    findRuns();
+    changed_.assign((nearby_.size() + 63) / 64, ~uint64_t(0));
+}
+
+void DrawLists::findRuns() {
+    runEnd_.resize(drawn_.size());
+    for (uint32_t rank = drawn_.size(); rank-- > 0;) {
+        const bool goesOn = rank + 1 < drawn_.size() && kinds_[drawn_[rank]] == kinds_[drawn_[rank + 1]];
+        runEnd_[rank] = goesOn ? runEnd_[rank + 1] : rank + 1;
+    }
 }
 
 void DrawLists::refreshBounds(const RenderScene& scene, std::span<const RenderScene::Range> rows) {
@@ -146,10 +169,10 @@ void DrawLists::refreshBounds(const RenderScene& scene, std::span<const RenderSc
         for (uint32_t i = range.begin; i < range.end; ++i) {
             const RenderInstance& instance = scene.instances[i];
             if (!instance.isPresent()) continue;
-            const uint32_t rank = rankOf_[i];
-            bounds_.set(rank, instance, boundsLocal(scene, instance));
-            transformHash_[rank] = shapeHash(scene, instance);
-            changed_[rank / 64] |= uint64_t(1) << (rank % 64);
+            const uint32_t place = nearby_.placeOf(i);
+            bounds_.set(place, instance, boundsLocal(scene, instance));
+            changed_[place / 64] |= uint64_t(1) << (place % 64);
+            hashes_[drawn_.placeOf(i)] = combineHash(shapeHash(scene, instance), i);
         }
     bounds_.fold(changed_, *jobs_);
 }
@@ -157,7 +180,7 @@ void DrawLists::refreshBounds(const RenderScene& scene, std::span<const RenderSc
 void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
     jobs_ = &jobs;
     if (geometryVersion_ != scene.geometry->version || kinds_.size() > scene.instances.size()) {
-        startAnew(scene.geometry->version);
+        startAnew(scene);
         instancesVersion_ = 0;
     }
     if (instancesVersion_ == scene.instancesVersion) return;
@@ -168,17 +191,16 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
         all ? std::span(&every, 1) : std::span(scene.changedInstances);
     kinds_.resize(scene.instances.size());
     cells_.resize(scene.instances.size());
-    rankOf_.resize(scene.instances.size(), ~0u);
     std::vector<uint32_t> others;
     for (const RenderScene::Range& range : rows)
         for (uint32_t i = range.begin; i < range.end; ++i) {
             const Kind kind = kindOf(scene, scene.instances[i]);
             if (kind == kinds_[i]) continue;
             kinds_[i] = kind;
-            cells_[i] = cellOf(scene, scene.instances[i]);
+            if (kind.bucket != kNoBucket) cells_[i] = cellOf(scene, scene.instances[i]);
             others.push_back(i);
         }
-    changed_.assign((order_.size() + 63) / 64, 0);
+    changed_.assign((nearby_.size() + 63) / 64, 0);
     if (!others.empty()) {
         rankAnew(others);
         ++ranking_;
@@ -194,7 +216,7 @@ void DrawLists::ensureView(uint32_t slot) {
 }
 
 void DrawLists::cullAll(const RenderScene& scene, std::span<const ViewRequest> views) {
-    if (views.size() * order_.size() < kWorthJobs) return;  // cull() does it
+    if (views.size() * drawn_.size() < kWorthJobs) return;  // cull() does it
     for (const ViewRequest& view : views)
         ensureView(view.slot);
     jobs_->parallelFor(uint32_t(views.size()), 1, [&](uint32_t begin, uint32_t end) {
@@ -215,7 +237,7 @@ const ViewDraws& DrawLists::blendedOf(const RenderScene& scene, uint32_t slot, u
     View& view = views_[slot];
     const View& whole = views_[seenBy];
     if (isCulled(view, whole.clipFromWorld)) return view.draws;
-    addInSight(scene, whole, {firstBlended_, uint32_t(order_.size())}, view);
+    addInSight(scene, whole, {firstBlended_, drawn_.size()}, view);
     noteCulled(view, whole.clipFromWorld);
     place(view);
     return view.draws;
@@ -236,26 +258,49 @@ void DrawLists::noteCulled(View& view, const glm::mat4& clipFromWorld) const {
     view.generation = generation_;
 }
 
+std::vector<uint64_t> DrawLists::ranksInSight(const View& view) const {
+    std::vector<uint64_t> ranks((drawn_.size() + 63) / 64);
+    for (uint32_t word = 0; word < view.inSight.size(); ++word)
+        for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
+            const uint32_t rank = drawn_.placeOf(nearby_[word * 64 + uint32_t(std::countr_zero(bits))]);
+            ranks[rank / 64] |= uint64_t(1) << (rank % 64);
+        }
+    return ranks;
+}
+
 // Those of the ranks.
 void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks ranks, View& view) const {
     ViewDraws& draws = view.draws;
     draws.commands.clear();
     draws.rows.clear();
     draws.buckets.assign(buckets_.size(), {});
-    draws.staticVersion = draws.movableVersion = combineHash(geometryVersion_, generation_);
-    for (uint32_t word = ranks.begin / 64; word < seenBy.inSight.size(); ++word)
-        for (uint64_t bits = seenBy.inSight[word]; bits; bits &= bits - 1) {
-            const uint32_t rank = word * 64 + uint32_t(std::countr_zero(bits));
-            if (rank >= ranks.end) return;
-            if (rank < ranks.begin) continue;
-            const uint32_t i = order_[rank];
-            const Kind& kind = kinds_[i];
+    OrderedHash ofStatic, ofMovable;
+    const std::vector<uint64_t> inSight = ranksInSight(seenBy);
+    for (uint32_t word = ranks.begin / 64; word * 64 < ranks.end; ++word) {
+        uint64_t bits = inSight[word] & bitsBetween(ranks.begin, ranks.end, word);
+        while (bits) {
+            const uint32_t first = word * 64 + uint32_t(std::countr_zero(bits));
+            const uint64_t ofRun = bits & bitsBetween(first, runEnd_[first], word);
+            bits &= ~ofRun;
+            const Kind& kind = kinds_[drawn_[first]];
+            const auto count = uint32_t(std::popcount(ofRun));
+            OrderedHash version = kind.movable ? ofMovable : ofStatic;
+            draws.rows.resize(draws.rows.size() + count);
+            uint32_t* row = draws.rows.data() + draws.rows.size() - count;
+            for (uint64_t left = ofRun; left; left &= left - 1) {
+                const uint32_t rank = word * 64 + uint32_t(std::countr_zero(left));
+                *row++ = drawn_[rank];
+                version.add(hashes_[rank]);
+            }
+            (kind.movable ? ofMovable : ofStatic) = version;
             const Primitive& p = scene.geometry->primitives[kind.primitive];
-            const int32_t firstVertex = firstVertexOf(scene, scene.instances[i]);
-            draws.add(kind.bucket, {p.indexCount, 1, p.firstIndex, firstVertex, 0}, i, kind.movable);
-            uint64_t& version = kind.movable ? draws.movableVersion : draws.staticVersion;
-            version = combineHash(combineHash(version, i), transformHash_[rank]);
+            const int32_t firstVertex = firstVertexOf(scene, kind.primitive, kind.skinnedMesh);
+            draws.drawLast(kind.bucket, {p.indexCount, 1, p.firstIndex, firstVertex, 0}, count, kind.movable);
         }
+    }
+    const uint64_t start = combineHash(geometryVersion_, generation_);
+    draws.staticVersion = combineHash(start, ofStatic.value());
+    draws.movableVersion = combineHash(start, ofMovable.value());
 }
 
 // Writes only what is the view's own: several may run at once.
@@ -308,7 +353,9 @@ const ViewDraws& DrawLists::pick(uint32_t slot, const ViewDraws& from,
             const VkDrawIndexedIndirectCommand& command = from.commands[from.buckets[b].firstCommand + c];
             for (uint32_t k = 0; k < command.instanceCount; ++k) {
                 const uint32_t row = from.rows[command.firstInstance + k];
-                if (isPicked(row)) draws.add(b, command, row, c >= from.buckets[b].staticCount);
+                if (!isPicked(row)) continue;
+                draws.rows.push_back(row);
+                draws.drawLast(b, command, 1, c >= from.buckets[b].staticCount);
             }
         }
     view.generation = 0;  // not a frustum's: culled anew if the slot becomes one

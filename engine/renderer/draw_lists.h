@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 #include "engine/gpu/functions.h"
 
+#include "engine/renderer/kept_order.h"
 #include "engine/renderer/range_pool.h"
 #include "engine/scene/instance_bounds.h"
 
@@ -55,8 +56,9 @@ struct ViewDraws {
                : layer == DrawLayer::kStatic ? staticVersion
                                              : movableVersion;
     }
-    // One instance more, in the order of buckets and layers.
-    void add(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t row, bool movable);
+    // The last `count` rows, of one shape each: more of the last command or one more, in the order of buckets
+    // and layers.
+    void drawLast(uint32_t bucket, const VkDrawIndexedIndirectCommand& shape, uint32_t count, bool movable);
 };
 
 // Slots keep their lists from frame to frame; ViewSlots says whose they are.
@@ -74,7 +76,7 @@ class DrawLists {
     // Several views at once, a job each where that is worth it; cull() then finds them done.
     void cullAll(const RenderScene& scene, std::span<const ViewRequest> views);
 
-    Bounds boundsOf(uint32_t instance) const { return bounds_.of(rankOf_[instance]); }  // world
+    Bounds boundsOf(uint32_t instance) const { return bounds_.of(nearby_.placeOf(instance)); }  // world
 
     // The result stays in place and is valid until the next cull of that slot.
     const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
@@ -86,7 +88,7 @@ class DrawLists {
     const ViewDraws& pick(uint32_t slot, const ViewDraws& from, std::span<const RenderScene::Range> rows);
 
     std::span<const DrawBucket> buckets() const { return buckets_; }
-    bool hasBlended() const { return firstBlended_ < order_.size(); }
+    bool hasBlended() const { return firstBlended_ < drawn_.size(); }
     const ViewDraws& draws(uint32_t slot) const { return views_[slot].draws; }
     uint32_t viewCount() const { return uint32_t(views_.size()); }
     // Elements of all views' ranges.
@@ -102,7 +104,7 @@ class DrawLists {
         uint64_t instancesVersion = 0;
         uint64_t generation = 0, ranking = 0;
         bool dirty = true;
-        std::vector<uint64_t> inSight;  // a bit a rank
+        std::vector<uint64_t> inSight;  // a bit a place of nearby_
     };
     // What an instance's place among the ranks follows from.
     struct Kind {
@@ -112,17 +114,20 @@ class DrawLists {
         bool operator==(const Kind&) const = default;
     };
     static constexpr uint32_t kNoBucket = ~0u;
-    void startAnew(uint64_t geometryVersion);
+    void startAnew(const RenderScene& scene);
     uint32_t bucketIndex(const DrawBucket& bucket);
     Kind kindOf(const RenderScene& scene, const RenderInstance& instance);
+    uint32_t cellOf(const RenderScene& scene, const RenderInstance& instance) const;
     void rankAnew(std::span<const uint32_t> rows);
-    void moveToRanks(const std::vector<uint32_t>& order);
+    void moveAlong();
     void refreshBounds(const RenderScene& scene, std::span<const RenderScene::Range> rows);
     void ensureView(uint32_t slot);
     void cullView(const RenderScene& scene, const ViewRequest& request);
     struct Ranks {
         uint32_t begin = 0, end = 0;
     };
+    void findRuns();
+    std::vector<uint64_t> ranksInSight(const View& view) const;
     void addInSight(const RenderScene& scene, const View& seenBy, Ranks ranks, View& view) const;
     bool isCulled(const View& view, const glm::mat4& clipFromWorld) const;
     void noteCulled(View& view, const glm::mat4& clipFromWorld) const;
@@ -130,16 +135,17 @@ class DrawLists {
 
     std::vector<DrawBucket> buckets_;
     std::vector<Kind> kinds_;      // by instance
-    std::vector<uint32_t> cells_;  // where it was when it was ranked, see cellOf
-    std::vector<uint32_t> rankOf_;
-    // By rank: instances that there are, in the order of buckets, layers and primitives. Blended ones come
-    // last.
-    std::vector<uint32_t> order_, orderBefore_;  // the latter: scratch
-    uint32_t firstBlended_ = 0;                  // rank
-    InstanceBounds bounds_;
-    std::vector<uint64_t> changed_;  // a bit a rank whose bounds were set anew
-    std::vector<uint64_t> transformHash_;
-    std::deque<View> views_;  // references from cull() stay valid
+    std::vector<uint32_t> cells_;  // where it was when it was ranked
+    float cell_ = 1;               // side, in units of length
+    // Instances that there are, twice: as they are drawn, by buckets, layers and primitives, blended ones
+    // last; and by where they are, so that blocks of them are small and few of these cross a view's border.
+    KeptOrder drawn_, nearby_;
+    uint32_t firstBlended_ = 0;      // rank, which is a place of drawn_
+    std::vector<uint32_t> runEnd_;   // by rank: of those from it on that are of one kind
+    std::vector<uint64_t> hashes_;   // by rank: of what stands there, and where that is
+    InstanceBounds bounds_;          // by places of nearby_
+    std::vector<uint64_t> changed_;  // a bit a place whose bounds were set anew
+    std::deque<View> views_;         // references from cull() stay valid
     RangePool commandPool_, rowPool_;
     JobRunner* jobs_ = nullptr;
     uint64_t geometryVersion_ = 0;

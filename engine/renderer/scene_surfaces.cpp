@@ -159,7 +159,8 @@ std::vector<gi::SampledInstance> instancesOf(const RenderScene& scene, const Def
         if (instance.skinnedMesh == kNoSkinnedMesh || deformed.positions.empty()) continue;
         instances.back().deformed =
             gi::Strided<glm::vec3>::of(verticesOf(scene, deformed, instance).positions);
-        instances.back().firstDeformed = uint32_t(firstVertexOf(scene, instance));
+        instances.back().firstDeformed =
+            uint32_t(firstVertexOf(scene, instance.primitive, instance.skinnedMesh));
     }
     return instances;
 }
@@ -238,11 +239,12 @@ gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of, SurfaceLi
 
 void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers,
                 gi::MoverTree& result) {
-    std::vector<gi::SampledInstance> instances;
+    std::vector<gi::SampledInstance>& moving = result.scratch.movers;
+    moving.clear();
     for (const RenderInstance& i : scene.instances)
         if (movers && i.isPresent() && (i.movable || i.skinnedMesh != kNoSkinnedMesh))
-            instances.push_back({.worldFromLocal = i.worldFromLocal, .mesh = i.primitive, .movable = true});
-    gi::placeTrees(trees, instances, result);
+            moving.push_back({.worldFromLocal = i.worldFromLocal, .mesh = i.primitive, .movable = true});
+    gi::placeTrees(trees, moving, result);
 }
 
 std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const gi::SurfaceSamples& samples,

@@ -41,7 +41,7 @@ DeformedVertices deformSkinnedMeshes(const RenderScene& scene) {
 
 VertexPointers verticesOf(const RenderScene& scene, const DeformedVertices& deformed,
                           const RenderInstance& instance) {
-    const std::ptrdiff_t first = firstVertexOf(scene, instance);
+    const std::ptrdiff_t first = firstVertexOf(scene, instance.primitive, instance.skinnedMesh);
     if (instance.skinnedMesh != kNoSkinnedMesh)
         return {deformed.positions.data() + first, deformed.attributes.data() + first};
     return {scene.geometry->positions.data() + first, scene.geometry->attributes.data() + first};

@@ -6,44 +6,30 @@
 namespace ag {
 namespace {
 
-using Planes = ViewPlanes;
 constexpr float kNoBox = -1e30f;  // half a side of an empty box
 constexpr uint32_t kBlock = InstanceBounds::kBlock;
-constexpr uint32_t kWordsPerBlock = kBlock / 64;
+static_assert(kBlock == 64, "a word of bits");
 constexpr uint32_t kBlocksPerPiece = 64;
 
-enum class Side { kOut, kCut, kIn };
-
-Side sideOf(const Bounds& box, const Planes& planes) {
-    if (box.empty()) return Side::kOut;
-    const glm::vec3 center = (box.min + box.max) * 0.5f, half = (box.max - box.min) * 0.5f;
-    Side side = Side::kIn;
+// The least of the planes' distances, of boxes' farthest corners and of their nearest. Separate
+// columns, so that the compiler takes several boxes at once.
+template <bool kNearestToo>
+void leastDistances(const std::array<std::vector<float>, 3>& center,
+                    const std::array<std::vector<float>, 3>& half, size_t first, uint32_t count,
+                    const ViewPlanes& planes, float* __restrict farthest, float* __restrict nearest) {
+    const float *const cx = &center[0][first], *const cy = &center[1][first], *const cz = &center[2][first];
+    const float *const hx = &half[0][first], *const hy = &half[1][first], *const hz = &half[2][first];
+    std::fill_n(farthest, count, 1e30f);
+    if (kNearestToo) std::fill_n(nearest, count, 1e30f);
     for (const glm::vec4& p : planes) {
-        const float middle = glm::dot(glm::vec3(p), center) + p.w;
-        const float reach = std::fabs(p.x) * half.x + std::fabs(p.y) * half.y + std::fabs(p.z) * half.z;
-        if (middle + reach < 0) return Side::kOut;
-        if (middle - reach < 0) side = Side::kCut;
-    }
-    return side;
-}
-
-std::span<const uint64_t> wordsOf(uint32_t block, std::span<const uint64_t> rows) {
-    const size_t first = size_t(block) * kWordsPerBlock;
-    return rows.subspan(first, std::min<size_t>(kWordsPerBlock, rows.size() - first));
-}
-
-// The least of the planes' distances; separate columns, so that the compiler takes several rows at once.
-void leastDistance(const float* const center[3], const float* const half[3], uint32_t count,
-                   const Planes& planes, float* least) {
-    for (uint32_t i = 0; i < count; ++i) {
-        float d = 1e30f;
-        for (const glm::vec4& p : planes) {
-            const float reach =
-                std::fabs(p.x) * half[0][i] + std::fabs(p.y) * half[1][i] + std::fabs(p.z) * half[2][i];
-            const float at = p.x * center[0][i] + p.y * center[1][i] + p.z * center[2][i] + p.w + reach;
-            d = at < d ? at : d;
+        const glm::vec3 size = glm::abs(glm::vec3(p));
+        for (uint32_t i = 0; i < count; ++i) {
+            const float middle = p.x * cx[i] + p.y * cy[i] + p.z * cz[i] + p.w;
+            const float reach = size.x * hx[i] + size.y * hy[i] + size.z * hz[i];
+            const float out = middle + reach, in = middle - reach;
+            farthest[i] = out < farthest[i] ? out : farthest[i];
+            if (kNearestToo) nearest[i] = in < nearest[i] ? in : nearest[i];
         }
-        least[i] = d;
     }
 }
 
@@ -63,6 +49,10 @@ void InstanceBounds::resize(size_t rows) {
         half_[size_t(k)].resize(blocks * kBlock, kNoBox);
     }
     blocks_.resize(blocks);
+    for (size_t k = 0; k < 3; ++k) {
+        blockCenter_[k].resize(blocks, 0);
+        blockHalf_[k].resize(blocks, kNoBox);
+    }
 }
 
 void InstanceBounds::clear(uint32_t row) {
@@ -88,12 +78,18 @@ Bounds InstanceBounds::of(uint32_t row) const {
 Bounds InstanceBounds::fold(std::span<const uint64_t> changedRows, JobRunner& runner) {
     runner.parallelFor(uint32_t(blocks_.size()), kBlocksPerPiece, [&](uint32_t first, uint32_t last) {
         for (uint32_t b = first; b < last; ++b) {
-            const auto words = wordsOf(b, changedRows);
-            if (std::ranges::all_of(words, [](uint64_t w) { return w == 0; })) continue;
+            if (changedRows[b] == 0) continue;
             Bounds box;
             for (uint32_t row = b * kBlock, end = std::min(row + kBlock, uint32_t(rows_)); row < end; ++row)
                 box.add(of(row));
             blocks_[b] = box;
+            const bool none = box.empty();
+            const glm::vec3 c = none ? glm::vec3(0) : 0.5f * (box.min + box.max);
+            // Rounding must leave every row's box in its block's.
+            const glm::vec3 h =
+                none ? glm::vec3(kNoBox) : 0.5f * (box.max - box.min) * 1.000001f + glm::abs(c) * 1e-6f;
+            for (int k = 0; k < 3; ++k)
+                blockCenter_[size_t(k)][b] = c[k], blockHalf_[size_t(k)][b] = h[k];
         }
     });
     Bounds all;
@@ -102,40 +98,58 @@ Bounds InstanceBounds::fold(std::span<const uint64_t> changedRows, JobRunner& ru
     return all;
 }
 
-// Sets bits of words that are zero.
-void InstanceBounds::cullBlock(uint32_t b, const Planes& planes, uint64_t* visible) const {
-    const uint32_t begin = b * kBlock, count = std::min(kBlock, uint32_t(rows_) - begin);
-    const Side side = sideOf(blocks_[b], planes);
-    if (side == Side::kOut) return;
+uint64_t InstanceBounds::rowsInSight(uint32_t block, const ViewPlanes& planes) const {
+    const uint32_t begin = block * kBlock, count = std::min(kBlock, uint32_t(rows_) - begin);
     float least[kBlock];
-    const float* const center[] = {&center_[0][begin], &center_[1][begin], &center_[2][begin]};
-    const float* const half[] = {&half_[0][begin], &half_[1][begin], &half_[2][begin]};
-    if (side == Side::kCut)
-        leastDistance(center, half, count, planes, least);
-    else
-        std::copy_n(half[0], count, least);  // all but empty ones
+    leastDistances<false>(center_, half_, begin, count, planes, least, nullptr);
+    uint64_t rows = 0;
     for (uint32_t i = 0; i < count; ++i)
-        visible[i / 64] |= uint64_t(least[i] >= 0) << (i % 64);
+        rows |= uint64_t(least[i] >= 0) << i;
+    return rows;
 }
 
-void InstanceBounds::cull(const Planes& planes, std::vector<uint64_t>& visibleRows, JobRunner& runner) const {
-    visibleRows.assign(blocks_.size() * kWordsPerBlock, 0);
+// All but empty ones.
+uint64_t InstanceBounds::soundRows(uint32_t block) const {
+    const uint32_t begin = block * kBlock, count = std::min(kBlock, uint32_t(rows_) - begin);
+    uint64_t rows = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        rows |= uint64_t(half_[0][begin + i] >= 0) << i;
+    return rows;
+}
+
+void InstanceBounds::cullPiece(uint32_t first, const ViewPlanes& planes, std::span<const uint64_t> wanted,
+                               std::vector<uint64_t>& visible) const {
+    const uint32_t count = std::min(kBlocksPerPiece, uint32_t(blocks_.size()) - first);
+    float farthest[kBlocksPerPiece], nearest[kBlocksPerPiece];
+    leastDistances<true>(blockCenter_, blockHalf_, first, count, planes, farthest, nearest);
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t b = first + i;
+        if (!wanted.empty() && wanted[b] == 0) continue;
+        visible[b] = farthest[i] < 0 ? 0 : nearest[i] >= 0 ? soundRows(b) : rowsInSight(b, planes);
+    }
+}
+
+void InstanceBounds::cull(const ViewPlanes& planes, std::vector<uint64_t>& visibleRows,
+                          JobRunner& runner) const {
+    visibleRows.resize(blocks_.size());
     runner.parallelFor(uint32_t(blocks_.size()), kBlocksPerPiece, [&](uint32_t first, uint32_t last) {
-        for (uint32_t b = first; b < last; ++b)
-            cullBlock(b, planes, &visibleRows[b * kWordsPerBlock]);
+        for (uint32_t b = first; b < last; b += kBlocksPerPiece)
+            cullPiece(b, planes, {}, visibleRows);
     });
 }
 
-bool InstanceBounds::cullChanged(const Planes& planes, std::span<const uint64_t> changedRows,
+bool InstanceBounds::cullChanged(const ViewPlanes& planes, std::span<const uint64_t> changedRows,
                                  std::vector<uint64_t>& visibleRows) const {
-    static_assert(kWordsPerBlock == 1);
     uint64_t seen = 0;
-    for (uint32_t b = 0; b < blocks_.size(); ++b) {
-        const uint64_t changed = changedRows[b], before = visibleRows[b];
-        if (changed == 0) continue;
-        visibleRows[b] = 0;
-        cullBlock(b, planes, &visibleRows[b]);
-        seen |= (before | visibleRows[b]) & changed;
+    std::array<uint64_t, kBlocksPerPiece> before{};
+    for (uint32_t first = 0; first < blocks_.size(); first += kBlocksPerPiece) {
+        const uint32_t count = std::min(kBlocksPerPiece, uint32_t(blocks_.size()) - first);
+        const auto changed = changedRows.subspan(first, count);
+        if (std::ranges::all_of(changed, [](uint64_t word) { return word == 0; })) continue;
+        std::copy_n(&visibleRows[first], count, before.begin());
+        cullPiece(first, planes, changedRows, visibleRows);
+        for (uint32_t i = 0; i < count; ++i)
+            seen |= (before[i] | visibleRows[first + i]) & changed[i];
     }
     return seen != 0;
 }

@@ -39,11 +39,16 @@ class InstanceBounds {
                      std::vector<uint64_t>& visibleRows) const;
 
   private:
-    void cullBlock(uint32_t block, const ViewPlanes& planes, uint64_t* visible) const;
+    using Columns = std::array<std::vector<float>, 3>;  // a coordinate each: several boxes are tested at once
+
+    // Blocks from `first` on, a piece of them: bits of rows whose blocks `wanted` names, the others' stay.
+    void cullPiece(uint32_t first, const ViewPlanes& planes, std::span<const uint64_t> wanted,
+                   std::vector<uint64_t>& visible) const;
+    uint64_t rowsInSight(uint32_t block, const ViewPlanes& planes) const;
+    uint64_t soundRows(uint32_t block) const;
 
     size_t rows_ = 0;
-    std::array<std::vector<float>, 3> center_,
-        half_;  // a column a coordinate: eight boxes are tested at once
+    Columns center_, half_, blockCenter_, blockHalf_;
     std::vector<Bounds> blocks_;
 };
 

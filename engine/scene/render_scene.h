@@ -173,11 +173,11 @@ inline const Bounds& boundsLocal(const RenderScene& scene, const RenderInstance&
 }
 
 // The vertex that the primitive's index 0 means: of the geometry, or of all skinned meshes' deformed ones.
-inline int32_t firstVertexOf(const RenderScene& scene, const RenderInstance& instance) {
-    const int32_t offset = scene.geometry->primitives[instance.primitive].vertexOffset;
-    if (instance.skinnedMesh == kNoSkinnedMesh) return offset;
-    const RenderSkinnedMesh& skinnedMesh = scene.skinnedMeshes[instance.skinnedMesh];
-    return offset - int32_t(skinnedMesh.firstVertex) + int32_t(skinnedMesh.firstDeformed);
+inline int32_t firstVertexOf(const RenderScene& scene, uint32_t primitive, uint32_t skinnedMesh) {
+    const int32_t offset = scene.geometry->primitives[primitive].vertexOffset;
+    if (skinnedMesh == kNoSkinnedMesh) return offset;
+    const RenderSkinnedMesh& deformed = scene.skinnedMeshes[skinnedMesh];
+    return offset - int32_t(deformed.firstVertex) + int32_t(deformed.firstDeformed);
 }
 
 }  // namespace ag

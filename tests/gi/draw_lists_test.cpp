@@ -207,7 +207,8 @@ TEST(DrawLists, InstancesOfAPrimitiveAreOneDraw) {
                 const uint32_t row = all.emplace_back(draws.rows[command.firstInstance + k]);
                 const Primitive& p = scene.geometry->primitives[scene.instances[row].primitive];
                 ASSERT_EQ(command.firstIndex, p.firstIndex);
-                ASSERT_EQ(command.vertexOffset, firstVertexOf(scene, scene.instances[row]));
+                ASSERT_EQ(command.vertexOffset, firstVertexOf(scene, scene.instances[row].primitive,
+                                                              scene.instances[row].skinnedMesh));
                 ASSERT_EQ(scene.instances[row].movable, c >= range.staticCount);
             }
         }
