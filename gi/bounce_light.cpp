@@ -65,8 +65,15 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
         addSkyOnPoints(scope, f.emitters, {in.sky, in.occluders, in.world.versions}, s.sky, h.skyOnPoints);
     const OtherLights otherLights = addOtherLights(scope, in.world.otherLights);
     const BufferHandle others = addLightsOnPoints(scope, f.emitters, otherLights, in.occluders);
-    const PointRays pointRays{
-        f.rsm, members, in.occluders, f.clusters.count, grid.still, h.laterBounces.step};
+    const SkyOnDevice skyOfRays = s.sky.enabled ? in.sky : SkyOnDevice{};
+    const PointRays pointRays{f.rsm,
+                              members,
+                              in.occluders,
+                              skyOfRays,
+                              s.texelRays.reach * in.occluders.extent,
+                              f.clusters.count,
+                              grid.still,
+                              h.laterBounces.step};
     addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces,
                        rays ? &pointRays : nullptr);
 

@@ -24,10 +24,17 @@ size_t nearestThere(std::span<const io::SurfaceSample> samples, size_t middle, s
     return middle;
 }
 
+// To a side, for the area of both.
+void turn(io::BouncePoint& p, bool back) {
+    p.area *= 2;
+    if (back) p.normalLocal = -p.normalLocal;
+}
+
 }  // namespace
 
 std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance> instances,
                                                 const SurfaceSamples& samples, AlbedoAt albedoAt,
+                                                FunctionRef<bool(uint32_t instance)> doubleSided,
                                                 uint32_t count) {
     std::vector<io::BouncePoint> points;
     const double share = double(samples.samples.size()) / count;
@@ -52,18 +59,9 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
                           .albedo = albedoAt(s.instance, samples.uvs[at]) * samples.tints[at],
                           .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}});
         if (deformed) points.back().edgesLocal[0].inward.x = s.curvatureLocal;
+        if (!deformed && doubleSided(s.instance)) turn(points.back(), i % 2 == 1);
     }
     return points;
-}
-
-void shineToBothSides(std::span<const SampledInstance> instances,
-                      FunctionRef<bool(uint32_t instance)> doubleSided, std::span<io::BouncePoint> points) {
-    for (size_t i = 0; i < points.size(); ++i) {
-        io::BouncePoint& p = points[i];
-        if (instances[p.instance].deformed || !doubleSided(p.instance)) continue;
-        p.area *= 2;
-        if (i % 2) p.normalLocal = -p.normalLocal;
-    }
 }
 
 float meanArea(std::span<const io::BouncePoint> points) {

@@ -9,16 +9,14 @@
 namespace ag::gi {
 
 // `count` of them at equal steps along the samples' curve, with the area and the mean albedo of what each
-// stands for: `albedoAt` of an instance about a place of its texture.
+// stands for: `albedoAt` of an instance about a place of its texture. Those of double-sided surfaces face one
+// side and the other in turn, for the area of both. Those that joints bend have their normals from the
+// device: they face the front.
 using AlbedoAt = FunctionRef<glm::vec3(uint32_t instance, glm::vec2 uv)>;
 std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance> instances,
                                                 const SurfaceSamples& samples, AlbedoAt albedoAt,
+                                                FunctionRef<bool(uint32_t instance)> doubleSided,
                                                 uint32_t count);
-
-// Points that shine, of surfaces that do so to both sides: one to each in turn, for the area of both. Those
-// that joints bend have their normals from the device: they shine to the front.
-void shineToBothSides(std::span<const SampledInstance> instances,
-                      FunctionRef<bool(uint32_t instance)> doubleSided, std::span<io::BouncePoint> points);
 
 // m² that a point stands for in the mean; 0: there are none.
 float meanArea(std::span<const io::BouncePoint> points);

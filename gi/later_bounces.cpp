@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "gi/blue_noise.h"
 #include "gi/occluder_trees.h"
+#include "gi/texel_rays.h"
 #include "gi/upsampling.h"
 #include "gi/val_shading.h"
 #include "gi/val_tiles.h"
@@ -21,6 +23,7 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
     const uint32_t count = emitters.reflecting.count();
     const HistoryBuffer means =
         scope.historyBuffer("later_bounces.point_means", {.sizeBytes = count * sizeof(io::PointMeans)});
+    const BufferHandle noSky = addBlueNoise(scope);  // in its place, compiled out
     PassBuilder trace = scope.compute("later_bounces.trace", "later_bounces/trace.comp");
     trace.read("points", emitters.texels)
         .readWrite("irradiance", emitters.irradiance.current)
@@ -35,7 +38,11 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
                             .mostLength = in.still ? kStillLength : kMovingLength,
                             .offset = io::kRayOffset * in.occluders.extent,
                             .texelOffset = in.occluders.trees.snapping,
-                            .atlasWidth = in.rsm.atlas.size.x})
+                            .atlasWidth = in.rsm.atlas.size.x,
+                            .nearReach = reachOfPoints(in.occluders.bouncePointArea, in.reach)})
+        .read("skyTexels", in.sky ? in.sky.texels : in.rsm.texels)
+        .read("skyUpTo", in.sky ? in.sky.upTo : noSky)
+        .constant("kSky", bool(in.sky))
         .step(in.step)
         .dispatchThreads(count);
     readRsmTexels(trace, in.rsm);

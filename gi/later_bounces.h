@@ -55,6 +55,8 @@ struct PointRays {
     const RsmSet& rsm;
     const ClusterMembers& members;
     const Occluders& occluders;
+    const SkyOnDevice& sky;  // empty: rays do not ask for it
+    float reach;             // m, at most, of rays to whatever is near
     uint32_t clusterCount;
     bool still;  // nothing has changed since the frame before
     uint32_t step;

@@ -19,7 +19,6 @@ namespace ag::gi {
 namespace {
 
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT, kHalf4 = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr float kNearPoints = 3;  // of their spacing
 constexpr RayFilterNames kFilter = {
     "texel_rays.even",
     "texel_rays.odd",
@@ -68,11 +67,6 @@ uint32_t emissiveMapOf(const Vals& vals, const RsmSet& rsm) {
 
 uint32_t laterMapOf(const Vals& vals, const TexelRaysInputs& in) {
     return vals.count > in.rsm.firstLater && in.endless ? in.rsm.atlas.mapCount - 1 : ~0u;
-}
-
-// Points that are nearer are no even surface.
-float reachOfPoints(float area, float most) {
-    return std::min(kNearPoints * std::sqrt(area), most);
 }
 
 // `reach`: in the scene's extent.
@@ -281,6 +275,11 @@ float dimmingOf(const RsmSet& rsm, TexelRaysHistory& history) {
 }
 
 }  // namespace
+
+float reachOfPoints(float area, float most) {
+    constexpr float kNearPoints = 3;  // of their spacing
+    return std::min(kNearPoints * std::sqrt(area), most);
+}
 
 bool castsTexelRays(const TexelRaysSettings& s, const Occluders& occluders) {
     return s.enabled && occluders.trees && occluders.trees.moverNodes;

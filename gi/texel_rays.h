@@ -72,6 +72,9 @@ struct TexelRaysInputs {
     bool endless = true;  // light goes on after its second bounce
 };
 
+// How near surfaces are for which points of so much area stand badly: they are no even surface. `most`, m.
+float reachOfPoints(float area, float most);
+
 // Whether any are cast: `settings` ask for them, and there is something to trace them through.
 bool castsTexelRays(const TexelRaysSettings& settings, const Occluders& occluders);
 

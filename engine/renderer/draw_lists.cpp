@@ -258,14 +258,13 @@ void DrawLists::noteCulled(View& view, const glm::mat4& clipFromWorld) const {
     view.generation = generation_;
 }
 
-std::vector<uint64_t> DrawLists::ranksInSight(const View& view) const {
-    std::vector<uint64_t> ranks((drawn_.size() + 63) / 64);
-    for (uint32_t word = 0; word < view.inSight.size(); ++word)
-        for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
+void DrawLists::markRanks(const std::vector<uint64_t>& places, std::vector<uint64_t>& ranks) const {
+    ranks.assign((drawn_.size() + 63) / 64, 0);
+    for (uint32_t word = 0; word < places.size(); ++word)
+        for (uint64_t bits = places[word]; bits; bits &= bits - 1) {
             const uint32_t rank = drawn_.placeOf(nearby_[word * 64 + uint32_t(std::countr_zero(bits))]);
             ranks[rank / 64] |= uint64_t(1) << (rank % 64);
         }
-    return ranks;
 }
 
 // Those of the ranks.
@@ -275,9 +274,9 @@ void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks r
     draws.rows.clear();
     draws.buckets.assign(buckets_.size(), {});
     OrderedHash ofStatic, ofMovable;
-    const std::vector<uint64_t> inSight = ranksInSight(seenBy);
+    markRanks(seenBy.inSight, view.ranksInSight);
     for (uint32_t word = ranks.begin / 64; word * 64 < ranks.end; ++word) {
-        uint64_t bits = inSight[word] & bitsBetween(ranks.begin, ranks.end, word);
+        uint64_t bits = view.ranksInSight[word] & bitsBetween(ranks.begin, ranks.end, word);
         while (bits) {
             const uint32_t first = word * 64 + uint32_t(std::countr_zero(bits));
             const uint64_t ofRun = bits & bitsBetween(first, runEnd_[first], word);

@@ -104,7 +104,8 @@ class DrawLists {
         uint64_t instancesVersion = 0;
         uint64_t generation = 0, ranking = 0;
         bool dirty = true;
-        std::vector<uint64_t> inSight;  // a bit a place of nearby_
+        std::vector<uint64_t> inSight;       // a bit a place of nearby_
+        std::vector<uint64_t> ranksInSight;  // the same by rank, while the lists are made
     };
     // What an instance's place among the ranks follows from.
     struct Kind {
@@ -127,7 +128,7 @@ class DrawLists {
         uint32_t begin = 0, end = 0;
     };
     void findRuns();
-    std::vector<uint64_t> ranksInSight(const View& view) const;
+    void markRanks(const std::vector<uint64_t>& places, std::vector<uint64_t>& ranks) const;
     void addInSight(const RenderScene& scene, const View& seenBy, Ranks ranks, View& view) const;
     bool isCulled(const View& view, const glm::mat4& clipFromWorld) const;
     void noteCulled(View& view, const glm::mat4& clipFromWorld) const;

@@ -251,7 +251,8 @@ std::vector<io::BouncePoint> chooseBouncePoints(const RenderScene& scene, const 
                                                 uint32_t count, bool whole) {
     const DeformedVertices deformed = deformSkinnedMeshes(scene);
     const auto albedo = [&](uint32_t instance, glm::vec2 uv) { return albedoOf(scene, instance, uv, whole); };
-    return chooseBouncePoints(instancesOf(scene, deformed), samples, albedo, count);
+    const auto doubleSided = [&](uint32_t instance) { return materialOf(scene, instance).doubleSided; };
+    return chooseBouncePoints(instancesOf(scene, deformed), samples, albedo, doubleSided, count);
 }
 
 std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint32_t count, float lightUnit) {
@@ -262,10 +263,8 @@ std::vector<io::BouncePoint> chooseEmissivePoints(const RenderScene& scene, uint
     return withSampledScene(scene, emissiveMeshesOf(*scene.geometry), [&](const gi::SampledScene& s) {
         const gi::SurfaceSamples samples = gi::sampleSurfaces(s, 4 * count);
         if (samples.samples.empty()) return std::vector<io::BouncePoint>{};
-        auto points = chooseBouncePoints(s.instances, samples, radiance, count);
         const auto doubleSided = [&](uint32_t instance) { return materialOf(scene, instance).doubleSided; };
-        gi::shineToBothSides(s.instances, doubleSided, points);
-        return points;
+        return chooseBouncePoints(s.instances, samples, radiance, doubleSided, count);
     });
 }
 

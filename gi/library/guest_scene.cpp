@@ -171,12 +171,15 @@ const GuestPoints& GuestScene::points() {
     const auto albedoAt = [&](uint32_t instance, glm::vec2) {
         return albedoOf(materialOf(instances_[instance].mesh));
     };
+    const auto doubleSided = [&](uint32_t instance) {
+        return materialOf(instances_[instance].mesh).doubleSided;
+    };
     GuestPoints fresh{.set = setVersion_};
     withSurfaces(middle(), [&](std::span<gi::SampledMesh> meshes, const gi::SampledScene& scene) {
         fresh.samples = gi::sampleSurfaces(scene, kSurfaceSamples);
         if (!fresh.samples.samples.empty())
             fresh.reflecting =
-                gi::chooseBouncePoints(scene.instances, fresh.samples, albedoAt, kBouncePoints);
+                gi::chooseBouncePoints(scene.instances, fresh.samples, albedoAt, doubleSided, kBouncePoints);
         if (mostEmissive() > 0) fresh.emissive = chooseEmissivePoints(meshes, scene);
     });
     points_ = std::move(fresh);
@@ -207,12 +210,10 @@ std::vector<io::BouncePoint> GuestScene::chooseEmissivePoints(std::span<gi::Samp
     const auto radianceAt = [&](uint32_t instance, glm::vec2) {
         return materialOf(scene.instances[instance].mesh).emissive;
     };
-    auto points = gi::chooseBouncePoints(scene.instances, samples, radianceAt, kEmissivePoints);
     const auto doubleSided = [&](uint32_t instance) {
         return materialOf(scene.instances[instance].mesh).doubleSided;
     };
-    gi::shineToBothSides(scene.instances, doubleSided, points);
-    return points;
+    return gi::chooseBouncePoints(scene.instances, samples, radianceAt, doubleSided, kEmissivePoints);
 }
 
 const GuestTrees& GuestScene::trees() {

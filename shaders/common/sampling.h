@@ -59,5 +59,13 @@ AG_FUNCTION void orthonormalBasis(vec3 n, AG_OUT(vec3) t, AG_OUT(vec3) b) {
     b = vec3(c, s + n.y * n.y * a, -n.y);
 }
 
+// As likely as its cosine to the unit normal.
+AG_FUNCTION vec3 cosineDirection(vec3 n, vec2 xi) {
+    vec3 t, b;
+    orthonormalBasis(n, t, b);
+    float radius = sqrt(xi.x), angle = 2.0f * kPi * xi.y;
+    return t * (radius * cos(angle)) + b * (radius * sin(angle)) + n * sqrt(max(1.0f - xi.x, 0.0f));
+}
+
 AG_END
 #endif

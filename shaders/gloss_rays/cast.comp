@@ -62,7 +62,7 @@ uvec3 kinds;
 
 Incident fromMembers(uint first, uint end, vec3 start, Met met, inout uint random) {
     if (first == end) return kNoIncident;
-    Aim aim = aimAtMember(met.place, met.normal, first, end, kDraws, random);
+    Aim aim = aimAtMember(met.place, met.normal, first, end, kDraws, 0.0, random);
     return Incident(aim.place - start, 1.0, aim.sends);
 }
 

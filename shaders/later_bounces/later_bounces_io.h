@@ -62,6 +62,7 @@ struct TracePush {
     float offset;       // m: rays leave and reach surfaces so far before them at least
     float texelOffset;  // the same in texels
     uint atlasWidth;    // texels, of reflective shadow maps
+    float nearReach;    // m, of rays into the hemisphere
 };
 
 const uint kRunPoints = 64;  // one after another, which share lists of near and far lights

@@ -1,11 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Irradiance at the points from area lights, corrected by rays to texels of those lights: what rays found over what the lights
-// sent, both as means over frames. As a ratio it holds at once when the light grows with every further bounce.
+// Irradiance at the points from area lights, corrected by rays: what those found over what the lights sent, both as means over
+// frames. As a ratio it holds at once when the light grows with every further bounce. Rays go to texels and to other points. Near
+// surfaces, for which points stand badly, are met by a ray into the hemisphere; what reaches them is drawn again.
+#include "common/sampling.h"
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
 #include "rsm/rsm_io.h"
+#include "sky/sky_io.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push { TracePush p; } push;
@@ -25,35 +28,64 @@ layout(set = 0, binding = 11, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; 
 layout(set = 0, binding = 12, scalar) readonly buffer TileMaps { uint items[]; } tileMaps;
 layout(set = 0, binding = 13) uniform sampler2D rsmNormals;
 layout(set = 0, binding = 14) uniform sampler2D rsmAlbedos;
+layout(set = 0, binding = 15) VEC4_TEXELS(skyTexels);
+layout(set = 0, binding = 16, scalar) uniform SkyUpTo { vec4 items[kSkyCells / 4]; } skyUpTo;
 layout(constant_id = 0) const bool kTexelLobes = false;
+layout(constant_id = 1) const bool kSky = false;
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
+#include "bvh/met.glsl"
 #include "cluster_members/aim.glsl"
+#define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
+#include "texel_rays/incident.glsl"
 
 const uint kDraws = 16;        // texels that one is resampled from
 const float kTrust = 2.0;      // frames: rays of fewer say little
 const float kMostTimes = 4.0;  // so far area lights may be below rays; what is beyond is added
 
-// By rays to the first bounce's texels and those of emissive surfaces, and to points.
+const uint kFirst = 0, kLater = 1;  // members: texels of first bounces and of emissive surfaces; points
+uvec3 firstOf;
+
+// By a ray to one of a kind. Those nearer than `nearReach` count for what the hemisphere's ray leaves.
+vec3 fromMembers(vec3 x, vec3 n, uint kind, float nearReach, inout uint random) {
+    if (firstOf[kind] == firstOf[kind + 1]) return vec3(0.0);
+    vec3 start = x + n * push.p.offset;
+    Aim aim = aimAtMember(x, n, firstOf[kind], firstOf[kind + 1], kDraws, nearReach, random);
+    return arrivingAt(start, Incident(aim.place - start, 1.0, aim.sends), unitOf(hashUint(random)));
+}
+
+float next(inout uint random) {
+    random = hashUint(random);
+    return unitOf(random);
+}
+
+// What a near surface sends on of what reaches it.
+vec3 fromNear(vec3 x, vec3 n, inout uint random) {
+    if (firstOf[kLater] == firstOf[kLater + 1]) return vec3(0.0);
+    float opaqueFrom = next(random);
+    vec3 direction = cosineDirection(n, vec2(next(random), next(random)));
+    BvhRay ray = BvhRay(x + n * push.p.offset, direction, push.p.nearReach, opaqueFrom, false, 0, 0);
+    if (!traceOccluders(ray)) return vec3(0.0);
+    Met met = surfaceMet(ray);
+    vec3 sends = min(met.reflectance, vec3(kMostAlbedo)) * nearShare(ray.reach, push.p.nearReach);
+    if (!met.front || sends == vec3(0.0)) return vec3(0.0);
+    vec3 e = fromMembers(met.place, met.normal, kFirst, 0.0, random) + fromMembers(met.place, met.normal, kLater, 0.0, random);
+    if (kSky) e += arrivingAt(met.place + met.normal * push.p.offset, drawSkyAt(met.normal, 1e20, random), opaqueFrom);
+    return sends * e;
+}
+
 vec3 irradianceByRays(vec3 x, vec3 n, uint seed) {
-    uvec3 firstOf = kindsOfMembers(push.p.firstLater, push.p.valCount);
-    vec3 start = x + n * push.p.offset, e = vec3(0.0);
+    vec3 e = vec3(0.0);
     uint random = hashUint(seed);
-    for (uint r = 0; r < 2 * push.p.rays; ++r) {
-        uint kind = r & 1;
-        if (firstOf[kind] == firstOf[kind + 1]) continue;
-        Aim aim = aimAtMember(x, n, firstOf[kind], firstOf[kind + 1], kDraws, random);
-        if (aim.sends.x + aim.sends.y + aim.sends.z <= 0.0) continue;
-        random = hashUint(random);
-        BvhRay ray = BvhRay(start, aim.place - start, 1.0, unitOf(random), true, 0, 0);
-        if (!traceOccluders(ray)) e += aim.sends;
-    }
+    for (uint r = 0; r < push.p.rays; ++r)
+        e += fromMembers(x, n, kFirst, 0.0, random) + fromMembers(x, n, kLater, push.p.nearReach, random) + fromNear(x, n, random);
     return e / float(push.p.rays);
 }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.p.count) return;
+    firstOf = kindsOfMembers(push.p.firstLater, push.p.valCount);
     RsmSurface at = AG_RSM_FETCH(points, i);
     vec3 byLights = irradiance.items[i].rgb, byRays = irradianceByRays(at.position, at.normal, i + push.p.step * push.p.count);
     bool known = push.p.valid == 1;

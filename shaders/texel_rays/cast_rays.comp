@@ -109,13 +109,6 @@ TexelAim aimAt(Receiver r, Drawn d, inout uint random) {
     return aim;
 }
 
-vec3 cosineDirection(vec3 n, vec2 xi) {
-    vec3 t, b;
-    orthonormalBasis(n, t, b);
-    float radius = sqrt(xi.x), angle = 2.0 * kPi * xi.y;
-    return t * (radius * cos(angle)) + b * (radius * sin(angle)) + n * sqrt(max(1.0 - xi.x, 0.0));
-}
-
 // A ray, and the maps whose light it asks for where it ends.
 struct Way {
     BvhRay ray;

@@ -1,31 +1,13 @@
-// What a ray meets, and what a map's light makes it send. Before: the buffers of rsm_lookup.glsl, treeTriangles,
-// slotOfTexel, the trees and bvh/trace.glsl; what texel_lobe.glsl needs.
+// What a map's light makes send what a ray met. Before: the buffers of rsm_lookup.glsl, slotOfTexel; what bvh/met.glsl and
+// texel_lobe.glsl need.
 #ifndef AG_MET_SURFACE_GLSL
 #define AG_MET_SURFACE_GLSL
 
+#include "bvh/met.glsl"
 #include "rsm/texel_lobe.glsl"
 #include "texel_rays/rsm_lookup.glsl"
 
 const float kAlike = 0.8;  // least cosine between normals of a texel and a triangle that receive the same irradiance
-
-struct Met {
-    vec3 place, normal;  // on the ray's side, unit
-    bool front;          // it reflects light to where the ray came from
-    vec3 reflectance;    // 0 of a triangle that shines
-    bool masked;
-    vec3 shines;         // W/m²
-};
-
-Met surfaceMet(BvhRay ray) {
-    vec3 normal = normalize(triangleNormal(ray.triangle, ray.place));
-    float front = treeTriangles.items[ray.triangle * 3 + 2].w, sends = treeTriangles.items[ray.triangle * 3 + 1].w;
-    bool shines = front >= kEmissiveFront - 1.0;
-    front -= shines ? kEmissiveFront : 0.0;
-    bool behind = dot(normal, ray.direction) > 0.0;
-    bool whole = treeTriangles.items[ray.triangle * 3].w >= 1.0;
-    return Met(ray.origin + ray.direction * ray.reach, behind ? -normal : normal, front == 0.0 || (front < 0.0) == behind,
-               shines ? vec3(0.0) : unpackReflectance(sends), !whole, shines ? unpackRadiance(sends) * kPi : vec3(0.0));
-}
 
 // Whether a map's light reaches a place: a texel says it only about its middle.
 bool isLit(RsmMap map, Met met, float offset, float opaqueFrom) {

@@ -32,9 +32,6 @@ float shareOfDraw(Receiver r, vec3 direction, float throughSquare, float chance)
     return draw > 0.0 ? draw / (draw + max(dot(r.normal, direction), 0.0) * kInvPi) : 0.0;
 }
 
-// Of surfaces so far away: the hemisphere's ray has those that are near, draws to points on them the others.
-float nearShare(float distance_, float reach) { return clamp(2.0 - 2.0 * distance_ / max(reach, 1e-20), 0.0, 1.0); }
-
 // What a texel sends to the receiver over its flux, if nothing stands between, 1/m².
 float factorOf(Receiver r, RsmSurface s) { return factorOf(r.position, r.normal, s); }
 

@@ -4,6 +4,7 @@
 
 #include "common/brdf.h"
 #include "tests/gi_gpu/bench.h"
+#include "tools/reference/reference.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
@@ -138,6 +139,39 @@ TEST(LaterBounces, AreOfTheSurfacesOwnColourAndArea) {
         EXPECT_NEAR(glm::dot(p.position, p.normal), -1, 1e-5) << "facing inwards";
     }
     EXPECT_NEAR(area, 24, 0.01);
+}
+
+TEST(LaterBounces, DoubleSidedSurfacesReflectToBothSides) {
+    SceneAsset asset = *scenegen::buildScene("furnace", 50);
+    for (Material& m : asset.geometry.materials)
+        m.doubleSided = true;
+    Bench b(asset, {16, 16});
+    b.settings.bounce.laterBounces.enabled = true;
+    b.frame();
+    double inward = 0, outward = 0;
+    for (const io::RsmTexel& p : b.read<io::RsmTexel>(b.last.bounce.emitters.texels))
+        (glm::dot(p.position, p.normal) < 0 ? inward : outward) += double(p.area);
+    EXPECT_NEAR(inward, 24, 0.2);
+    EXPECT_NEAR(outward, 24, 0.2);
+}
+
+// With sheets that hang in the light, and things whose sides are narrower than what a point stands for.
+TEST(LaterBounces, OfRoomsDrawnByChanceHaveThePathTracersLight) {
+    for (const uint32_t which : {1u, 2u}) {
+        Bench b(*scenegen::buildScene("room", which), {48, 27});
+        b.settings.bounce.laterBounces.enabled = true;
+        b.output = [](GraphScope scope, const RenderFrame& f) { scope.output(f.bounce.irradiance.image); };
+        for (int i = 0; i < 160; ++i)
+            b.frame();
+        const double ours = meanOf(readImage(b.renderer, b.last.bounce.irradiance.image));
+        JobRunner runner(2);
+        const auto truth = reference::makeReference(
+            reference::RayScene(b.scene), b.size,
+            {.paths = {.bounces = 12}, .samplesPerPixel = 192, .layer = "indirect"}, runner, [](double) {});
+        const double ratio = ours / meanOf(truth.indirect);
+        std::printf("room %u: all bounces over path tracing's %.4f\n", which, ratio);
+        EXPECT_NEAR(ratio, 1, 0.04);
+    }
 }
 
 TEST(LaterBounces, CostNothingWhenOffAndRestWhenNothingChanges) {

@@ -138,8 +138,8 @@ TEST(RaysAtRest, LaterBouncesLoseLittleLight) {
     b.settings.bounce.texelRays.reach = 0;  // nothing is met near pixels
     const double far = ratio(4);
     std::printf("%.3f where rays of pixels meet nothing near\n", far);
-    EXPECT_NEAR(with, 1, 0.05);
-    EXPECT_GT(with, without + 0.01);
+    EXPECT_NEAR(with, 1, 0.03);
+    EXPECT_NEAR(without, 1, 0.03);  // 0.925 when points of double-sided surfaces faced the front alone
     EXPECT_GT(with, far + 0.01);
 }
 

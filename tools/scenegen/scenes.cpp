@@ -16,6 +16,7 @@
 #include "tools/scenegen/figures.h"
 #include "tools/scenegen/gallery.h"
 #include "tools/scenegen/openings.h"
+#include "tools/scenegen/room.h"
 #include "tools/scenegen/shining.h"
 #include "tools/scenegen/town.h"
 
@@ -264,7 +265,7 @@ struct Entry {
 
 // Percent below a hundred, so that light in a closed box comes to an end; things within what an import
 // allows.
-constexpr std::array<Entry, 20> kScenes = {{{"cornell", cornell},
+constexpr std::array<Entry, 21> kScenes = {{{"cornell", cornell},
                                             {"corner", corner},
                                             {"occluder", occluder},
                                             {"corridor", corridor},
@@ -283,6 +284,7 @@ constexpr std::array<Entry, 20> kScenes = {{{"cornell", cornell},
                                             {"courtyard", courtyard},
                                             {"showroom", showroom},
                                             {"panes", panes},
+                                            {"room", room, 1'000'000},
                                             {"town", town, 100'000}}};
 constexpr auto kNames = [] {
     std::array<std::string_view, kScenes.size()> names;
