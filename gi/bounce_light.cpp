@@ -51,12 +51,12 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
                             s.laterBounces.spacing, s.valShading);
     const bool rays = castsTexelRays(s.texelRays, in.occluders) && f.vals.count > 0;
     const ClusterMembers members = rays ? addClusterMembers(scope, f.rsm, f.clusters) : ClusterMembers{};
+    const SkyOnDevice skyOfRays = s.sky.enabled ? in.sky : SkyOnDevice{};
     if (rays)
-        f.irradiance =
-            addTexelRays(tiles, f.irradiance,
-                         {f.rsm, f.clusters, members, in.occluders, s.sky.enabled ? in.sky : SkyOnDevice{},
-                          in.world.versions, grid, refresh.pixels.count == 1, s.laterBounces.feedback},
-                         s.valShading, s.texelRays, h.texelRays);
+        f.irradiance = addTexelRays(tiles, f.irradiance,
+                                    {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world.versions,
+                                     grid, refresh.pixels.count == 1, s.laterBounces.feedback},
+                                    s.valShading, s.texelRays, h.texelRays);
     if (isFirstBounce(f, asked)) f.bounce1 = f.irradiance;
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);
 
@@ -65,7 +65,6 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
         addSkyOnPoints(scope, f.emitters, {in.sky, in.occluders, in.world.versions}, s.sky, h.skyOnPoints);
     const OtherLights otherLights = addOtherLights(scope, in.world.otherLights);
     const BufferHandle others = addLightsOnPoints(scope, f.emitters, otherLights, in.occluders);
-    const SkyOnDevice skyOfRays = s.sky.enabled ? in.sky : SkyOnDevice{};
     const PointRays pointRays{f.rsm,
                               members,
                               in.occluders,
@@ -80,11 +79,11 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, gathered, s, h, f, grid);
     if (rays && s.term == Term::kAll)
-        f.gloss = addGlossRays(
-            scope, in.surfaces, gathered,
-            {f.rsm, f.clusters, members, in.occluders, s.sky.enabled ? in.sky : SkyOnDevice{}, in.world, grid,
-             otherLights, s.laterBounces.feedback, f.firstCount, f.irradiance.image, f.gloss},
-            s.glossRays, h.glossRays);
+        f.gloss =
+            addGlossRays(scope, in.surfaces, gathered,
+                         {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world, grid, otherLights,
+                          s.laterBounces.feedback, f.firstCount, f.irradiance.image, f.gloss},
+                         s.glossRays, h.glossRays);
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
     return f;
 }
