@@ -24,13 +24,12 @@ size_t nearestThere(std::span<const io::SurfaceSample> samples, size_t middle, s
     return middle;
 }
 
-// To a side, for the area of both.
-void turn(io::BouncePoint& p, bool back) {
-    p.area *= 2;
-    if (back) p.normalLocal = -p.normalLocal;
-}
-
 }  // namespace
+
+void faceSide(io::BouncePoint& point, bool back) {
+    point.area *= 2;
+    if (back) point.normalLocal = -point.normalLocal;
+}
 
 std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance> instances,
                                                 const SurfaceSamples& samples, AlbedoAt albedoAt,
@@ -59,7 +58,7 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
                           .albedo = albedoAt(s.instance, samples.uvs[at]) * samples.tints[at],
                           .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}});
         if (deformed) points.back().edgesLocal[0].inward.x = s.curvatureLocal;
-        if (!deformed && doubleSided(s.instance)) turn(points.back(), i % 2 == 1);
+        if (!deformed && doubleSided(s.instance)) faceSide(points.back(), i % 2 == 1);
     }
     return points;
 }

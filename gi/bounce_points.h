@@ -18,6 +18,9 @@ std::vector<io::BouncePoint> chooseBouncePoints(std::span<const SampledInstance>
                                                 FunctionRef<bool(uint32_t instance)> doubleSided,
                                                 uint32_t count);
 
+// Of a double-sided surface's point: to one of its sides, for the area of both.
+void faceSide(io::BouncePoint& point, bool back);
+
 // m² that a point stands for in the mean; 0: there are none.
 float meanArea(std::span<const io::BouncePoint> points);
 // Of points that shine, W, mean of the channels.

@@ -23,7 +23,7 @@ struct LaterBouncesSettings {
     float share = 0.4f;          // of all clusters
     uint32_t spacing = 2;        // of the pixels bounced light is gathered at, to those later bounces are
     uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
-    uint32_t rays = 4;  // a frame of each point at rest to texels of either kind: of lights, of points
+    uint32_t rays = 4;  // a frame of each point at rest: so many to lights, to points and to what is near
 
     static constexpr auto fields() {
         return std::tuple{
@@ -36,9 +36,10 @@ struct LaterBouncesSettings {
                          "of those bounced light is gathered at, to those later bounces are"},
             SettingField{"settle_frames", &LaterBouncesSettings::settleFrames, 1, 1000000, "frames",
                          "light goes on bouncing after anything last changed"},
-            SettingField{"rays", &LaterBouncesSettings::rays, 0, 64, "rays",
-                         "a frame of each point to what lights it, twice so many in all, where texel_rays "
-                         "are; 0: area lights alone; one each while something moves"}};
+            SettingField{
+                "rays", &LaterBouncesSettings::rays, 0, 64, "rays",
+                "a frame of each point to lights, to other points and to what is near, so many of "
+                "each, where texel_rays are; 0: area lights alone; one of each while something moves"}};
     }
 
     bool operator==(const LaterBouncesSettings&) const = default;

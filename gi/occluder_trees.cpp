@@ -203,7 +203,7 @@ void placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> ins
     result.nodes.clear();
     result.places.assign(io::kBvhFirstMover, {});
     result.places[io::kBvhStatic] = placeOf(trees.everythingStatic, glm::mat4x3(1));
-    auto& [movers, boxes, places, bvh] = result.scratch;
+    auto& [boxes, places, bvh] = result.scratch;
     boxes.clear();
     places.clear();
     for (const SampledInstance& instance : instances) {

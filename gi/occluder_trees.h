@@ -74,7 +74,6 @@ struct MoverTree {
     std::vector<glm::uvec4> nodes;  // items: movable instances, in the order of places from kBvhFirstMover on
     std::vector<io::BvhPlace> places;  // of all trees
     struct Scratch {
-        std::vector<SampledInstance> movers;
         std::vector<Bounds> boxes;
         std::vector<io::BvhPlace> places;  // of the boxes
         Bvh bvh;

@@ -75,11 +75,8 @@ void ViewDraws::drawLast(uint32_t bucket, const VkDrawIndexedIndirectCommand& sh
 }
 
 void DrawLists::startAnew(const RenderScene& scene) {
-    constexpr float kCellsAcross = 256;
     geometryVersion_ = scene.geometry->version;
-    const glm::vec3 size = scene.bounds.empty() ? glm::vec3(1) : scene.bounds.max - scene.bounds.min;
-    cell_ = std::max({size.x, size.y, size.z}) / kCellsAcross;
-    if (!(cell_ > 0 && cell_ < 1e30f)) cell_ = 1;
+    chooseGrid(scene.bounds);
     buckets_.clear();
     kinds_.clear();
     cells_.clear();
@@ -110,50 +107,97 @@ DrawLists::Kind DrawLists::kindOf(const RenderScene& scene, const RenderInstance
             instance.movable};
 }
 
-// Where an instance is on a curve through cells of space.
+// Cells are about 1/256 of what there is; beyond 1,024 of them along an axis all are one.
+bool DrawLists::fitsGrid(const Bounds& bounds) const {
+    if (bounds.empty()) return true;
+    const glm::vec3 reach = glm::max(bounds.max - gridMiddle_, gridMiddle_ - bounds.min);
+    const float farthest = std::max({reach.x, reach.y, reach.z});
+    return farthest <= 512 * cell_ && farthest >= 16 * cell_;
+}
+
+void DrawLists::chooseGrid(const Bounds& bounds) {
+    const glm::vec3 size = bounds.empty() ? glm::vec3(0) : bounds.max - bounds.min;
+    const float longest = std::max({size.x, size.y, size.z});
+    const bool some = longest > 0 && longest < 1e30f;
+    gridMiddle_ = some ? 0.5f * (bounds.min + bounds.max) : glm::vec3(0);
+    cell_ = some ? longest / 256 : 0;
+}
+
+// Along a curve through the cells.
 uint32_t DrawLists::cellOf(const RenderScene& scene, const RenderInstance& instance) const {
     const Bounds local = boundsLocal(scene, instance);
     const glm::vec3 middle = instance.worldFromLocal * glm::vec4(0.5f * (local.min + local.max), 1);
-    if (!std::isfinite(glm::dot(middle, middle))) return 0;
-    return gi::mortonCode(glm::clamp(middle / cell_, -511.0f, 511.0f) + 512.0f,
+    if (cell_ == 0 || !std::isfinite(glm::dot(middle, middle))) return 0;
+    return gi::mortonCode(glm::clamp((middle - gridMiddle_) / cell_, -511.0f, 511.0f) + 512.0f,
                           {glm::vec3(0), glm::vec3(1023)});
+}
+
+// Of orders: all of them leave, and those that are there arrive.
+void DrawLists::takeOut(std::span<const uint32_t> rows) {
+    leaves_.assign(kinds_.size(), false);
+    arrived_.clear();
+    for (const uint32_t row : rows) {
+        leaves_[row] = true;
+        if (kinds_[row].bucket != kNoBucket) arrived_.push_back(row);
+    }
 }
 
 // `rows`, ascending: those of another kind than they were, or that came or went.
 void DrawLists::rankAnew(std::span<const uint32_t> rows) {
-    std::vector<uint32_t> arrived;
-    std::vector<bool> leaves(kinds_.size(), false);
-    for (const uint32_t row : rows) {
-        leaves[row] = true;
-        if (kinds_[row].bucket != kNoBucket) arrived.push_back(row);
-    }
+    takeOut(rows);
     const auto blended = [&](uint32_t i) { return buckets_[kinds_[i].bucket].blended; };
-    drawn_.change(leaves, arrived, [&](uint32_t i) {
+    drawn_.change(leaves_, arrived_, [&](uint32_t i) {
         const Kind& k = kinds_[i];
-        return std::tuple(blended(i), k.bucket, k.movable, k.primitive, cells_[i], i);
+        return std::tuple(blended(i), k.bucket, k.movable, k.primitive, i);
     });
-    // What moves is by itself, so that blocks of what is static do not change.
-    nearby_.change(leaves, arrived, [&](uint32_t i) { return std::tuple(kinds_[i].movable, cells_[i], i); });
     firstBlended_ = drawn_.size();
     while (firstBlended_ > 0 && blended(drawn_[firstBlended_ - 1]))
         --firstBlended_;
-    moveAlong();
+    hashesBefore_.assign(drawn_.size(), 0);
+    std::swap(hashes_, hashesBefore_);
+    for (uint32_t rank = 0; rank < drawn_.size(); ++rank)
+        if (drawn_.before()[rank] != KeptOrder::kNowhere)
+            hashes_[rank] = hashesBefore_[drawn_.before()[rank]];
+    findRuns();
+    placeNearby();
+    // So that what moves allocates nothing later on.
+    boundsBefore_.resize(nearby_.size());
+    arrived_.reserve(kinds_.size());
+    astray_.reserve(kinds_.size());
 }
 
-// What is kept by rank and place.
-void DrawLists::moveAlong() {
-    InstanceBounds bounds;
-    bounds.resize(nearby_.size());
+// Takes what was taken out to where it is now. What moves is by itself, so that blocks of what is static do
+// not change.
+void DrawLists::placeNearby() {
+    nearby_.change(leaves_, arrived_,
+                   [&](uint32_t i) { return std::tuple(kinds_[i].movable, cells_[i], i); });
+    std::swap(bounds_, boundsBefore_);
+    bounds_.resize(nearby_.size());
     for (uint32_t place = 0; place < nearby_.size(); ++place)
         if (nearby_.before()[place] != KeptOrder::kNowhere)
-            bounds.copy(place, bounds_, nearby_.before()[place]);
-    std::vector<uint64_t> hashes(drawn_.size(), 0);
-    for (uint32_t rank = 0; rank < drawn_.size(); ++rank)
-        if (drawn_.before()[rank] != KeptOrder::kNowhere) hashes[rank] = hashes_[drawn_.before()[rank]];
-    std::swap(bounds_, bounds);
-    std::swap(hashes_, hashes);
-    findRuns();
+            bounds_.copy(place, boundsBefore_, nearby_.before()[place]);
+        else
+            bounds_.clear(place);
     changed_.assign((nearby_.size() + 63) / 64, ~uint64_t(0));
+    ++ranking_;
+}
+
+// What has left its cell goes to where it is now. No list changes by that.
+void DrawLists::regroup(const RenderScene& scene) {
+    std::vector<uint32_t>& astray = astray_;
+    astray.clear();
+    for (uint32_t row = 0; row < kinds_.size(); ++row) {
+        if (kinds_[row].bucket == kNoBucket) continue;
+        const uint32_t cell = cellOf(scene, scene.instances[row]);
+        if (cell == cells_[row]) continue;
+        cells_[row] = cell;
+        astray.push_back(row);
+    }
+    if (astray.empty()) return;
+    takeOut(astray);
+    placeNearby();
+    for (const uint32_t row : astray)
+        bounds_.set(nearby_.placeOf(row), scene.instances[row], boundsLocal(scene, scene.instances[row]));
 }
 
 void DrawLists::findRuns() {
@@ -201,10 +245,11 @@ void DrawLists::beginFrame(const RenderScene& scene, JobRunner& jobs) {
             others.push_back(i);
         }
     changed_.assign((nearby_.size() + 63) / 64, 0);
-    if (!others.empty()) {
-        rankAnew(others);
-        ++ranking_;
-    }
+    const bool outgrown = !fitsGrid(scene.bounds);
+    if (outgrown) chooseGrid(scene.bounds);
+    if (!others.empty()) rankAnew(others);
+    constexpr uint32_t kRegroupFrames = 256;
+    if (outgrown || all || ++changedFrames_ % kRegroupFrames == 0) regroup(scene);
     refreshBounds(scene, rows);
     versionBefore_ = instancesVersion_;
     instancesVersion_ = scene.instancesVersion;
@@ -258,12 +303,12 @@ void DrawLists::noteCulled(View& view, const glm::mat4& clipFromWorld) const {
     view.generation = generation_;
 }
 
-void DrawLists::markRanks(const std::vector<uint64_t>& places, std::vector<uint64_t>& ranks) const {
-    ranks.assign((drawn_.size() + 63) / 64, 0);
-    for (uint32_t word = 0; word < places.size(); ++word)
-        for (uint64_t bits = places[word]; bits; bits &= bits - 1) {
+void DrawLists::markRanks(View& view) const {
+    view.ranksInSight.assign((drawn_.size() + 63) / 64, 0);
+    for (uint32_t word = 0; word < view.inSight.size(); ++word)
+        for (uint64_t bits = view.inSight[word]; bits; bits &= bits - 1) {
             const uint32_t rank = drawn_.placeOf(nearby_[word * 64 + uint32_t(std::countr_zero(bits))]);
-            ranks[rank / 64] |= uint64_t(1) << (rank % 64);
+            view.ranksInSight[rank / 64] |= uint64_t(1) << (rank % 64);
         }
 }
 
@@ -274,9 +319,8 @@ void DrawLists::addInSight(const RenderScene& scene, const View& seenBy, Ranks r
     draws.rows.clear();
     draws.buckets.assign(buckets_.size(), {});
     OrderedHash ofStatic, ofMovable;
-    markRanks(seenBy.inSight, view.ranksInSight);
     for (uint32_t word = ranks.begin / 64; word * 64 < ranks.end; ++word) {
-        uint64_t bits = view.ranksInSight[word] & bitsBetween(ranks.begin, ranks.end, word);
+        uint64_t bits = seenBy.ranksInSight[word] & bitsBetween(ranks.begin, ranks.end, word);
         while (bits) {
             const uint32_t first = word * 64 + uint32_t(std::countr_zero(bits));
             const uint64_t ofRun = bits & bitsBetween(first, runEnd_[first], word);
@@ -319,6 +363,7 @@ void DrawLists::cullView(const RenderScene& scene, const ViewRequest& request) {
     }
     view.ranking = ranking_;
     view.clipFromWorld = request.clipFromWorld;
+    markRanks(view);
     addInSight(scene, view, {0, firstBlended_}, view);
     noteCulled(view, request.clipFromWorld);
 }

@@ -76,7 +76,8 @@ class DrawLists {
     // Several views at once, a job each where that is worth it; cull() then finds them done.
     void cullAll(const RenderScene& scene, std::span<const ViewRequest> views);
 
-    Bounds boundsOf(uint32_t instance) const { return bounds_.of(nearby_.placeOf(instance)); }  // world
+    // Of one that is there, world.
+    Bounds boundsOf(uint32_t instance) const { return bounds_.of(nearby_.placeOf(instance)); }
 
     // The result stays in place and is valid until the next cull of that slot.
     const ViewDraws& cull(const RenderScene& scene, uint32_t slot, const glm::mat4& clipFromWorld);
@@ -105,7 +106,7 @@ class DrawLists {
         uint64_t generation = 0, ranking = 0;
         bool dirty = true;
         std::vector<uint64_t> inSight;       // a bit a place of nearby_
-        std::vector<uint64_t> ranksInSight;  // the same by rank, while the lists are made
+        std::vector<uint64_t> ranksInSight;  // the same by rank
     };
     // What an instance's place among the ranks follows from.
     struct Kind {
@@ -118,9 +119,13 @@ class DrawLists {
     void startAnew(const RenderScene& scene);
     uint32_t bucketIndex(const DrawBucket& bucket);
     Kind kindOf(const RenderScene& scene, const RenderInstance& instance);
+    bool fitsGrid(const Bounds& bounds) const;
+    void chooseGrid(const Bounds& bounds);
     uint32_t cellOf(const RenderScene& scene, const RenderInstance& instance) const;
+    void takeOut(std::span<const uint32_t> rows);
     void rankAnew(std::span<const uint32_t> rows);
-    void moveAlong();
+    void regroup(const RenderScene& scene);
+    void placeNearby();
     void refreshBounds(const RenderScene& scene, std::span<const RenderScene::Range> rows);
     void ensureView(uint32_t slot);
     void cullView(const RenderScene& scene, const ViewRequest& request);
@@ -128,7 +133,7 @@ class DrawLists {
         uint32_t begin = 0, end = 0;
     };
     void findRuns();
-    void markRanks(const std::vector<uint64_t>& places, std::vector<uint64_t>& ranks) const;
+    void markRanks(View& view) const;
     void addInSight(const RenderScene& scene, const View& seenBy, Ranks ranks, View& view) const;
     bool isCulled(const View& view, const glm::mat4& clipFromWorld) const;
     void noteCulled(View& view, const glm::mat4& clipFromWorld) const;
@@ -136,15 +141,20 @@ class DrawLists {
 
     std::vector<DrawBucket> buckets_;
     std::vector<Kind> kinds_;      // by instance
-    std::vector<uint32_t> cells_;  // where it was when it was ranked
-    float cell_ = 1;               // side, in units of length
+    std::vector<uint32_t> cells_;  // by instance: where it was when it was grouped
+    glm::vec3 gridMiddle_{0};
+    float cell_ = 0;              // side, in units of length; 0: there is no grid
+    uint32_t changedFrames_ = 0;  // in which instances changed
     // Instances that there are, twice: as they are drawn, by buckets, layers and primitives, blended ones
     // last; and by where they are, so that blocks of them are small and few of these cross a view's border.
     KeptOrder drawn_, nearby_;
-    uint32_t firstBlended_ = 0;      // rank, which is a place of drawn_
-    std::vector<uint32_t> runEnd_;   // by rank: of those from it on that are of one kind
-    std::vector<uint64_t> hashes_;   // by rank: of what stands there, and where that is
-    InstanceBounds bounds_;          // by places of nearby_
+    uint32_t firstBlended_ = 0;             // rank, which is a place of drawn_
+    std::vector<uint32_t> runEnd_;          // by rank: of those from it on that are of one kind
+    std::vector<uint64_t> hashes_;          // by rank: of what stands there, and where that is
+    InstanceBounds bounds_, boundsBefore_;  // by places of nearby_; the latter: scratch
+    std::vector<uint64_t> hashesBefore_;    // scratch, as these:
+    std::vector<bool> leaves_;
+    std::vector<uint32_t> arrived_, astray_;
     std::vector<uint64_t> changed_;  // a bit a place whose bounds were set anew
     std::deque<View> views_;         // references from cull() stay valid
     RangePool commandPool_, rowPool_;

@@ -21,28 +21,28 @@ class KeptOrder {
     void clear() { *this = {}; }
 
     // Takes out the rows that `leaves` names and puts `arrived` in where their keys say; the others keep
-    // their order. Rows are numbers below the size of `leaves`.
+    // their order. Rows are numbers below the size of `leaves`. `arrived` comes back sorted.
     template <class Key>
-    void change(const std::vector<bool>& leaves, std::vector<uint32_t> arrived, Key&& key) {
+    void change(const std::vector<bool>& leaves, std::vector<uint32_t>& arrived, Key&& key) {
         std::ranges::sort(arrived, {}, key);
-        std::vector<uint32_t> rows;
-        rows.reserve(rows_.size() + arrived.size());
+        next_.clear();
         before_.clear();
-        auto next = arrived.begin();
+        auto comes = arrived.begin();
         const auto put = [&](uint32_t row, uint32_t from) {
-            rows.push_back(row);
+            next_.push_back(row);
             before_.push_back(from);
         };
         for (uint32_t place = 0; place < rows_.size(); ++place) {
             const uint32_t row = rows_[place];
             if (leaves[row]) continue;
-            while (next != arrived.end() && key(*next) < key(row))
-                put(*next++, kNowhere);
+            while (comes != arrived.end() && key(*comes) < key(row))
+                put(*comes++, kNowhere);
             put(row, place);
         }
-        while (next != arrived.end())
-            put(*next++, kNowhere);
-        rows_ = std::move(rows);
+        while (comes != arrived.end())
+            put(*comes++, kNowhere);
+        std::swap(rows_, next_);
+        next_.reserve(rows_.size());
         placeOf_.assign(leaves.size(), kNowhere);
         for (uint32_t place = 0; place < rows_.size(); ++place)
             placeOf_[rows_[place]] = place;
@@ -50,6 +50,7 @@ class KeptOrder {
 
   private:
     std::vector<uint32_t> rows_, placeOf_, before_;
+    std::vector<uint32_t> next_;  // scratch
 };
 
 }  // namespace ag::render

@@ -197,6 +197,8 @@ void PointPool::addBounces(const RenderScene& scene, uint32_t row, MeshPoints& m
     const auto count =
         uint32_t(std::min<double>(std::max(std::round(wanted), 1.0), double(freeBounces_.size())));
     if (count == 0) unseen_ += double(area);
+    const Material& material =
+        scene.geometry->materials[scene.geometry->primitives[scene.instances[row].primitive].material];
     for (uint32_t k = 0; k < count; ++k) {
         const uint32_t bounce = freeBounces_.back(), sample = spread(k, count, mesh.samples.size());
         freeBounces_.pop_back();
@@ -207,6 +209,8 @@ void PointPool::addBounces(const RenderScene& scene, uint32_t row, MeshPoints& m
                             .area = s.edgesLocal[0].distance < 0 ? 0 : area / float(count),
                             .albedo = albedoOn(scene, row, mesh, sample),
                             .edgesLocal = {s.edgesLocal[0], s.edgesLocal[1]}};
+        // Of those that have one point, every other faces the back.
+        if (material.doubleSided) gi::faceSide(bounces_[bounce], (k + row) % 2 == 1);
         bouncesOf_[row].push_back(bounce);
         changedBounces.add(bounce, bounce + 1);
         ++bounceVersion_;

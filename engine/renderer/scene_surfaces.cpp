@@ -238,8 +238,7 @@ gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of, SurfaceLi
 }
 
 void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers,
-                gi::MoverTree& result) {
-    std::vector<gi::SampledInstance>& moving = result.scratch.movers;
+                std::vector<gi::SampledInstance>& moving, gi::MoverTree& result) {
     moving.clear();
     for (const RenderInstance& i : scene.instances)
         if (movers && i.isPresent() && (i.movable || i.skinnedMesh != kNoSkinnedMesh))

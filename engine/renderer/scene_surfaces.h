@@ -23,6 +23,8 @@ struct SurfaceLight {
 };
 gi::OccluderTrees buildTrees(const RenderScene& scene, gi::TreesOf of = gi::TreesOf::kAll,
                              SurfaceLight sent = {});
-void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers, gi::MoverTree& result);
+// `moving`: memory of a frame before.
+void placeTrees(const RenderScene& scene, const gi::OccluderTrees& trees, bool movers,
+                std::vector<gi::SampledInstance>& moving, gi::MoverTree& result);
 
 }  // namespace ag::render

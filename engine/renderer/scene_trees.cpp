@@ -63,7 +63,7 @@ void SceneTrees::build(const RenderScene& scene) {
 }
 
 void SceneTrees::place(const RenderScene& scene) {
-    placeTrees(scene, trees_, of_ == gi::TreesOf::kAll, movers_);
+    placeTrees(scene, trees_, of_ == gi::TreesOf::kAll, moving_, movers_);
     places_ = roomFor(device_, std::move(places_), "scene.tree_places", movers_.places);
     moverNodes_ = roomFor(device_, std::move(moverNodes_), "scene.mover_nodes", movers_.nodes);
     uploaded_ = false;

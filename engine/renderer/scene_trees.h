@@ -46,6 +46,7 @@ class SceneTrees {
     uint64_t placedOf_ = 0, before_ = 0;     // RenderScene::instancesVersion, if that matters; last frame's
     uint64_t builds_ = 0, placings_ = 0;     // versions of the buffers
     gi::OccluderTrees trees_;
+    std::vector<gi::SampledInstance> moving_;
     gi::MoverTree movers_;
     std::vector<bool> movingPrimitives_;  // room for a frame's
     bool uploaded_ = true;

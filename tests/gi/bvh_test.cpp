@@ -66,6 +66,9 @@ TEST(Bvh, AlongACurveFindsTheSame) {
     EXPECT_EQ(bvh.order.size(), items.size() - 1);
     EXPECT_EQ(bvh.nodes.size(), 2 * bvh.order.size() - 1);
     EXPECT_EQ(bvh.nodes[0].next, bvh.nodes.size());
+    const auto same = std::ranges::find(bvh.order, 19u);
+    for (uint32_t i = 0; i <= 20; ++i)
+        EXPECT_EQ(same[i], 19 + i) << "equal codes stay in their order";
     for (const Bounds& in : randomBoxes(200, 2))
         EXPECT_EQ(found(bvh, items, in), foundWithout(items, in));
     buildBvhAlongCurve({}, bvh);

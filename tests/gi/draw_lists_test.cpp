@@ -192,6 +192,41 @@ TEST(DrawLists, WhatComesAndGoesLeavesTheRestInPlace) {
 
 // Every instance is drawn once, of its own primitive, what is static first; instances of a primitive are one
 // draw.
+// Ten times as far as the scene is wide, so that the grid is outgrown, too.
+TEST(DrawLists, WhatMovesFarIsStillFound) {
+    Lists l("crowd", 2000);
+    RenderScene& scene = l.scene;
+    for (RenderInstance& i : scene.instances)
+        i.movable = i.movable || &i - scene.instances.data() > 100;
+    l.seenByCamera();
+    const glm::mat4 up = cubeFaceView({1, 2, 0}, 2, 15).clipFromWorld;
+    l.lists.cull(scene, 1, up);
+    const float wide = scene.bounds.max.x - scene.bounds.min.x;
+    for (int frame = 0; frame < 540; ++frame) {
+        const glm::vec3 step((frame < 270 ? 1.0f : -0.9f) * wide / 27, 0, 0);
+        scene.bounds = {};
+        for (RenderInstance& i : scene.instances) {
+            if (i.movable) i.worldFromLocal[3] += step;
+            const Bounds& local = scene.geometry->primitives[i.primitive].boundsLocal;
+            for (const glm::vec3 corner : {local.min, local.max})
+                scene.bounds.add(i.worldFromLocal * glm::vec4(corner, 1));
+        }
+        scene.changedInstances = {{0, uint32_t(scene.instances.size())}};
+        scene.allInstancesChanged = false;
+        ++scene.instancesVersion;
+        l.lists.beginFrame(scene, l.one);
+        if (frame % 90 != 89) continue;
+        std::vector<uint32_t> seen = l.seenByCamera().rows, truth;
+        const auto bent = [&](uint32_t i) { return scene.instances[i].skinnedMesh != kNoSkinnedMesh; };
+        std::erase_if(seen, bent);  // their bounds are their pose's
+        for (uint32_t i = 0; i < scene.instances.size(); ++i)
+            if (!bent(i) && inSight(scene, scene.instances[i], scene.camera.clipFromWorld))
+                truth.push_back(i);
+        std::ranges::sort(seen);
+        EXPECT_EQ(seen, truth) << frame;
+    }
+}
+
 TEST(DrawLists, InstancesOfAPrimitiveAreOneDraw) {
     Lists l("crowd", 6000);
     RenderScene& scene = l.scene;

@@ -86,7 +86,8 @@ float firstOfAll(const RenderScene& scene, const Ray& ray, float reach) {
 // Rays of the scene's size; how many find the same place to within a ten thousandth of it.
 void expectSameHits(const RenderScene& scene) {
     Walked walked{.trees = render::buildTrees(scene)};
-    render::placeTrees(scene, walked.trees, true, walked.movers);
+    std::vector<SampledInstance> moving;
+    render::placeTrees(scene, walked.trees, true, moving, walked.movers);
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> unit;
@@ -189,7 +190,8 @@ TEST(OccluderTrees, NothingIsNoTree) {
     const OccluderTrees trees = render::buildTrees(scene);
     EXPECT_TRUE(trees.everythingStatic.empty());
     MoverTree movers;
-    render::placeTrees(scene, trees, true, movers);
+    std::vector<SampledInstance> moving;
+    render::placeTrees(scene, trees, true, moving, movers);
     ASSERT_EQ(movers.places.size(), io::kBvhFirstMover);
     EXPECT_EQ(movers.places[io::kBvhStatic].endNode, 0u);
 }

