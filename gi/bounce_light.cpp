@@ -25,6 +25,7 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
 
     // Where light lands, or begins, as few area lights
     f.viewPoints = addViewPoints(lights, in.surfaces);
+    f.sunFocus = addSunFocus(lights, in, s.rsm, f.viewPoints, h);
     const uint64_t skyStep = stepOfSky(in, s.sky, h.skyOnPoints);
     f.emitters = addSurfaceEmitters(lights, in.world, in.occluders, skyStep, s.laterBounces, h.laterBounces);
     addAreaLights(lights, in, s, h, f);
@@ -41,7 +42,10 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
         grid.turn == 0 ? downsampled
                        : addDownsampled(scope, in.surfaces, {s.spacing, grid.place}, kOtherDownsampling);
     const Vals asked = valsOf(f, s.term);
-    const bool together = grid.still || s.laterBounces.spacing == 1;  // else later bounces at fewer pixels
+    const bool rays = castsTexelRays(s.texelRays, in.occluders) && f.vals.count > 0;
+    const bool moving = rays && s.texelRays.movingLength > 0 && refresh.pixels.count == 1;
+    // Rays correct all light at once; else later bounces are gathered at fewer pixels.
+    const bool together = grid.still || moving || s.laterBounces.spacing == 1;
     const ShadowedVals first{together ? asked : valsBetween(asked, 0, f.firstCount), f.isms};
     const ValTiles tiles = addShadingTiles(scope, gathered, first, s.valShading, kFirstShading);
     f.irradiance = addValShading(tiles, s.valShading, kFirstShading, refresh.pixels);
@@ -49,7 +53,6 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
         f.irradiance =
             addLaterShading(scope, gathered, f.irradiance, {valsBetween(asked, f.firstCount, ~0u), f.isms},
                             s.laterBounces.spacing, s.valShading);
-    const bool rays = castsTexelRays(s.texelRays, in.occluders) && f.vals.count > 0;
     const ClusterMembers members = rays ? addClusterMembers(scope, f.rsm, f.clusters) : ClusterMembers{};
     const SkyOnDevice skyOfRays = s.sky.enabled ? in.sky : SkyOnDevice{};
     if (rays)

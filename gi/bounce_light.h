@@ -28,7 +28,8 @@ struct BounceLightInputs {
 // State that outlives a frame; one per view of the scene.
 struct BounceLightHistory {
     RefreshHistory refresh;
-    ClusterShares clusterShares;
+    RsmHistory rsm;
+    SunFocus sunFocus;
     ValClusteringHistory valClustering;
     GatherGridHistory gatherGrid;
     TexelRaysHistory texelRays;
@@ -47,6 +48,7 @@ struct BounceLight {
     ImageHandle gloss;      // what glossy materials reflect beyond irradiance: rgba16f, W/(m² sr)
 
     BufferHandle viewPoints;
+    SunFocus sunFocus;
     SurfaceEmitters emitters;
     RsmSet rsm;
     Importance importance;

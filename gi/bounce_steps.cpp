@@ -1,5 +1,7 @@
 #include "gi/bounce_steps.h"
 
+#include <algorithm>
+
 #include "engine/core/hash.h"
 #include "gi/ray_filter.h"
 #include "gi/texel_rays.h"
@@ -11,9 +13,19 @@ uint64_t stepOfSky(const BounceLightInputs& in, const SkySettings& s, const Sett
     return in.sky && s.enabled ? combineHash(in.sky.version, onPoints.step + 1) : 0;
 }
 
+SunFocus addSunFocus(GraphScope scope, const BounceLightInputs& in, const RsmSettings& s,
+                     BufferHandle viewPoints, BounceLightHistory& h) {
+    constexpr std::array<std::string_view, kFramesInFlight> kCopies = {"rsm.view_points0",
+                                                                       "rsm.view_points1"};
+    const bool sun = std::ranges::any_of(
+        in.world.lights, [](const RsmLight& light) { return light.kind == LightKind::kDirectional; });
+    if (!sun || s.sunDetail == 0) return h.sunFocus = {};
+    return h.sunFocus = focusOf(scope.readBack(kCopies, viewPoints), in.surfaces.view.position, h.sunFocus);
+}
+
 void addRsms(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
              BounceLightHistory& h, BounceLight& f) {
-    f.rsm = planRsm(scope, in.world, s.rsm, s.valClustering.count, f.emitters, h.clusterShares);
+    f.rsm = planRsm(scope, in.world, s.rsm, s.valClustering.count, f.emitters, f.sunFocus, h.rsm);
     if (f.rsm.empty()) return;
     in.drawRsm(scope, f.rsm);
     addRsmTexels(scope, f.rsm, f.emitters);

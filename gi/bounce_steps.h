@@ -7,6 +7,9 @@ namespace ag::gi {
 
 // Another number whenever the sky's light on the points may have changed; 0: there is no sky.
 uint64_t stepOfSky(const BounceLightInputs& in, const SkySettings& settings, const Settling& onPoints);
+// What the levels of a sun's map are made for, where one shines.
+SunFocus addSunFocus(GraphScope scope, const BounceLightInputs& in, const RsmSettings& s,
+                     BufferHandle viewPoints, BounceLightHistory& h);
 // RSMs, drawn by the host, with `f.emitters` as further ones; their texels.
 void addRsms(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
              BounceLightHistory& h, BounceLight& f);

@@ -54,9 +54,9 @@ void readRsmTexels(PassBuilder& pass, const RsmSet& rsm) {
 }
 
 RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-               const SurfaceEmitters& emitters, ClusterShares& shares) {
+               const SurfaceEmitters& emitters, const SunFocus& focus, RsmHistory& history) {
     RsmSet rsm;
-    const RsmLayout layout = layoutRsm(world, settings, clusterBudget, shares, emitters);
+    const RsmLayout layout = layoutRsm(world, settings, clusterBudget, history, emitters, focus);
     if (layout.mapCount == 0 || world.bounds.empty()) return rsm;
     rsm.atlas = {.size = layout.atlasSize, .faceCount = layout.faceCount, .mapCount = layout.mapCount};
     rsm.lightRsmCount = layout.lightMapCount;

@@ -1,5 +1,6 @@
 // Reflective shadow maps (Dachsbacher & Stamminger 2005) of the bounce lights, in one atlas. A spot light has
-// one square face round its cone, the sun one over the scene's bounds, a point light all six faces of a cube
+// one square face round its cone, a sun one over the scene's bounds (the first one levels in large scenes,
+// sun_levels.h), a point light all six faces of a cube
 // at half the resolution each; where lights together would have more than six faces of 512² texels, all are
 // halved. A texel becomes an emitter with its flux in W and its area in m² (units:
 // docs/techniques).
@@ -9,14 +10,16 @@
 
 #include "engine/core/setting_fields.h"
 #include "gi/inputs.h"
+#include "gi/sun_levels.h"
 #include "gi/surface_emitters.h"
 #include "shaders/rsm/rsm_io.h"
 
 namespace ag::gi {
 
 struct RsmSettings {
-    uint32_t resolution = 0;  // texels along a map's side; 0: as each light says
-    float sunMargin = 0.02f;  // part of the scene's width added round a sun's map
+    uint32_t resolution = 0;       // texels along a map's side; 0: as each light says
+    float sunMargin = 0.02f;       // part of the scene's width added round a sun's map
+    float sunDetail = 1.0f / 160;  // texels near the camera, of the distance seen (sun_levels.h)
 
     static constexpr auto fields() {
         return std::tuple{
@@ -24,11 +27,20 @@ struct RsmSettings {
                          "side of an RSM, rounded down to a power of two, less with many lights; "
                          "0: as each light says"},
             SettingField{"sun_margin", &RsmSettings::sunMargin, 0, 1, "",
-                         "part of the scene's width added round a sun's map"}};
+                         "part of the scene's width added round a sun's map"},
+            SettingField{"sun_detail", &RsmSettings::sunDetail, 0, 1, "",
+                         "texels of a sun's map, of the distance that the camera sees: in a larger scene "
+                         "finer maps lie about the camera; 0: one map"}};
     }
 
     bool operator==(const RsmSettings&) const = default;
 };
+
+// Of a light's reflective shadow maps, at most.
+constexpr uint32_t mostFacesOf(LightKind kind) {
+    if (kind == LightKind::kPoint) return 6;
+    return kind == LightKind::kDirectional ? io::kMostSunLevels : 1;
+}
 
 struct RsmSet {
     ImageHandle normal, albedo, depth;  // of the atlas, as rasterised
@@ -63,12 +75,17 @@ struct ClusterShares {
     uint32_t count = 0;
 };
 
+struct RsmHistory {
+    ClusterShares shares;
+    SunLevelsHistory sunLevels;
+};
+
 // The maps, not drawn yet: whoever has the surfaces draws the faces of lights (faceInfo: clip matrices,
 // rectangles of the atlas) into normal, albedo and depth, all cleared to zero, and adds to inputsVersion what
 // that depends on. `clusterBudget`: clusters to share out over the maps by emitted flux, at least 8 each.
 // `emitters`: further maps.
 RsmSet planRsm(GraphScope scope, const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-               const SurfaceEmitters& emitters, ClusterShares& shares);
+               const SurfaceEmitters& emitters, const SunFocus& focus, RsmHistory& history);
 
 // Texels of the maps that were drawn, and of `emitters`.
 void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters);

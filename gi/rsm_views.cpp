@@ -17,7 +17,7 @@ constexpr uint32_t kShareStep = 8;     // clusters: small changes of flux move n
 constexpr float kFluxBand = 1.5f;      // within which a light's share stays
 constexpr uint32_t kDarkFrames = 120;  // after which a light that went out gives up its share
 constexpr uint32_t kNoMap = ~0u;
-constexpr uint32_t kReflectingMapId = ~0u, kEmissiveMapId = ~1u;  // of RsmMap::lightIdLow
+constexpr uint32_t kReflectingMapId = ~0u, kEmissiveMapId = ~1u;  // of RsmMap::id
 constexpr uint64_t kMostTexels = 6 * 512 * 512;  // of all lights together: a point light's largest map
 
 uint32_t facesOf(const RsmLight& light) {
@@ -62,7 +62,7 @@ io::RsmMap mapOf(const RsmLight& light) {
             .intensity = light.intensity,
             .cosInner = cone.inner,
             .cosOuter = cone.outer,
-            .lightIdLow = uint32_t(light.id)};
+            .id = uint32_t(light.id)};
 }
 
 // Largest faces first along shelves: powers of two then stay aligned to their own size.
@@ -177,7 +177,7 @@ void addPointMap(RsmLayout& layout, const PointMap& points, uint32_t id, float p
         .tanHalf = 0.5f,
         .firstFace = layout.faceCount,
         .faceCount = 1,
-        .lightIdLow = id,
+        .id = id,
         .firstPoint = points.firstPoint};
     layout.faces[layout.faceCount++] = {.worldFromClip = glm::mat4(1),
                                         .clipFromWorld = glm::mat4(1),
@@ -206,46 +206,78 @@ float emittedFlux(const RsmLight& light, const Bounds& sceneBounds) {
 
 namespace {
 
-void addLightRsm(RsmLayout& layout, const RsmLight& light, const Bounds& bounds, const RsmSettings& settings,
-                 uint32_t halvings) {
+void addFace(RsmLayout& layout, const LightView& view, uint32_t size) {
+    io::RsmFace& face = layout.faces[layout.faceCount++];
+    face.clipFromWorld = view.clipFromWorld;
+    face.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(view.clipFromWorld)));
+    face.size = size;
+    face.map = layout.mapCount;
+    layout.largestFace = std::max(layout.largestFace, size);
+    io::RsmMap& map = layout.maps[layout.mapCount];
+    map.tanHalf = view.tanHalf;
+    ++map.faceCount;
+}
+
+io::RsmMap& beginMap(RsmLayout& layout, const RsmLight& light) {
+    layout.lightIds[layout.mapCount] = light.id;
     io::RsmMap& map = layout.maps[layout.mapCount] = mapOf(light);
     map.firstFace = layout.faceCount;
-    map.faceCount = facesOf(light);
-    for (uint32_t f = 0; f < map.faceCount; ++f) {
-        const LightView view = faceView(light, f, bounds, settings);
-        map.tanHalf = view.tanHalf;
-        io::RsmFace& face = layout.faces[layout.faceCount++];
-        face.clipFromWorld = view.clipFromWorld;
-        face.worldFromClip = glm::mat4(glm::inverse(glm::dmat4(view.clipFromWorld)));
-        face.size = faceSize(light, settings, halvings);
-        face.map = layout.mapCount;
-        layout.largestFace = std::max(layout.largestFace, face.size);
-    }
+    return map;
+}
+
+void addLightRsm(RsmLayout& layout, const RsmLight& light, const Bounds& bounds, const RsmSettings& settings,
+                 uint32_t size) {
+    beginMap(layout, light);
+    for (uint32_t f = 0; f < facesOf(light); ++f)
+        addFace(layout, faceView(light, f, bounds, settings), size);
     ++layout.mapCount;
+}
+
+void addSunLevels(RsmLayout& layout, const RsmLight& sun, std::span<const SunLevel> levels, uint32_t size) {
+    for (uint32_t i = 0; i < levels.size(); ++i) {
+        io::RsmMap& map = beginMap(layout, sun);
+        map.id ^= i * 0x9e3779b9u;
+        map.holeBegin = levels[i].holeBegin;
+        map.holeSize = levels[i].holeSize;
+        addFace(layout, levels[i].view, size);
+        ++layout.mapCount;
+    }
 }
 
 }  // namespace
 
 RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-                    ClusterShares& shares, const SurfaceEmitters& emitters) {
+                    RsmHistory& history, const SurfaceEmitters& emitters, const SunFocus& focus) {
     RsmLayout layout;
+    ClusterShares& shares = history.shares;
     const ClusterShares before = std::exchange(shares, {});
     std::array<Sharer, io::kMaxRsmMaps> sharers{};
+    uint32_t sharing = 0;
     const uint32_t halvings = halvingsOf(world.lights, settings);
+    bool hadSun = false;
     for (const RsmLight& light : world.lights) {
         if (shares.count == io::kMaxBounceLights) break;
         const bool dark = light.intensity == glm::vec3(0);
         const auto steady =
             steadyLight(light, dark ? 0 : emittedFlux(light, world.bounds) * light.budgetShare, before);
         if (dark && steady.flux == 0) continue;
-        sharers[shares.count] = {steady.flux, dark ? kNoMap : layout.mapCount};
         shares.lights[shares.count++] = steady;
+        const uint32_t size = faceSize(light, settings, halvings);
+        std::array<SunLevel, io::kMostSunLevels> room;
+        std::span<const SunLevel> levels;
+        if (light.kind == LightKind::kDirectional && !std::exchange(hadSun, true))
+            levels = layOutSunLevels(faceView(light, 0, world.bounds, settings), size, focus,
+                                     settings.sunDetail, history.sunLevels, room);
+        const uint32_t maps = std::max(uint32_t(levels.size()), 1u);
+        for (uint32_t i = 0; i < maps; ++i)
+            sharers[sharing++] = {steady.flux / float(maps), dark ? kNoMap : layout.mapCount + i};
         if (dark) continue;
-        layout.lightIds[layout.mapCount] = light.id;
-        addLightRsm(layout, light, world.bounds, settings, halvings);
+        if (levels.empty())
+            addLightRsm(layout, light, world.bounds, settings, size);
+        else
+            addSunLevels(layout, light, levels, size);
     }
     layout.lightMapCount = layout.mapCount, layout.lightFaceCount = layout.faceCount;
-    uint32_t sharing = shares.count;
     const bool shines = emitters.emissive.side > 0;
     if (shines) {
         const float lights = fluxOf({sharers.data(), sharing});

@@ -8,7 +8,7 @@ namespace ag::gi {
 struct RsmLayout {
     std::array<io::RsmMap, io::kMaxRsmMaps> maps{};
     std::array<io::RsmFace, io::kMaxRsmFaces> faces{};
-    std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights
+    std::array<uint64_t, io::kMaxRsmMaps> lightIds{};  // of the maps of lights; levels of a sun have one
     uint32_t mapCount = 0, faceCount = 0;
     uint32_t lightMapCount = 0, lightFaceCount = 0;  // the first ones
     uint32_t emissiveClusters = 0;                   // of all the first ones
@@ -20,7 +20,7 @@ struct RsmLayout {
 // After the lights' maps come that of emissive surfaces and that of surfaces that reflect, where there are
 // such.
 RsmLayout layoutRsm(const World& world, const RsmSettings& settings, uint32_t clusterBudget,
-                    ClusterShares& shares, const SurfaceEmitters& emitters = {});
+                    RsmHistory& history, const SurfaceEmitters& emitters = {}, const SunFocus& focus = {});
 
 // Between which a light falls off: a spot's; of others below -1, so that none does.
 struct ConeCosines {

@@ -24,14 +24,18 @@ constexpr RayFilterNames kFilter = {
     "texel_rays.odd",
     {"texel_rays.filter0", "texel_rays.filter1", "texel_rays.filter2", "texel_rays.filter3"}};
 
+constexpr uint32_t kFirstMovingRay = 1u << 28;  // unlike those of a still picture
+// Rays remembered of a block's light: for clusters settle; and blocks leave what they saw.
+constexpr float kRaysKnown = 4096, kRaysKnownMoving = 256;
+
 // How likely pixels of a block are to draw each light.
 struct Choice {
     BufferHandle upTo, likely, found;
     uint32_t blocks;
 };
 
-// `ray`: how many were cast before, and this one.
-Choice addChoice(const ValTiles& t, uint32_t ray, const Settling& settling) {
+// `ray`: number of the frame's rays; `known`: rays of the frame before tell of what these will find.
+Choice addChoice(const ValTiles& t, uint32_t ray, bool known, float mostKnown) {
     const glm::uvec2 along = (t.gbuffer.size + io::kDrawBlock - 1u) / io::kDrawBlock;
     const uint32_t blocks = along.x * along.y;
     const BufferInfo info{.sizeBytes = uint64_t(blocks) * t.push.valCount * 4,
@@ -46,7 +50,7 @@ Choice addChoice(const ValTiles& t, uint32_t ray, const Settling& settling) {
         .readWrite("upTo", choice.upTo)
         .readPrevious("foundBefore", found)
         .write("found", found.current)
-        .push(io::ChoosePush{t.push, ray, found.valid && settling.sinceChange > 1})
+        .push(io::ChoosePush{t.push, ray, found.valid && known, mostKnown})
         .dispatchGroups(choice.blocks);
     return choice;
 }
@@ -157,10 +161,13 @@ struct Measured {
     Sent sent;
     ImageHandle control;
     float mostLength;  // frames that means stand for
+    bool follows;      // on rays of the frame before
+    bool worldMoves;   // what rays find may have changed
+    bool moving;       // surfaces may have been between pixels
+    uint32_t step;
 };
 
-Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const Settling& settling,
-               bool begun) {
+Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen) {
     const ImageInfo info{.format = kFloat4, .size = t.gbuffer.size};
     const Means m{.sent = t.scope.historyImage("texel_rays.sent_mean", info),
                   .control = t.scope.historyImage("texel_rays.control_mean", info),
@@ -181,10 +188,14 @@ Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen, const Se
         .write("controlMean", m.control.current)
         .write("moments", m.moments.current)
         .write("surface", seen.surface.current)
+        .sample("motionMap", t.gbuffer.motion ? t.gbuffer.motion : t.gbuffer.normal)
+        .constant("kMotion", bool(t.gbuffer.motion))
         .push(io::RayAccumulatePush{.near = t.gbuffer.view.near,
-                                    .valid = begun && seen.known && m.sent.valid && seen.surface.valid,
-                                    .mostLength = of.mostLength})
-        .step(settling.step)
+                                    .valid = of.follows && seen.known && m.sent.valid && seen.surface.valid,
+                                    .mostLength = of.mostLength,
+                                    .moving = of.worldMoves,
+                                    .sharp = of.moving})
+        .step(of.step)
         .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
     return m;
 }
@@ -222,8 +233,16 @@ Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& se
     return {c.irradiance, areaLights.toward};
 }
 
+// What was carried from before the last change, and how long it stays.
+struct Keeping {
+    bool fromCorrection;  // the frame before's
+    bool moving;
+    float share, dimming;
+    uint32_t step;
+};
+
 Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const Means& m, const Seen& seen,
-                         const TexelRaysSettings& s, const Settling& settling, const GatherGrid& grid) {
+                         const TexelRaysSettings& s, const Keeping& keeping) {
     const glm::uvec2 size = t.gbuffer.size;
     const ImageInfo info{.format = kFloat4, .size = size};
     const ImageHandle rest = t.scope.image("texel_rays.rest", info);
@@ -242,7 +261,7 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
     const ImageHandle filtered = addRayFilter(t.scope, size, {rest, seen.surface.current, seen.cameras},
                                               {s.rounds, s.tolerance}, kFilter, FilterAlpha::kVariance);
     const Carried c = addCarried(t, areaLights);
-    const HistoryImage& before = settling.sinceChange > 1 ? c.carried : c.correction;
+    const HistoryImage& before = keeping.fromCorrection ? c.correction : c.carried;
     t.scope.compute("texel_rays.correct", "texel_rays/correct.comp")
         .sample("areaLights", areaLights.image)
         .sample("rest", filtered)
@@ -251,8 +270,12 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
         .write("irradiance", c.irradiance)
         .write("correction", c.correction.current)
         .write("carried", c.carried.current)
-        .push(io::CorrectPush{seen.known && before.valid, keptShare(grid)})
-        .step(settling.step)
+        .sample("surface", seen.surface.current)
+        .samplePrevious("previousSurface", seen.surface, Sampler::kNearestClamp)
+        .read("cameras", seen.cameras)
+        .push(io::CorrectPush{seen.known && before.valid && seen.surface.valid,
+                              keeping.share * keeping.dimming, keeping.moving})
+        .step(keeping.step)
         .dispatchThreads(size.x, size.y);
     return {c.irradiance, areaLights.toward};
 }
@@ -261,7 +284,7 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
 float dimmingOf(const RsmSet& rsm, TexelRaysHistory& history) {
     const std::span ids(history.lightIds.data(), history.lightCount);
     float most = rsm.emissiveCount == 0 ? 0 : 1;
-    std::array<float, io::kMaxBounceLights> strengths{};
+    std::array<float, io::kMaxLightMaps> strengths{};
     for (uint32_t i = 0; i < rsm.lightRsmCount; ++i) {
         strengths[i] = io::luminance(rsm.mapInfo[i].intensity);
         const size_t before = size_t(std::ranges::find(ids, rsm.lightIds[i]) - ids.begin());
@@ -272,6 +295,15 @@ float dimmingOf(const RsmSet& rsm, TexelRaysHistory& history) {
     std::copy_n(rsm.lightIds.begin(), rsm.lightRsmCount, history.lightIds.begin());
     history.lightStrengths = strengths;
     return std::min(most, 1.0f);
+}
+
+// Another number whenever light may have changed, but for who sees it.
+uint64_t hashOfWorld(const TexelRaysInputs& in) {
+    const Versions& v = in.versions;
+    uint64_t hash = in.sky ? in.sky.version : 0;
+    for (const uint64_t part : {v.scene, v.instances, v.lights, v.origin, in.occluders.trees.staticVersion})
+        hash = combineHash(hash, part);
+    return hash;
 }
 
 }  // namespace
@@ -293,17 +325,28 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const Seen seen = addSeen(t, in.versions.origin, history);
     const float dimming = dimmingOf(in.rsm, history);
     const bool wasWhole = std::exchange(history.whole, in.whole);
-    if (history.settling.sinceChange == 0) return carry(t, areaLights, seen, dimming, step);
-    const uint32_t ray = rayNumber(in.grid, history.settling);
-    const Choice choice = addChoice(t, ray, history.settling);
+    const bool moving = history.settling.sinceChange == 0;
+    const uint64_t world = hashOfWorld(in);
+    const bool worldMoves = std::exchange(history.world, world) != world;
+    if (moving && (s.movingLength == 0 || !in.whole)) {
+        history.cast = false;
+        return carry(t, areaLights, seen, dimming, step);
+    }
+    // The first frame in which nothing changes begins anew: a still picture does not depend on what was
+    // before. Light that is late says nothing of rays' mean.
+    const bool wasCast = std::exchange(history.cast, true);
+    const bool follows = wasWhole && (moving ? wasCast : history.settling.sinceChange > 1);
+    const uint32_t ray = moving ? kFirstMovingRay + step : rayNumber(in.grid, history.settling);
+    const Choice choice = addChoice(t, ray, moving ? wasCast : history.settling.sinceChange > 1,
+                                    moving ? kRaysKnownMoving : kRaysKnown);
     const Sent sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent.drawn, shading);
-    // The first frame in which nothing changes knows no other, and light that is late says nothing of rays'
-    // mean.
-    const bool begun = history.settling.sinceChange > 1 && wasWhole;
-    const Means means = addMeans(t, {areaLights.image, sent, control, meanLength(in.grid, s.mostLength)},
-                                 seen, history.settling, begun);
-    return addCorrection(t, areaLights, means, seen, s, history.settling, in.grid);
+    const float length = moving ? float(s.movingLength) : meanLength(in.grid, s.mostLength);
+    const Means means = addMeans(
+        t, {areaLights.image, sent, control, length, follows, moving && worldMoves, moving, step}, seen);
+    return addCorrection(t, areaLights, means, seen, s,
+                         {moving || history.settling.sinceChange == 1, moving, keptShare(in.grid),
+                          moving ? dimming : 1, step});
 }
 
 }  // namespace ag::gi

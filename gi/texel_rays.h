@@ -1,8 +1,9 @@
-// The light of area lights corrected by rays while nothing moves. The lights' sum is smooth, but wrong
+// The light of area lights corrected by rays. The lights' sum is smooth, but wrong
 // where a light is near or its shadow map is coarse. Each pixel measures the error with two rays a frame to
 // texels of the reflective shadow maps, through the occluders' trees; the area lights' sum is a control
-// variate of that measurement. Means over frames, filtered by their variance. While something changes, no
-// rays are cast: surfaces keep what was found on them.
+// variate of that measurement. Means over frames that follow their surfaces, filtered by their variance. In
+// frames in which only some of the pixels are gathered no rays are cast: surfaces keep what was found on
+// them.
 #pragma once
 
 #include <array>
@@ -22,6 +23,7 @@ struct TexelRaysSettings {
     float reach = 0.05f;          // of a hemisphere's ray, in the scene's extent
     uint32_t mostLength = 1024;   // frames that a mean stands for
     uint32_t settleFrames = 256;  // frames with new rays after anything last changed
+    uint32_t movingLength = 48;   // frames that a mean stands for while something changes; 0: no rays then
     bool allPixels = true;        // then by the pixels that were left out, one after another
     uint32_t rounds = 3;          // of the filter
     float tolerance = 1;          // standard deviations by which the light of taps may differ
@@ -29,13 +31,15 @@ struct TexelRaysSettings {
     static constexpr auto fields() {
         return std::tuple{
             SettingField{"enabled", &TexelRaysSettings::enabled, 0, 0, "",
-                         "correct the light of area lights by rays to texels while nothing changes"},
+                         "correct the light of area lights by rays to texels"},
             SettingField{"reach", &TexelRaysSettings::reach, 0, 1, "scene extents",
                          "of rays to whatever light is near"},
             SettingField{"most_length", &TexelRaysSettings::mostLength, 1, 2048, "frames",
                          "a pixel's mean stands for"},
             SettingField{"settle_frames", &TexelRaysSettings::settleFrames, 0, 1000000, "frames",
                          "with new rays after anything last changed"},
+            SettingField{"moving_length", &TexelRaysSettings::movingLength, 0, 1024, "frames",
+                         "a pixel's mean stands for while something changes; 0: no rays are cast then"},
             SettingField{"all_pixels", &TexelRaysSettings::allPixels, 0, 0, "",
                          "then gather at the pixels left out, too, while nothing changes"},
             SettingField{"rounds", &TexelRaysSettings::rounds, 0, 4, "rounds",
@@ -50,13 +54,15 @@ struct TexelRaysSettings {
 // Lives on the CPU from frame to frame.
 struct TexelRaysHistory {
     Settling settling;
-    bool whole = true;  // every pixel's area lights were of that frame
+    bool whole = true;   // every pixel's area lights were of that frame
+    bool cast = false;   // rays were cast in that frame
+    uint64_t world = 0;  // of what rays find, but the camera
     RenderCamera camera;
     uint64_t originVersion = 0;
     // Of the lights of the frame before: identities, and the luminance of what each sent.
     uint32_t lightCount = 0;
-    std::array<uint64_t, io::kMaxBounceLights> lightIds{};
-    std::array<float, io::kMaxBounceLights> lightStrengths{};
+    std::array<uint64_t, io::kMaxLightMaps> lightIds{};
+    std::array<float, io::kMaxLightMaps> lightStrengths{};
 };
 
 // What the rays go to, and what they meet on the way.

@@ -6,6 +6,7 @@
 #include "engine/core/hash.h"
 #include "engine/gpu/transfer.h"
 #include "engine/renderer/light_clusters.h"
+#include "gi/rsm.h"
 #include "gi/surfaces.h"
 #include "shaders/shadow_maps/shadow_maps_io.h"
 
@@ -123,7 +124,7 @@ void SceneGpu::noteMovements(const RenderScene& scene) {
 ViewSlots viewSlots(const RenderScene& scene) {
     uint32_t rsms = 0, cascades = 0;
     for (const RenderLight& light : scene.lights) {
-        if (light.bounces) rsms += light.kind == LightKind::kPoint ? 6 : 1;
+        if (light.bounces) rsms += gi::mostFacesOf(light.kind);
         if (light.kind == LightKind::kDirectional) cascades += io::kMaxCascades;
     }
     ViewSlots s{.camera = 0, .moved = 1, .everything = 2, .blended = 3, .firstRsm = 4};

@@ -14,7 +14,7 @@ layout(set = 0, binding = 3) uniform sampler2D depthMap;
 #include "common/lanes.glsl"
 #include "common/lights.h"
 #include "probes/probes_io.h"
-#include "rsm/rsm_io.h"
+#include "rsm/rsm.glsl"
 #include "scene/scene_io.h"
 #include "val_shading/area_light.glsl"
 
@@ -49,7 +49,7 @@ float litShare(RsmFace face, RsmMap map, vec2 ndc, vec3 x, float texel) {
 vec3 directFrom(RsmFace face, RsmMap map, vec3 x, vec3 n, bool allRound) {
     vec4 h = face.clipFromWorld * vec4(x, 1.0);
     vec2 ndc = h.xy / h.w;
-    if (h.w <= 0.0 || any(greaterThan(abs(ndc), vec2(1.0)))) return vec3(0.0);
+    if (h.w <= 0.0 || any(greaterThan(abs(ndc), vec2(1.0))) || inHole(map, (ndc * 0.5 + 0.5) * float(face.size))) return vec3(0.0);
     bool sun = map.kind == kLightDirectional;
     vec3 d = x - map.position;
     float distance_ = sun ? 1.0 : max(length(d), 1e-4);

@@ -6,6 +6,7 @@
 // things move, a block whose rays find more or less than noise allows forgets.
 #include "common/pixel_rays.h"
 #include "ray_filter/ray_filter_io.h"
+#include "ray_filter/surprise.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;  // a block
 layout(push_constant, scalar) uniform Push { RayMeanPush p; } push;
@@ -23,20 +24,6 @@ layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D surface;  // nor
 layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D rest;    // a: variance, mean of its channels
 layout(set = 0, binding = 11) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
 layout(constant_id = 0) const bool kMotion = false;
-
-shared vec3 sums[64];
-
-// Of the block's rays against its means, in standard deviations of such a difference.
-float surprise(float now, float mean, float variance) {
-    sums[gl_LocalInvocationIndex] = vec3(now, mean, variance);
-    for (uint half_ = 32; half_ > 0; half_ /= 2) {
-        barrier();
-        if (gl_LocalInvocationIndex < half_) sums[gl_LocalInvocationIndex] += sums[gl_LocalInvocationIndex + half_];
-    }
-    barrier();
-    vec3 all = sums[0];
-    return abs(all.x - all.y) / max(sqrt(all.z) + 0.02 * all.y, 1e-20);
-}
 
 void known(ivec2 size, vec3 normal, vec3 place, float depth, out vec4 mean, out float square) {
     mean = vec4(0.0), square = 0.0;
@@ -72,7 +59,7 @@ void main() {
     float before = luminance(mean.rgb);
     bool counts = mean.a > 0.0 && depth > 0.0 && all(lessThan(pixel, size));
     float off = surprise(counts ? luminance(e) : 0.0, counts ? before : 0.0, counts ? max(square - meanProduct(mean.rgb, mean.rgb), 0.0) : 0.0);
-    if (push.p.moving == 1) mean.a *= clamp(2.0 - off / 3.0, 0.0, 1.0);
+    if (push.p.moving == 1) mean.a *= keptOf(off);
     float length_ = min(mean.a, push.p.mostLength - 1.0) + 1.0, share = 1.0 / length_;
     mean = vec4(mix(mean.rgb, e, share), length_);
     square = mix(square, meanProduct(e, e), share);

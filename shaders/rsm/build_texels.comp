@@ -101,7 +101,7 @@ void main() {
     RsmFace face = faces.items[min(found, push.atlas.faceCount - 1)];
     bool ofMap = found < push.atlas.faceCount, ofSurfaces = maps.items[face.map].kind == kMapOfSurfaces;
     RsmTexel texel = darkTexel();
-    if (ofMap && !ofSurfaces) {
+    if (ofMap && !ofSurfaces && !inHole(maps.items[face.map], vec2(coord - face.origin))) {
         texel = makeTexel(coord, found);
         if (texel.weight > 0.0 && atCrease(face, coord, texel.normal)) listPixel(ivec2(coord));
     }

@@ -27,6 +27,11 @@ vec3 irradianceOf(RsmMap map, vec3 place, vec3 normal) {
     return map.intensity * (facing * max(-dot(normal, away), 0.0));
 }
 
+// Whether what a face shows at a place, in texels, belongs to the map of another level.
+bool inHole(RsmMap map, vec2 at) {
+    return all(greaterThanEqual(at, vec2(map.holeBegin))) && all(lessThan(at, vec2(map.holeBegin + map.holeSize)));
+}
+
 // Texels are stored tile by tile, so that a tile's 256 lie together: index of a texel by its tile and its place.
 uint rsmTexelIndex(uint tile, uint inTile) { return tile * (kRsmTileSize * kRsmTileSize) + inTile; }
 

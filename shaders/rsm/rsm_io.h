@@ -9,7 +9,9 @@ namespace ag::io {
 #endif
 
 const uint kMaxBounceLights = 8;
-const uint kMaxRsmMaps = kMaxBounceLights + 2;  // and those of surfaces that shine and of all that reflect
+const uint kMostSunLevels = 4;  // maps of one sun in a large scene
+const uint kMaxLightMaps = kMaxBounceLights + kMostSunLevels - 1;
+const uint kMaxRsmMaps = kMaxLightMaps + 2;  // and those of surfaces that shine and of all that reflect
 const uint kMaxRsmFaces = 50;
 const uint kMapOfSurfaces = 3;  // kind of a map whose texels are points on surfaces: none projects to it
 const uint kRsmTileSize = 16;   // texels; faces start and end on tile borders
@@ -35,10 +37,11 @@ struct RsmMap {     // 6 vec4: all faces of one bounce light
     uint faceCount;
     uint firstCluster;
     uint clusterCount;
-    uint lightIdLow;       // stable identity, to carry clusters over
+    uint id;               // stable identity of the map, to carry clusters over
     uint candidateRadius;  // tiles: clusters this near to a texel's tile are candidates for it
     uint firstPoint;       // kMapOfSurfaces: the first texel's among all points
-    uint unused[3];
+    uvec2 holeBegin;       // texels of the face: what is in another level's map
+    uint holeSize;         // 0: there is none
 };
 
 struct RsmTexel {         // 3 vec4; a texel is a small emitter (method: RSM)

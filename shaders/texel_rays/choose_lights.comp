@@ -35,7 +35,6 @@ const uint kPlaces = 4;       // 2 x 2
 const float kUnseen = 0.1;    // share of its light that counts where its map says it is not seen
 const float kAnywhere = 0.05; // and of what it would send if surface and light faced each other
 const float kExpected = 0.25;  // rays that what is expected counts for: little, maps are most wrong where light is rare
-const float kMostRays = 4096.0;  // remembered of a light, for clusters settle
 const float kEvenly = 0.1;    // of draws, whatever lights send: pixels about may be very different
 shared vec4 places[kPlaces], normals[kPlaces];  // w: 0: no surface
 
@@ -71,7 +70,7 @@ float expectedOf(AreaLight l, uint ismTileSize) {
 float weightOf(uint entry, AreaLight l, uint ismTileSize) {
     float count = push.p.known == 1 ? foundBefore.items[entry].count : 0.0;
     float squares = push.p.known == 1 ? foundBefore.items[entry].squares : 0.0;
-    float kept = min(1.0, kMostRays / max(count, 1.0)), expected = expectedOf(l, ismTileSize);
+    float kept = min(1.0, push.p.mostKnown / max(count, 1.0)), expected = expectedOf(l, ismTileSize);
     count *= kept, squares *= kept;
     found.items[entry].count = count;
     found.items[entry].squares = squares;

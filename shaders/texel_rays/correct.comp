@@ -19,11 +19,24 @@ layout(set = 0, binding = 4) uniform sampler2D previousCarried;
 // rgb: what was added to the area lights' light, W/m²; a: its luminance then.
 layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D correction;
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // that from before the last change
+layout(set = 0, binding = 7) uniform sampler2D surface;  // normal; m along the axis, 0: sky
+layout(set = 0, binding = 8) uniform sampler2D previousSurface;
+layout(set = 0, binding = 9, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
 layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
+#include "texel_rays/before.glsl"
 
 const int kStride = 4;     // pixels
 
 vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(shareOf, at, 0).x - 1.0) * lights; }
+
+// What was carried to the frame before, on the surface seen here.
+vec4 knownAt(ivec2 at, ivec2 size) {
+    if (push.p.moving == 0) return texelFetch(previousCarried, at, 0);
+    vec4 s = texelFetch(surface, at, 0), known = vec4(0.0);
+    Before b = seenBefore(size, s.xyz, placeOf(cameras.c.now, vec2(at), s.w) + cameras.c.now.eye, s.w);
+    [[unroll]] for (int i = 0; i < 4; ++i) known += b.weights[i] * texelFetch(previousCarried, b.taps[i], 0);
+    return known;
+}
 
 void main() {
     ivec2 size = imageSize(irradiance), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);
@@ -35,7 +48,7 @@ void main() {
             vec3 c = correctionAt(there, texelFetch(areaLights, there, 0).rgb, r.rgb);
             found += meanProduct(c, c), noise += r.a;
         }
-    vec4 lights = texelFetch(areaLights, at, 0), known = texelFetch(previousCarried, at, 0);
+    vec4 lights = texelFetch(areaLights, at, 0), known = knownAt(at, size);
     vec3 measured = correctionAt(at, lights.rgb, texelFetch(rest, at, 0).rgb);
     float trust = trustIn(found, noise);
     vec4 kept = push.p.valid == 1 ? vec4(push.p.fading * stillTrue(luminance(lights.rgb), known.a) * known.rgb, known.a) : vec4(0.0);

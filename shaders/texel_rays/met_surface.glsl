@@ -27,7 +27,9 @@ struct Sender {
 };
 
 Sender senderAt(uint map, Met met, BvhRay ray, uint atlasWidth) {
-    uint texel = texelAt(map, atlasWidth, met.place, met.normal);
+    MapPlace p = placeInMap(maps.items[map], met.place);
+    if (!p.inside && maps.items[map].kind == kLightDirectional) return Sender(kNoTexel, vec3(0.0));  // another level has it
+    uint texel = texelAt(p, atlasWidth, met.place, met.normal);
     texel = texel != kNoTexel && fetchTexel(slotOfTexel, int(texel)).x == kNoCluster ? kNoTexel : texel;
     vec3 along = vec3(1.0);
     if (texel != kNoTexel) {

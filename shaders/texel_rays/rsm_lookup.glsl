@@ -23,16 +23,26 @@ TexelMatch matchTexel(RsmSurface s, vec3 place, vec3 normal) {
     return TexelMatch(near && plane * plane < kTexelDepth * kTexelDepth * s.area, squared);
 }
 
-// The one that the map's light sees there, lit and on the same surface; else none. In a crease or beside a shadow's edge it may
-// stand for another surface: then one of those about it that does not. `normal`: of the surface, unit.
-uint texelAt(uint mapIndex, uint atlasWidth, vec3 place, vec3 normal) {
-    RsmMap map = maps.items[mapIndex];
-    vec3 d = place - map.position;
-    RsmFace face = faces.items[map.firstFace + (map.kind == kLightPoint ? cubeFace(d) : 0u)];
+struct MapPlace {
+    RsmFace face;
+    vec2 at;      // texels of the face
+    bool inside;  // the map's light falls there, if anything, and no other level's map has it
+};
+
+MapPlace placeInMap(RsmMap map, vec3 place) {
+    RsmFace face = faces.items[map.firstFace + (map.kind == kLightPoint ? cubeFace(place - map.position) : 0u)];
     vec4 clip = face.clipFromWorld * vec4(place, 1.0);
     vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * float(face.size);
     bool inside = clip.w > 0.0 && all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(face.size)));
-    if (!inside) return kNoTexel;
+    return MapPlace(face, at, inside && !inHole(map, at));
+}
+
+// The one that the map's light sees there, lit and on the same surface; else none. In a crease or beside a shadow's edge it may
+// stand for another surface: then one of those about it that does not. `normal`: of the surface, unit.
+uint texelAt(MapPlace p, uint atlasWidth, vec3 place, vec3 normal) {
+    if (!p.inside) return kNoTexel;
+    RsmFace face = p.face;
+    vec2 at = p.at;
     uint texel = rsmIndexOfCoord(face.origin + uvec2(at), atlasWidth);
     if (matchTexel(AG_RSM_FETCH(texels, texel), place, normal).same) return texel;
     uint found = kNoTexel;

@@ -37,14 +37,17 @@ struct CastPush {
 
 struct ChoosePush {
     ValShadingPush tiles;
-    uint ray;    // number of the frame's rays
-    uint known;  // 0: there are no rays before
+    uint ray;         // number of the frame's rays
+    uint known;       // 0: there are no rays before
+    float mostKnown;  // rays remembered of a light
 };
 
 struct RayAccumulatePush {
     float near;        // m
     uint valid;        // 0: there is no frame before
     float mostLength;  // frames that a mean stands for
+    uint moving;       // 1: something may have changed what rays find
+    uint sharp;        // 1: surfaces may have been between pixels
 };
 
 struct CarryPush {
@@ -56,6 +59,7 @@ struct CarryPush {
 struct CorrectPush {
     uint valid;    // 0: there is no frame before
     float fading;  // share of what is carried that stays, a frame
+    uint moving;   // 1: surfaces may have been at other pixels
 };
 
 #ifdef __cplusplus

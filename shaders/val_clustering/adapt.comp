@@ -26,7 +26,7 @@ const float kLeastTexels = 8.0;
 
 shared uint emptySlots[kMaxClusters], idleSlots[kMaxClusters], splitters[kMaxClusters];
 
-bool isLive(Cluster c, uint lightIdLow) { return c.texelCount > 0.0 && c.lightIdLow == lightIdLow; }
+bool isLive(Cluster c, uint mapId) { return c.texelCount > 0.0 && c.mapId == mapId; }
 
 // The worst fitting of the cluster's farthest texels: where its second half starts.
 uint seedTexel(uint cluster) {
@@ -56,7 +56,7 @@ void main() {
     float live = 0.0;
     for (uint base = 0; base < map.clusterCount; base += kLanes) {
         uint i = base + laneIndex(), cluster = map.firstCluster + min(i, map.clusterCount - 1);
-        if (i < map.clusterCount && isLive(previous.items[cluster], map.lightIdLow)) {
+        if (i < map.clusterCount && isLive(previous.items[cluster], map.id)) {
             sum += vec2(errors.items[cluster].ofFlux, errors.items[cluster].ofView);
             live += 1.0;
         }
@@ -69,7 +69,7 @@ void main() {
     for (uint base = 0; base < map.clusterCount; base += kLanes) {
         uint i = base + laneIndex(), cluster = map.firstCluster + min(i, map.clusterCount - 1);
         Cluster c = previous.items[cluster];
-        bool mine = i < map.clusterCount, lit = mine && isLive(c, map.lightIdLow);
+        bool mine = i < map.clusterCount, lit = mine && isLive(c, map.id);
         bool looked = lit && push.settings.lookPeriod > 0 &&
                       hashUint(cluster * 31 + push.settings.step * 7919) % max(push.settings.lookPeriod, 1) == 0;
         float error = dot(overMean, vec2(errors.items[cluster].ofFlux, errors.items[cluster].ofView));

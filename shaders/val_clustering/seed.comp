@@ -76,7 +76,7 @@ void main() {
         return;
     }
     Cluster before = previous.items[cluster];
-    bool kept = before.texelCount > 0.0 && before.lightIdLow == maps.items[mapIndex].lightIdLow;
+    bool kept = before.texelCount > 0.0 && before.mapId == maps.items[mapIndex].id;
     uint tile = kept ? projectToTile(before.position, maps.items[mapIndex]) : kNoCluster;
     if (tile != kNoCluster)
         seeds.items[cluster] =

@@ -115,7 +115,7 @@ void main() {
     c.chroma = empty ? seed.chroma : c.flux / max(length(c.flux), 1e-38);
     c.covarianceDiagonal = max(sums[3].xyz * invWeight - offset * offset, vec3(0.0));
     c.covarianceMixed = sums[4].xyz * invWeight - offset.xxy * offset.yzz;
-    c.lightIdLow = maps.items[seed.map].lightIdLow;
+    c.mapId = maps.items[seed.map].id;
     c.map = seed.map;
     c.age = seed.age;
     clusters.items[cluster] = c;

@@ -33,7 +33,7 @@ struct Cluster {       // 6 vec4: the state after a step
     vec3 normal;       // unit
     float texelCount;  // 0: empty, seeded anew in the next step
     vec3 flux;         // sum over its texels, W
-    uint lightIdLow;
+    uint mapId;
     vec3 chroma;
     float age;                // steps since seeded
     vec3 covarianceDiagonal;  // xx yy zz, m², flux-weighted

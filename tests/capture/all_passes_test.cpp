@@ -62,7 +62,7 @@ void addPasses(const Case& c, std::set<std::string>& names) {
     RecordSettings settings{.size = {64, 48}, .warmUp = 1, .frames = 1};
     ASSERT_TRUE(render::applyPreset(c.preset, settings.gi));
     settings.gi.bounce.laterBounces.enabled = c.options;
-    settings.gi.bounce.texelRays.enabled = c.options || c.rests;
+    settings.gi.bounce.texelRays.enabled = c.options || c.rests || c.waits;
     settings.gi.exposure.automatic = c.options;
     settings.gi.bloom.share = c.options ? 0.1f : 0.0f;
     settings.gi.antialiasing.mode =

@@ -25,16 +25,15 @@ struct Range {
 
 Range rangeOf(const RsmLayout& layout, uint64_t id) {
     for (uint32_t m = 0; m < layout.mapCount; ++m)
-        if (layout.maps[m].lightIdLow == id)
-            return {layout.maps[m].firstCluster, layout.maps[m].clusterCount};
+        if (layout.maps[m].id == id) return {layout.maps[m].firstCluster, layout.maps[m].clusterCount};
     return {0, 0};
 }
 
 TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
     for (const uint32_t budget : {3u, 16u, 23u, 40u, 64u, 100u, 128u, 1024u}) {
         Lit scene = threeLights();
-        ClusterShares shares;
-        const RsmLayout layout = layoutRsm(scene, {}, budget, shares);
+        RsmHistory history;
+        const RsmLayout layout = layoutRsm(scene, {}, budget, history);
         uint32_t next = 0;
         for (uint64_t id = 1; id <= 3; ++id) {
             const Range range = rangeOf(layout, id);
@@ -51,12 +50,12 @@ TEST(ClusterShares, AreByFluxAndTogetherAllThereAre) {
 
 TEST(ClusterShares, ALightThatFlickersTakesNothingFromTheOthers) {
     Lit scene = threeLights();
-    ClusterShares shares;
-    const RsmLayout before = layoutRsm(scene, {}, 128, shares);
+    RsmHistory history;
+    const RsmLayout before = layoutRsm(scene, {}, 128, history);
     for (int frame = 0; frame < 100; ++frame) {
         const float flame = frame % 7 == 0 ? 0 : frame % 2 ? 0.75f : 1.3f;  // it goes out now and then
         scene.lights[1].intensity = glm::vec3(20 * flame);
-        const RsmLayout now = layoutRsm(scene, {}, 128, shares);
+        const RsmLayout now = layoutRsm(scene, {}, 128, history);
         EXPECT_EQ(now.mapCount, flame == 0 ? 2u : 3u);
         for (const uint64_t id : {1, 3})
             EXPECT_EQ(rangeOf(now, id), rangeOf(before, id)) << "frame " << frame;
@@ -68,30 +67,30 @@ TEST(ClusterShares, ALightThatFlickersTakesNothingFromTheOthers) {
 
 TEST(ClusterShares, FollowLightThatStaysChanged) {
     Lit scene = threeLights();
-    ClusterShares shares;
-    const uint32_t before = rangeOf(layoutRsm(scene, {}, 128, shares), 1).count;
+    RsmHistory history;
+    const uint32_t before = rangeOf(layoutRsm(scene, {}, 128, history), 1).count;
     scene.lights[0].intensity *= 9.0f;
-    ClusterShares fresh;
-    const RsmLayout brighter = layoutRsm(scene, {}, 128, shares);
+    RsmHistory fresh;
+    const RsmLayout brighter = layoutRsm(scene, {}, 128, history);
     EXPECT_GT(rangeOf(brighter, 1).count, 2 * before);
     EXPECT_EQ(rangeOf(brighter, 1), rangeOf(layoutRsm(scene, {}, 128, fresh), 1));
 }
 
 TEST(ClusterShares, OfALightThatStaysDarkGoToTheOthers) {
     Lit scene = threeLights();
-    ClusterShares shares;
-    layoutRsm(scene, {}, 128, shares);
+    RsmHistory history;
+    layoutRsm(scene, {}, 128, history);
     scene.lights[2].intensity = glm::vec3(0);
     uint32_t frames = 0, all = 0;
     for (; all < 128 && frames < 1000; ++frames) {
-        const RsmLayout now = layoutRsm(scene, {}, 128, shares);
+        const RsmLayout now = layoutRsm(scene, {}, 128, history);
         all = rangeOf(now, 1).count + rangeOf(now, 2).count;
     }
     EXPECT_GT(frames, 60u);
     EXPECT_EQ(all, 128u);
-    EXPECT_EQ(shares.count, 2u);
+    EXPECT_EQ(history.shares.count, 2u);
     scene.lights[0].intensity = scene.lights[1].intensity = glm::vec3(0);
-    EXPECT_EQ(layoutRsm(scene, {}, 128, shares).mapCount, 0u) << "no light, no map";
+    EXPECT_EQ(layoutRsm(scene, {}, 128, history).mapCount, 0u) << "no light, no map";
 }
 
 uint64_t texelsOf(const RsmLayout& layout) {
@@ -103,25 +102,25 @@ uint64_t texelsOf(const RsmLayout& layout) {
 
 TEST(RsmSizes, AreWhatLightsAskForAsLongAsTheyAreFew) {
     Lit scene = threeLights();
-    ClusterShares shares;
-    EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), 3u * 512 * 512);
-    EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 64}, 128, shares)), 3u * 64 * 64);
+    RsmHistory history;
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, history)), 3u * 512 * 512);
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 64}, 128, history)), 3u * 64 * 64);
     scene.lights[0].kind = LightKind::kPoint;
     scene.lights[1].resolution = 300;
-    EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, shares)), (6u + 1 + 4) * 256 * 256);
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {}, 128, history)), (6u + 1 + 4) * 256 * 256);
 }
 
 TEST(RsmSizes, OfManyLightsAreHalvedAndDarkOnesCount) {
     Lit scene = threeLights();
     for (uint64_t id = 4; id <= 8; ++id)
         scene.lights.push_back({.kind = LightKind::kPoint, .intensity = glm::vec3(1), .id = id});
-    ClusterShares shares;
-    EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 1024}, 128, shares)), (3u * 4 + 5 * 6) * 128 * 128);
-    const RsmLayout all = layoutRsm(scene, {}, 128, shares);
+    RsmHistory history;
+    EXPECT_EQ(texelsOf(layoutRsm(scene, {.resolution = 1024}, 128, history)), (3u * 4 + 5 * 6) * 128 * 128);
+    const RsmLayout all = layoutRsm(scene, {}, 128, history);
     EXPECT_EQ(all.faces[0].size, 256u);
     for (size_t i = 1; i < scene.lights.size(); ++i)
         scene.lights[i].intensity = glm::vec3(0);
-    EXPECT_EQ(layoutRsm(scene, {}, 128, shares).faces[0].size, 256u) << "no map grows as others go out";
+    EXPECT_EQ(layoutRsm(scene, {}, 128, history).faces[0].size, 256u) << "no map grows as others go out";
 }
 
 }  // namespace

@@ -857,7 +857,7 @@ TEST(Frame, AFlickeringLightLeavesTheOthersClustersAlone) {
         }
         int count = 0;
         for (const io::Cluster& c : b.read<io::Cluster>(b.last.bounce.clusters.clusters))
-            count += c.texelCount > 0 && c.lightIdLow == uint32_t(b.scene.lights[1].id) && c.age >= 12;
+            count += c.texelCount > 0 && c.mapId == uint32_t(b.scene.lights[1].id) && c.age >= 12;
         return count;
     };
     const int steady = oldClusters(false);

@@ -61,11 +61,12 @@ TEST(TexelRays, WhatMovedStandsInTheWayWhereItIs) {
     EXPECT_GT(shareOff(old, truth, 0.25 * mean), 0.06);  // it makes a difference
 }
 
-// While something changes no ray is cast, and surfaces keep what was found on them; lights that go out take
+// Where no ray is cast while something changes, surfaces keep what was found on them; lights that go out take
 // it with them.
 TEST(TexelRays, WhatWasFoundIsCarriedAlong) {
     Bench b(*scenegen::buildScene("shell", 0), {96, 54});
     b.settings = withRays(true);
+    b.settings.bounce.texelRays.movingLength = 0;
     const double found = meanOf(bounce1After(b, 64));
     EXPECT_EQ(b.outcome("texel_rays.cast"), PassOutcome::kRan);
     Bench without(*scenegen::buildScene("shell", 0), {96, 54});
@@ -94,6 +95,28 @@ TEST(TexelRays, WhatWasFoundIsCarriedAlong) {
     const double left = walk(b, 2), alone = walk(without, 2);
     std::printf("of lights that are nearly out: %.4f, without %.4f\n", left / found, alone / found);
     EXPECT_LT(left, alone + 0.05 * found);
+}
+
+// Area lights leak into the shell; rays that follow a camera that never stands still find that they do.
+TEST(TexelRays, AreCastWhileTheCameraWalks) {
+    const auto walked = [](uint32_t length) {
+        Bench b(*scenegen::buildScene("shell", 0), {96, 54});
+        b.settings = withRays(true);
+        b.settings.bounce.texelRays.movingLength = length;
+        for (int i = 0; i < 48; ++i) {
+            shiftCamera(b.scene, {0.002f, 0, 0});
+            b.frame();
+        }
+        EXPECT_EQ(b.outcome("texel_rays.cast"), length > 0 ? PassOutcome::kRan : PassOutcome::kDropped);
+        return meanOf(readImage(b.renderer, b.last.bounce.bounce1.image));
+    };
+    Bench still(*scenegen::buildScene("shell", 0), {96, 54});
+    still.settings = withRays(true);
+    const double truth = meanOf(bounce1After(still, 256)), with = walked(48), without = walked(0);
+    std::printf("light at the end of a walk over that at rest: with rays %.3f, without %.3f\n", with / truth,
+                without / truth);
+    EXPECT_GT(without, 2 * truth);
+    EXPECT_LT(with, truth + 0.3 * (without - truth));
 }
 
 TEST(TexelRays, AStillFrameComesToRestAndSkippingChangesNoBit) {

@@ -150,11 +150,17 @@ class Rendering {
         renderer_.load(loaded.asset->geometry);
     }
 
-    Status run() {
+    // `walk`: m the camera moves in each frame; it arrives at the view with the last one.
+    Status run(glm::vec3 walk) {
         ProgressLine line("render ");
         Budget budget(options_.budgetMs, settings_.gi);
         const uint32_t frames = std::max(options_.frames, 1u);
+        const RenderCamera end = loaded_.scene.camera;
         for (uint32_t i = 0; i < frames; ++i) {
+            if (walk != glm::vec3(0)) {
+                loaded_.scene.camera = end;
+                shiftCamera(loaded_.scene, -float(frames - 1 - i) * walk);
+            }
             if (options_.budgetMs > 0 && i > 0) budget.follow(renderer_, settings_.gi);
             renderFrame();
             if (!shown_.missing.empty()) return Error{shown_.missing};
@@ -274,7 +280,8 @@ int runRender(RenderOptions options) {
         if (const Status done = rendering.runTurntable(); !done) return refuse(done.error().message);
         return (*device)->validationMessageCount() == 0 ? 0 : 1;
     }
-    if (const Status done = rendering.run(); !done) return refuse(done.error().message);
+    const glm::vec3 arriving = options.times ? glm::vec3(0) : *walk;
+    if (const Status done = rendering.run(arriving); !done) return refuse(done.error().message);
     if (const Status saved = saveImage(rendering.image(), options.output); !saved)
         return refuse(saved.error().message);
     if (options.times && *walk != glm::vec3(0))
@@ -312,8 +319,10 @@ void addRenderCommand(CLI::App& program, int& exitCode) {
     command->add_option("--session", options->session, "what the viewer saved; other options go on top");
     command->add_flag("--list-settings", options->listSettings,
                       "every setting with default, range, unit, help");
-    command->add_option("--walk", options->walk,
-                        "with --times: DX,DY,DZ, m the camera moves in each frame measured");
+    command->add_option(
+        "--walk", options->walk,
+        "DX,DY,DZ, m the camera moves in each frame: it arrives at the view with the last one; "
+        "with --times: in each frame measured");
     CLI::Option* turntable =
         command
             ->add_option("--turntable", options->turntable,
