@@ -43,7 +43,8 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
                        : addDownsampled(scope, in.surfaces, {s.spacing, grid.place}, kOtherDownsampling);
     const Vals asked = valsOf(f, s.term);
     const bool rays = castsTexelRays(s.texelRays, in.occluders) && f.vals.count > 0;
-    const bool moving = rays && s.texelRays.movingLength > 0 && refresh.pixels.count == 1;
+    const bool whole = refresh.pixels.count == 1;
+    const bool moving = rays && !grid.still && whole && s.texelRays.movingLength > 0;
     // Rays correct all light at once; else later bounces are gathered at fewer pixels.
     const bool together = grid.still || moving || s.laterBounces.spacing == 1;
     const ShadowedVals first{together ? asked : valsBetween(asked, 0, f.firstCount), f.isms};
@@ -58,7 +59,7 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     if (rays)
         f.irradiance = addTexelRays(tiles, f.irradiance,
                                     {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world.versions,
-                                     grid, refresh.pixels.count == 1, s.laterBounces.feedback},
+                                     grid, whole, moving, s.laterBounces.feedback},
                                     s.valShading, s.texelRays, h.texelRays);
     if (isFirstBounce(f, asked)) f.bounce1 = f.irradiance;
     f.gloss = addValGloss(scope, in.surfaces, downsampled, {f.vals, f.isms}, s.valShading, refresh.pixels);

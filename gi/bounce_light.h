@@ -29,7 +29,7 @@ struct BounceLightInputs {
 struct BounceLightHistory {
     RefreshHistory refresh;
     RsmHistory rsm;
-    SunFocus sunFocus;
+    SunFocusHistory sunFocus;
     ValClusteringHistory valClustering;
     GatherGridHistory gatherGrid;
     TexelRaysHistory texelRays;

@@ -19,8 +19,10 @@ SunFocus addSunFocus(GraphScope scope, const BounceLightInputs& in, const RsmSet
                                                                        "rsm.view_points1"};
     const bool sun = std::ranges::any_of(
         in.world.lights, [](const RsmLight& light) { return light.kind == LightKind::kDirectional; });
-    if (!sun || s.sunDetail == 0) return h.sunFocus = {};
-    return h.sunFocus = focusOf(scope.readBack(kCopies, viewPoints), in.surfaces.view.position, h.sunFocus);
+    if (sun && s.sunDetail > 0)
+        return followFocus(scope.readBack(kCopies, viewPoints), in.surfaces.view.position, h.sunFocus);
+    h.sunFocus = {};
+    return {};
 }
 
 void addRsms(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace ag::gi {
 namespace {
@@ -37,9 +38,8 @@ glm::ivec2 beginAbout(glm::vec3 eye, const LightView& around, uint32_t size, con
     return glm::clamp(begin, 0, int32_t(size) - width);
 }
 
-}  // namespace
-
-SunFocus focusOf(std::span<const std::byte> viewPoints, glm::vec3 eye, const SunFocus& before) {
+// None: few of them show a surface.
+std::optional<float> medianDistance(std::span<const std::byte> viewPoints, glm::vec3 eye) {
     std::array<float, io::kViewPointCount> distances;
     size_t count = 0;
     for (; viewPoints.size() >= sizeof(io::ViewPoint) && count < distances.size();
@@ -48,10 +48,23 @@ SunFocus focusOf(std::span<const std::byte> viewPoints, glm::vec3 eye, const Sun
         std::memcpy(&point, viewPoints.data(), sizeof point);
         if (point.weight > 0) distances[count++] = glm::distance(point.position, eye);
     }
-    if (count < kLeastSeen) return {eye, before.distance};
+    if (count < kLeastSeen) return std::nullopt;
     const auto middle = distances.begin() + count / 2;
     std::nth_element(distances.begin(), middle, distances.begin() + count);
-    return {eye, std::isfinite(*middle) ? *middle : before.distance};
+    return std::isfinite(*middle) ? std::optional(*middle) : std::nullopt;
+}
+
+}  // namespace
+
+SunFocus followFocus(std::span<const std::byte> viewPoints, glm::vec3 eye, SunFocusHistory& history) {
+    const bool known = history.known == history.eyes.size();
+    const glm::vec3 eyeThen = history.eyes.front();
+    std::ranges::rotate(history.eyes, history.eyes.begin() + 1);
+    history.eyes.back() = eye;
+    history.known = std::min(history.known + 1, uint32_t(history.eyes.size()));
+    history.focus.eye = eye;
+    if (known) history.focus.distance = medianDistance(viewPoints, eyeThen).value_or(history.focus.distance);
+    return history.focus;
 }
 
 float steadyDistance(float distance, float before) {

@@ -21,6 +21,13 @@ struct SunFocus {
     float distance = 0;  // m, of what the camera sees in the median; 0: not known, one level
 };
 
+// What is read back is some frames old, and may be about another origin than the camera is now.
+struct SunFocusHistory {
+    SunFocus focus;
+    std::array<glm::vec3, kFramesInFlight> eyes{};  // of those frames, the oldest first
+    uint32_t known = 0;                             // of `eyes`, the last ones
+};
+
 // What lives on the CPU from frame to frame.
 struct SunLevelsHistory {
     float distance = 0;  // m, that the levels are made for: it stays while the focus' is near
@@ -35,8 +42,9 @@ struct SunLevel {
     uint32_t holeSize = 0;    // 0: there is none
 };
 
-// From view points that were read back; `before` while there are none.
-SunFocus focusOf(std::span<const std::byte> viewPoints, glm::vec3 eye, const SunFocus& before);
+// `viewPoints`: as they were kFramesInFlight frames ago, or none. Keeps the distance where few show a
+// surface.
+SunFocus followFocus(std::span<const std::byte> viewPoints, glm::vec3 eye, SunFocusHistory& history);
 
 // The distance to make levels for.
 float steadyDistance(float distance, float before);

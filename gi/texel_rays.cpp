@@ -27,6 +27,9 @@ constexpr RayFilterNames kFilter = {
 constexpr uint32_t kFirstMovingRay = 1u << 28;  // unlike those of a still picture
 // Rays remembered of a block's light: for clusters settle; and blocks leave what they saw.
 constexpr float kRaysKnown = 4096, kRaysKnownMoving = 256;
+// Frames whose variance is not to be believed. A still picture can wait for more, and draws that have not
+// learned yet need more.
+constexpr float kFew = 14, kFewMoving = 7;
 
 // How likely pixels of a block are to draw each light.
 struct Choice {
@@ -163,7 +166,6 @@ struct Measured {
     float mostLength;  // frames that means stand for
     bool follows;      // on rays of the frame before
     bool worldMoves;   // what rays find may have changed
-    bool moving;       // surfaces may have been between pixels
     uint32_t step;
 };
 
@@ -193,8 +195,7 @@ Means addMeans(const ValTiles& t, const Measured& of, const Seen& seen) {
         .push(io::RayAccumulatePush{.near = t.gbuffer.view.near,
                                     .valid = of.follows && seen.known && m.sent.valid && seen.surface.valid,
                                     .mostLength = of.mostLength,
-                                    .moving = of.worldMoves,
-                                    .sharp = of.moving})
+                                    .moving = of.worldMoves})
         .step(of.step)
         .dispatchThreads(t.gbuffer.size.x, t.gbuffer.size.y);
     return m;
@@ -237,6 +238,7 @@ Irradiance carry(const ValTiles& t, const Irradiance& areaLights, const Seen& se
 struct Keeping {
     bool fromCorrection;  // the frame before's
     bool moving;
+    float few;  // frames: the variance of so few is not to be believed
     float share, dimming;
     uint32_t step;
 };
@@ -257,6 +259,7 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
         .read("cameras", seen.cameras)
         .write("rest", rest)
         .write("shareOf", share)
+        .push(io::RegressPush{keeping.few})
         .dispatchThreads(size.x, size.y);
     const ImageHandle filtered = addRayFilter(t.scope, size, {rest, seen.surface.current, seen.cameras},
                                               {s.rounds, s.tolerance}, kFilter, FilterAlpha::kVariance);
@@ -273,6 +276,8 @@ Irradiance addCorrection(const ValTiles& t, const Irradiance& areaLights, const 
         .sample("surface", seen.surface.current)
         .samplePrevious("previousSurface", seen.surface, Sampler::kNearestClamp)
         .read("cameras", seen.cameras)
+        .sample("motionMap", t.gbuffer.motion ? t.gbuffer.motion : t.gbuffer.normal)
+        .constant("kMotion", bool(t.gbuffer.motion))
         .push(io::CorrectPush{seen.known && before.valid && seen.surface.valid,
                               keeping.share * keeping.dimming, keeping.moving})
         .step(keeping.step)
@@ -325,28 +330,39 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const Seen seen = addSeen(t, in.versions.origin, history);
     const float dimming = dimmingOf(in.rsm, history);
     const bool wasWhole = std::exchange(history.whole, in.whole);
-    const bool moving = history.settling.sinceChange == 0;
     const uint64_t world = hashOfWorld(in);
     const bool worldMoves = std::exchange(history.world, world) != world;
-    if (moving && (s.movingLength == 0 || !in.whole)) {
-        history.cast = false;
+    const uint32_t still = history.settling.sinceChange;
+    const bool moving = in.moving;
+    if (still == 0 && !moving) {
+        history.casts = 0;
         return carry(t, areaLights, seen, dimming, step);
     }
     // The first frame in which nothing changes begins anew: a still picture does not depend on what was
-    // before. Light that is late says nothing of rays' mean.
-    const bool wasCast = std::exchange(history.cast, true);
-    const bool follows = wasWhole && (moving ? wasCast : history.settling.sinceChange > 1);
+    // before.
+    if (still == 1) history.casts = 0;
+    const uint32_t casts = history.casts++;
     const uint32_t ray = moving ? kFirstMovingRay + step : rayNumber(in.grid, history.settling);
-    const Choice choice = addChoice(t, ray, moving ? wasCast : history.settling.sinceChange > 1,
-                                    moving ? kRaysKnownMoving : kRaysKnown);
+    const Choice choice = addChoice(t, ray, casts > 0, moving ? kRaysKnownMoving : kRaysKnown);
     const Sent sent = addRays(t, choice, in, s.reach, ray);
     const ImageHandle control = addControl(t, choice, sent.drawn, shading);
-    const float length = moving ? float(s.movingLength) : meanLength(in.grid, s.mostLength);
-    const Means means = addMeans(
-        t, {areaLights.image, sent, control, length, follows, moving && worldMoves, moving, step}, seen);
+    const Means means =
+        addMeans(t,
+                 {.areaLights = areaLights.image,
+                  .sent = sent,
+                  .control = control,
+                  .mostLength = moving ? float(s.movingLength) : meanLength(in.grid, s.mostLength),
+                  .follows = casts > 0 && wasWhole,  // light that is late says nothing of rays' mean
+                  .worldMoves = moving && worldMoves,
+                  .step = step},
+                 seen);
     return addCorrection(t, areaLights, means, seen, s,
-                         {moving || history.settling.sinceChange == 1, moving, keptShare(in.grid),
-                          moving ? dimming : 1, step});
+                         {.fromCorrection = moving || still == 1,
+                          .moving = moving,
+                          .few = moving && casts > kFew ? kFewMoving : kFew,
+                          .share = keptShare(in.grid),
+                          .dimming = moving ? dimming : 1,
+                          .step = step});
 }
 
 }  // namespace ag::gi

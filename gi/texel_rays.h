@@ -55,7 +55,7 @@ struct TexelRaysSettings {
 struct TexelRaysHistory {
     Settling settling;
     bool whole = true;   // every pixel's area lights were of that frame
-    bool cast = false;   // rays were cast in that frame
+    uint32_t casts = 0;  // frames up to that one, in a row, whose draws learned from one another
     uint64_t world = 0;  // of what rays find, but the camera
     RenderCamera camera;
     uint64_t originVersion = 0;
@@ -75,6 +75,7 @@ struct TexelRaysInputs {
     const Versions& versions;
     const GatherGrid& grid;
     bool whole = true;    // every pixel's area lights are of this frame
+    bool moving = false;  // something changed, and rays are cast all the same
     bool endless = true;  // light goes on after its second bounce
 };
 

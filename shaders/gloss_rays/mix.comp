@@ -27,7 +27,7 @@ layout(set = 0, binding = 11, rgba16f) uniform writeonly image2D correction;  //
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D surface;     // normal; m along the axis, 0: sky
 layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D carried;     // of that, what is from before the last change
 layout(constant_id = 0) const bool kRays = true;
-#include "texel_rays/before.glsl"
+#include "ray_filter/before.glsl"
 #include "texel_rays/carried.glsl"
 
 float depthAt(ivec2 pixel) {

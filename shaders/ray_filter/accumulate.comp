@@ -24,27 +24,22 @@ layout(set = 0, binding = 9, rgba16f) uniform writeonly image2D surface;  // nor
 layout(set = 0, binding = 10, rgba32f) uniform writeonly image2D rest;    // a: variance, mean of its channels
 layout(set = 0, binding = 11) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
 layout(constant_id = 0) const bool kMotion = false;
+#include "ray_filter/before.glsl"
 
-void known(ivec2 size, vec3 normal, vec3 place, float depth, out vec4 mean, out float square) {
-    mean = vec4(0.0), square = 0.0;
-    ReprojectionCameras c = cameras.c;
-    vec4 clip = c.previousClipFromWorld * vec4(place, 1.0);
-    vec2 at = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5, low = floor(at);
-    float footprint = 2.0 * c.pixelSize * max(depth, 1e-3), total = 0.0;
+struct Mean {
+    vec4 light;
+    float square;
+};
+
+Mean known(ivec2 size, vec3 normal, vec3 place, float depth) {
+    Mean m = Mean(vec4(0.0), 0.0);
+    if (push.p.valid == 0) return m;
+    Before b = seenBefore(size, normal, place, depth);
     [[unroll]] for (int i = 0; i < 4; ++i) {
-        ivec2 tap = ivec2(low) + ivec2(i & 1, i >> 1), there = clamp(tap, ivec2(0), size - 1);
-        vec4 s = texelFetch(previousSurface, there, 0);
-        vec3 apart = placeOf(c.before, vec2(there), s.w) + c.before.eye - place;
-        vec2 f = max(1.0 - abs(vec2(tap) - at), 0.0);
-        float like = tap == there && s.w > 0.0 ? likeness(normal, apart, footprint, s.xyz) : 0.0;
-        float weight = like > 0.25 ? f.x * f.y * like : 0.0;
-        mean += weight * texelFetch(previousMean, there, 0);
-        square += weight * texelFetch(previousSquare, there, 0).x;
-        total += weight;
+        m.light += b.weights[i] * texelFetch(previousMean, b.taps[i], 0);
+        m.square += b.weights[i] * texelFetch(previousSquare, b.taps[i], 0).x;
     }
-    bool any = push.p.valid == 1 && depth > 0.0 && clip.w > 0.0 && total > 0.01;
-    mean *= any ? 1.0 / total : 0.0;
-    square *= any ? 1.0 / total : 0.0;
+    return m;
 }
 
 void main() {
@@ -52,9 +47,9 @@ void main() {
     float reversed = texelFetch(depthMap, at, 0).x, depth = reversed > 0.0 ? push.p.near / reversed : 0.0;
     vec3 normal = texelFetch(normalMap, at, 0).xyz, place = placeOf(cameras.c.now, vec2(at), depth) + cameras.c.now.eye;
     vec3 motion = kMotion ? texelFetch(motionMap, at, 0).xyz : vec3(0.0);
-    vec4 mean;
-    float square;
-    known(size, normal, place + motion, depth, mean, square);
+    Mean m = known(size, normal, place + motion, depth);
+    vec4 mean = m.light;
+    float square = m.square;
     vec3 e = texelFetch(sent, at, 0).rgb;
     float before = luminance(mean.rgb);
     bool counts = mean.a > 0.0 && depth > 0.0 && all(lessThan(pixel, size));

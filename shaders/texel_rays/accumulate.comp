@@ -32,29 +32,13 @@ layout(set = 0, binding = 13, rgba16f) uniform writeonly image2D surface;      /
 layout(set = 0, binding = 14) uniform sampler2D sentNear;
 layout(set = 0, binding = 15) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
 layout(constant_id = 0) const bool kMotion = false;
-#include "texel_rays/before.glsl"
+#include "ray_filter/before.glsl"
 
 const float kMostTimes = 64.0;  // a draw may send so many times what is known: more came of a tiny probability
 
 struct Means {
     vec4 sent, control, moments;
 };
-
-// The same by more taps, but for the frames it stands for.
-void takeSharper(inout Means m, Before b) {
-    vec4 x = catmullRom(b.inTaps.x), y = catmullRom(b.inTaps.y);
-    vec3 rays = vec3(0.0), lights = vec3(0.0), squares = vec3(0.0);
-    for (int i = 0; i < 16; ++i) {
-        ivec2 tap = b.taps[0] + ivec2(i & 3, i >> 2) - 1;
-        float weight = x[i & 3] * y[i >> 2];
-        rays += weight * texelFetch(previousSent, tap, 0).rgb;
-        lights += weight * texelFetch(previousControl, tap, 0).rgb;
-        squares += weight * texelFetch(previousMoments, tap, 0).xyz;
-    }
-    m.sent.rgb = max(rays, vec3(0.0));
-    m.control.rgb = lights;
-    m.moments.xyz = max(squares, vec3(0.0));
-}
 
 Means known(ivec2 size, vec3 normal, vec3 place, float depth) {
     Means m = Means(vec4(0.0), vec4(0.0), vec4(0.0));
@@ -65,7 +49,6 @@ Means known(ivec2 size, vec3 normal, vec3 place, float depth) {
         m.control += b.weights[i] * texelFetch(previousControl, b.taps[i], 0);
         m.moments += b.weights[i] * texelFetch(previousMoments, b.taps[i], 0);
     }
-    if (push.p.sharp == 1 && seenWhole(b, size, normal, place)) takeSharper(m, b);
     return m;
 }
 

@@ -21,7 +21,7 @@ layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D irradiance;
 layout(set = 0, binding = 7, rgba16f) uniform writeonly image2D correction;  // as in correct.comp
 layout(set = 0, binding = 8, rgba16f) uniform writeonly image2D surface;     // normal; m along the axis, 0: sky
 
-#include "texel_rays/before.glsl"
+#include "ray_filter/before.glsl"
 
 void main() {
     ivec2 size = imageSize(irradiance), pixel = ivec2(gl_GlobalInvocationID.xy), at = min(pixel, size - 1);

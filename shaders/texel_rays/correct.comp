@@ -22,8 +22,10 @@ layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D carried;  // tha
 layout(set = 0, binding = 7) uniform sampler2D surface;  // normal; m along the axis, 0: sky
 layout(set = 0, binding = 8) uniform sampler2D previousSurface;
 layout(set = 0, binding = 9, scalar) uniform Cameras { ReprojectionCameras c; } cameras;
+layout(set = 0, binding = 10) uniform sampler2D motionMap;  // m to where the surface was; read only if kMotion
+layout(constant_id = 0) const bool kMotion = false;
 layout(push_constant, scalar) uniform Push { CorrectPush p; } push;
-#include "texel_rays/before.glsl"
+#include "ray_filter/before.glsl"
 
 const int kStride = 4;     // pixels
 
@@ -33,7 +35,8 @@ vec3 correctionAt(ivec2 at, vec3 lights, vec3 left) { return left + (texelFetch(
 vec4 knownAt(ivec2 at, ivec2 size) {
     if (push.p.moving == 0) return texelFetch(previousCarried, at, 0);
     vec4 s = texelFetch(surface, at, 0), known = vec4(0.0);
-    Before b = seenBefore(size, s.xyz, placeOf(cameras.c.now, vec2(at), s.w) + cameras.c.now.eye, s.w);
+    vec3 motion = kMotion ? texelFetch(motionMap, at, 0).xyz : vec3(0.0);
+    Before b = seenBefore(size, s.xyz, placeOf(cameras.c.now, vec2(at), s.w) + cameras.c.now.eye + motion, s.w);
     [[unroll]] for (int i = 0; i < 4; ++i) known += b.weights[i] * texelFetch(previousCarried, b.taps[i], 0);
     return known;
 }

@@ -9,6 +9,7 @@
 #include "texel_rays/texel_rays_io.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Push { RegressPush p; } push;
 
 layout(set = 0, binding = 0) uniform sampler2D areaLights;
 layout(set = 0, binding = 1) uniform sampler2D sentMean;
@@ -21,7 +22,6 @@ layout(set = 0, binding = 7, r32f) uniform writeonly image2D shareOf;  // of the
 
 const int kReach = 2;             // pixels about
 const float kLeastSpread = 0.01;  // of the squared mean: few samples may all be alike by chance
-const float kFew = 14.0;          // frames: the variance of so few is not to be believed
 const float kMostSurprise = 0.3;  // how far the share of detail may be from what moments say, as a deviation
 
 struct Window {
@@ -72,7 +72,7 @@ void main() {
     vec4 sent = texelFetch(sentMean, at, 0);
     vec3 lights = texelFetch(areaLights, at, 0).rgb, control = lights + texelFetch(controlMean, at, 0).rgb;
     float share = w.central.z > 0.0 ? clamp(w.central.y / w.central.z, 0.0, 1.0) : 1.0;
-    float n = max(sent.a, 1.0), few = kFew / n, e2 = meanProduct(w.sent, w.sent);
+    float n = max(sent.a, 1.0), few = push.p.few / n, e2 = meanProduct(w.sent, w.sent);
     // A firefly has a large variance of its own; narrow real light has not.
     vec3 own = max(centralAt(at, sent.rgb, control), vec3(0.0)) * (n / max(n - 1.0, 1.0));
     float spread = max(spreadOf(w.central, share), spreadOf(own, share));

@@ -47,13 +47,16 @@ struct RayAccumulatePush {
     uint valid;        // 0: there is no frame before
     float mostLength;  // frames that a mean stands for
     uint moving;       // 1: something may have changed what rays find
-    uint sharp;        // 1: surfaces may have been between pixels
 };
 
 struct CarryPush {
     float near;     // m
     uint valid;     // 0: there is no frame before
     float dimming;  // at most 1: of the light that dimmed least since the frame before
+};
+
+struct RegressPush {
+    float few;  // frames: the variance of so few is not to be believed
 };
 
 struct CorrectPush {

@@ -88,15 +88,35 @@ TEST(SunLevels, KeepTheDistanceThatIsNearlyWhatItWas) {
     EXPECT_EQ(steadyDistance(5, 15), 5);
 }
 
-TEST(SunLevels, TakeTheMedianOfWhatIsSeen) {
+std::vector<io::ViewPoint> pointsFrom(float x) {
     std::vector<io::ViewPoint> points(io::kViewPointCount);
     for (size_t i = 0; i < 101; ++i)
-        points[i] = {.position = {float(i), 0, 0}, .weight = 1};
-    EXPECT_NEAR(focusOf(std::as_bytes(std::span(points)), {0, 0, 0}, {}).distance, 50, 1);
-    const SunFocus before{.distance = 7};
-    EXPECT_EQ(focusOf({}, {1, 2, 3}, before).distance, 7) << "nothing was read back yet";
-    points.assign(points.size(), {});
-    EXPECT_EQ(focusOf(std::as_bytes(std::span(points)), {}, before).distance, 7) << "the sky alone is seen";
+        points[i] = {.position = {x + float(i), 0, 0}, .weight = 1};
+    return points;
+}
+
+TEST(SunLevels, TakeTheMedianOfWhatIsSeen) {
+    SunFocusHistory history;
+    const auto seen = pointsFrom(0);
+    const auto follow = [&](std::span<const io::ViewPoint> points, float x) {
+        return followFocus(std::as_bytes(points), {x, 0, 0}, history).distance;
+    };
+    for (uint32_t frame = 0; frame < kFramesInFlight; ++frame)
+        EXPECT_EQ(follow({}, 0), 0) << "nothing was read back yet";
+    EXPECT_NEAR(follow(seen, 0), 50, 1);
+    const std::vector<io::ViewPoint> sky(io::kViewPointCount);
+    EXPECT_NEAR(follow(sky, 0), 50, 1) << "the sky alone is seen";
+}
+
+TEST(SunLevels, MeasureWhatIsSeenFromWhereItWasSeen) {
+    SunFocusHistory history;
+    for (uint32_t frame = 0; frame < kFramesInFlight; ++frame)
+        followFocus({}, {0, 0, 0}, history);
+    const auto before = pointsFrom(0), after = pointsFrom(5000);
+    for (uint32_t frame = 0; frame < 3 * kFramesInFlight; ++frame) {  // another origin, or another place
+        const auto& read = frame < kFramesInFlight ? before : after;
+        EXPECT_NEAR(followFocus(std::as_bytes(std::span(read)), {5000, 0, 0}, history).distance, 50, 1);
+    }
 }
 
 }  // namespace
