@@ -231,6 +231,26 @@ TEST(Bench, PathTracingsErrorBetweenTheTimesItWasLookedAt) {
     EXPECT_EQ(errorAfter({}, 10), 0);
 }
 
+TEST(Bench, PathTracingGetsBetterWithTime) {
+    const SceneAsset asset = *scenegen::buildScene("cornell", 0);
+    RenderScene scene = staticScene(asset);
+    constexpr glm::uvec2 kSize{32, 18};
+    setCamera(scene, cameraOf(asset, 0), kSize);
+    const reference::RayScene rays(scene);
+    JobRunner runner(2);
+    const auto trace = [&](uint32_t seed) {
+        return reference::makeReference(
+            rays, kSize, {.samplesPerPixel = 256, .seed = seed, .layer = "bounce1"}, runner, [](double) {});
+    };
+    const reference::Reference a = trace(1), b = trace(2);
+    const std::vector<Row> curve =
+        tracePathCurve(rays, {}, "bounce1", {a.bounces[1], b.bounces[1]}, runner, 6);
+    ASSERT_EQ(curve.size(), 6u);
+    EXPECT_LT(curve.back().error.relativeRmse, curve.front().error.relativeRmse);
+    for (const Row& row : curve)
+        EXPECT_TRUE(row.isPathTracing() && row.flip > 0 && row.size == kSize) << row.variant;
+}
+
 // A term is a layer of both, so that errors can be measured on it.
 TEST(Bench, TermsAreLayersOfRendererAndReference) {
     for (const std::string_view term : terms()) {

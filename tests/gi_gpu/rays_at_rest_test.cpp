@@ -123,11 +123,11 @@ TEST(RaysAtRest, SurfacesMayShineHoweverBright) {
 }
 
 TEST(RaysAtRest, LaterBouncesLoseLittleLight) {
-    Bench b(*scenegen::buildScene("courtyard", 0), {96, 54});
+    Bench b(*scenegen::buildScene("courtyard", 0), {80, 45});
     b.settings = {};
     addBounces(b.settings);
-    b.settings.bounce.texelRays = {.settleFrames = 64};
-    b.settings.bounce.sky.settleFrames = 64;
+    b.settings.bounce.texelRays = {.settleFrames = 48};
+    b.settings.bounce.sky.settleFrames = 48;
     const double truth = meanOf(traced(b, Layer::kIndirect, 16, 64));
     const auto ratio = [&](uint32_t rays) {
         b.settings.bounce.laterBounces.rays = rays;

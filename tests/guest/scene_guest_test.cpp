@@ -192,7 +192,7 @@ class HostScene {
 };
 
 constexpr glm::uvec2 kSize{112, 63};
-constexpr int kSceneFrames = 40;  // rays are cast at rest, from the second on
+constexpr int kSceneFrames = 24;  // rays are cast at rest, from the second on
 
 struct Compared {
     double meanRatio, relativeError;

@@ -3,7 +3,7 @@
 # and the scene library's where AFTERGLOW_SCENES names its folder. FIRST_SIGHT=FRAMES WxH changes how they are looked at.
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$here/display.sh"
-read -r frames size <<<"${FIRST_SIGHT:-32 80x45}"
+read -r frames size <<<"${FIRST_SIGHT:-24 80x45}"
 python3 "$here/feature_scenes.py" "$work" >/dev/null || { echo "FAILED: no files"; exit 1; }
 shopt -s nullglob
 scenes=("$work"/*.gltf)

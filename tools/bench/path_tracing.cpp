@@ -12,15 +12,15 @@ namespace ag::bench {
 namespace {
 
 constexpr double kFirstMs = 5;
-constexpr uint32_t kTimes = 11;  // the last after 5.1 s
 
 }  // namespace
 
 std::vector<Row> tracePathCurve(const reference::RayScene& rays, const reference::PathSettings& paths,
-                                const std::string& layer, TwoEstimates truth, JobRunner& runner) {
+                                const std::string& layer, TwoEstimates truth, JobRunner& runner,
+                                uint32_t times) {
     const Image middle = meanOf(truth);
     std::vector<double> seconds;
-    for (uint32_t i = 0; i < kTimes; ++i)
+    for (uint32_t i = 0; i < times; ++i)
         seconds.push_back(kFirstMs * 1e-3 * std::exp2(i));
     std::vector<Row> rows;
     const glm::uvec2 size(middle.width, middle.height);
