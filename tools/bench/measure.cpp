@@ -70,11 +70,12 @@ struct Frame {
         for (uint32_t i = 1; i < kWarmFrames; ++i)
             render(scene, settings, {}, clustered && i < kWarmFrames - kShadedFrames);
     }
-    // Until rays to texels rest.
-    void refine(const RenderScene& scene, const render::RenderSettings& settings) {
-        const uint32_t frames = render::castsTexelRays(settings) ? gi::framesToRest(settings.bounce) : 0;
-        for (uint32_t i = 0; i < frames; ++i)
+    // Until rays to texels rest; false: none are cast.
+    bool refine(const RenderScene& scene, const render::RenderSettings& settings) {
+        if (!render::castsTexelRays(settings)) return false;
+        for (uint32_t i = 0; i < gi::framesToRest(settings.bounce); ++i)
             render(scene, settings, {});
+        return true;
     }
     Image image() const {
         return shown ? render::readImage(renderer, shown) : Image(int(size.x), int(size.y));
@@ -239,11 +240,13 @@ Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, co
     render::registerSettings(registry, settings);
     const std::string_view preset = technique.preset.empty() ? technique.name : technique.preset;
     if (!render::applyPreset(preset, settings)) return Error{fmt::format("there is no preset '{}'", preset)};
+    const render::RenderSettings plain = settings;
     for (const std::string& assignment : variant.settings) {
         if (const Status set = registry.set(assignment); !set) return set.error();
         const size_t equals = assignment.find('=');
         row.settings[assignment.substr(0, equals)] = assignment.substr(equals + 1);
     }
+    const bool isPreset = settings == plain && variant.budgetMs == 0;
     const auto layer = render::layerFromName(layerOfTerm(row.term));
     if (!layer) return Error{fmt::format("there is no layer '{}'", row.term)};
     // Ours has them by a setting so far.
@@ -255,7 +258,7 @@ Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, co
     if (variant.budgetMs > 0) settleBudget(variant.budgetMs, settings, *layer, row);
     Frame frame{renderer_, options_.size, *layer};
     frame.settle(scene_, settings);
-    frame.refine(scene_, settings);
+    const bool rests = frame.refine(scene_, settings);
     std::vector<Image> images = {frame.image()};
     row.vals = frame.emitters;
     row.gpuBytes = renderer_.deviceBytes();
@@ -264,7 +267,9 @@ Result<std::vector<Image>> SceneBench::measureGpu(const Technique& technique, co
         measureWalking(settings, *layer, row);
         if (const Status done = measureFlicker(settings, *layer, row); !done) return done.error();
     }
-    for (uint32_t seed = 1; frame.clustered && seed < options_.clusterings; ++seed) {
+    // Rays at rest take a minute a clustering and depend little on it: several for the preset alone.
+    const uint32_t clusterings = frame.clustered && (isPreset || !rests) ? options_.clusterings : 1;
+    for (uint32_t seed = 1; seed < clusterings; ++seed) {
         settings.bounce.valClustering.seed = seed;
         renderer_.load(*scene_.geometry);
         frame.settle(scene_, settings);

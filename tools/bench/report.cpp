@@ -161,7 +161,8 @@ std::string toMarkdown(const Report& report) {
         out += fmt::format(
             "\n## {}\n\n{}x{}, {} against path tracing (noise {:.2f} %). ★: nothing is both faster and "
             "nearer "
-            "to the truth. Of what has clusters, errors are means over {} clusterings.\n\n| technique | "
+            "to the truth. Of what has clusters, errors are means over {} clusterings, of one where rays "
+            "rest at other settings than the preset's.\n\n| technique | "
             "setting | indirect ms | relative RMSE | mean ratio | FLIP | p99 "
             "| "
             "flicker still | light moves | camera moves | ghosting | path tracing in the same time | MiB | "
