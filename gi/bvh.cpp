@@ -124,9 +124,9 @@ struct CurvePlace {
 
 // By codes of 30 bits; equal ones stay in their order. Digit by digit: thrice as fast as comparing, of
 // 10,000.
-void sortAlongCurve(std::vector<CurvePlace>& places) {
+void sortAlongCurve(std::vector<CurvePlace>& places, std::vector<CurvePlace>& sorted) {
     constexpr uint32_t kDigitBits = 10, kDigits = 1u << kDigitBits;
-    std::vector<CurvePlace> sorted(places.size());
+    sorted.resize(places.size());
     for (uint32_t shift = 0; shift < 30; shift += kDigitBits) {
         const auto digitOf = [&](const CurvePlace& p) { return p.code >> shift & (kDigits - 1); };
         std::array<uint32_t, kDigits + 1> first{};
@@ -180,39 +180,44 @@ class CurveBuilder {
 };
 
 // Those that are neither empty nor beyond all numbers.
-std::vector<uint32_t> soundOnes(std::span<const Bounds> items) {
-    std::vector<uint32_t> sound;
+void findSound(std::span<const Bounds> items, std::vector<uint32_t>& sound) {
+    sound.clear();
     for (uint32_t i = 0; i < items.size(); ++i)
         if (!items[i].empty() && std::isfinite(glm::dot(items[i].min, items[i].min) + halfArea(items[i])))
             sound.push_back(i);
-    return sound;
 }
 
 }  // namespace
 
 void buildBvhAlongCurve(std::span<const Bounds> items, Bvh& bvh) {
-    bvh.order = soundOnes(items);
+    static thread_local std::vector<CurvePlace> places, sorted;  // keep their memory
+    findSound(items, bvh.order);
     bvh.nodes.clear();
     if (bvh.order.empty()) return;
     Bounds all;
     for (const uint32_t i : bvh.order)
         all.add(items[i]);
-    std::vector<CurvePlace> places;
-    places.reserve(bvh.order.size());
+    places.clear();
     for (const uint32_t i : bvh.order)
         places.push_back({mortonCode(0.5f * (items[i].min + items[i].max), all), i});
-    sortAlongCurve(places);
+    sortAlongCurve(places, sorted);
     bvh.nodes.reserve(2 * places.size());
     CurveBuilder(items, places, bvh).build(0, uint32_t(places.size()));
     for (size_t i = 0; i < places.size(); ++i)
         bvh.order[i] = places[i].item;
 }
 
-Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems) {
-    Bvh bvh{.order = soundOnes(items)};
-    if (bvh.order.empty()) return bvh;
+void buildBvh(std::span<const Bounds> items, uint32_t leafItems, Bvh& bvh) {
+    findSound(items, bvh.order);
+    bvh.nodes.clear();
+    if (bvh.order.empty()) return;
     bvh.nodes.reserve(2 * bvh.order.size());
     Builder(items, leafItems, bvh).build(0, uint32_t(bvh.order.size()));
+}
+
+Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems) {
+    Bvh bvh;
+    buildBvh(items, leafItems, bvh);
     return bvh;
 }
 

@@ -25,8 +25,9 @@ struct Bvh {
 // By the surface area heuristic over 16 bins along each axis (Wald 2007). Leaves hold at most `leafItems`.
 // The same items give the same tree. Boxes that are empty or not finite are left out.
 Bvh buildBvh(std::span<const Bounds> items, uint32_t leafItems);
+void buildBvh(std::span<const Bounds> items, uint32_t leafItems, Bvh& bvh);  // whose memory is used again
 // With one item a leaf, along a curve through the boxes' middles (Lauterbach et al. 2009): a tenth of the
 // work for a tree that costs rays a little more.
-void buildBvhAlongCurve(std::span<const Bounds> items, Bvh& bvh);  // whose memory is used again
+void buildBvhAlongCurve(std::span<const Bounds> items, Bvh& bvh);  // the same
 
 }  // namespace ag::gi

@@ -220,7 +220,7 @@ void placeTrees(const OccluderTrees& trees, std::span<const SampledInstance> ins
     if (boxes.size() > kMostSorted)
         buildBvhAlongCurve(boxes, bvh);
     else
-        bvh = buildBvh(boxes, 1);
+        buildBvh(boxes, 1, bvh);
     if (bvh.nodes.empty()) return;
     const TreeRange range{0, uint32_t(bvh.nodes.size()), bvh.nodes[0].bounds};
     const Grid grid(range.bounds);

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Measures every technique on the built-in scenes, ours and those nearest to it on light through openings and on
 # architecture (of the scene library, where that is there), and writes the charts and the tables of the documentation. Takes
-# some 25 minutes on two cores once the references are there, which are kept from run to run, as rows are while the program
-# is the same. What is given goes to every bench: `--size 640x360` takes four times as long.
+# some three quarters of an hour on two cores once the references are there, which are kept from run to run, as rows are while
+# the program is the same. What is given goes to every bench: `--size 640x360` takes four times as long.
 targets=(afterglow)
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 library=${AFTERGLOW_SCENES:-../shared/scenes}

@@ -197,10 +197,9 @@ void SceneOnDevice::takeInstances(GuestScene& scene) {
 // Where what is static moved they are those of before until they are built anew, good for rays to the sky
 // alone.
 void SceneOnDevice::takeTrees(GuestScene& scene) {
-    const bool moves = std::exchange(movedBefore_, scene.movedVersion()) != scene.movedVersion();
     treesAreStale_ = upkeep_.next(scene.treesVersion()) == gi::TreeUpkeep::Task::kNone;
     if (!treesAreStale_) uploadTrees(scene);
-    if (treesBuilt_ != 0) placeTrees(scene, moves);
+    if (treesBuilt_ != 0) placeTrees(scene);
 }
 
 void SceneOnDevice::uploadTrees(GuestScene& scene) {
@@ -221,13 +220,12 @@ void SceneOnDevice::uploadTrees(GuestScene& scene) {
 }
 
 // The static one lies about a place of its own in the world, in m: only where that is changes with origin and
-// units. Without a sky rays are cast while nothing moves: what moves is placed once it rests.
-void SceneOnDevice::placeTrees(const GuestScene& scene, bool moves) {
+// units.
+void SceneOnDevice::placeTrees(const GuestScene& scene) {
     const glm::dvec3 from = origin_ - treesMiddle_;
     const uint64_t stand = combineHash(treesBuilt_, combineHash(hashValue(from), hashValue(units_.length)));
     const uint64_t placed = combineHash(stand, scene.movedVersion());
-    const bool waits = moves && treesPlaced_ != 0 && treesStand_ == stand && scene.sky().version == 0;
-    if (treesPlaced_ == placed || waits) return;
+    if (treesPlaced_ == placed) return;
     treesPlaced_ = 0;
     const float perMetre = 1 / units_.length;
     std::vector<gi::SampledInstance> instances;

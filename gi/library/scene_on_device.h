@@ -47,7 +47,7 @@ class SceneOnDevice {
     void takePoints(GuestScene& scene);
     void takeTrees(GuestScene& scene);
     void uploadTrees(GuestScene& scene);
-    void placeTrees(const GuestScene& scene, bool moves);
+    void placeTrees(const GuestScene& scene);
     void takeSky(const GuestScene& scene);
     void takeLights(const GuestScene& scene);
     void stage(std::span<const std::byte> bytes, const gpu::Buffer& to, uint64_t offset);
@@ -81,7 +81,6 @@ class SceneOnDevice {
     uint64_t treesBuilt_ = 0;     // a hash of what is in them; 0: there are none
     uint64_t treesStand_ = 0;     // of that and of where what is static in them stands,
     uint64_t treesPlaced_ = 0;    // and of where all of it does
-    uint64_t movedBefore_ = 0;    // GuestScene::movedVersion of the last frame
     bool treesAreStale_ = false;  // they are of what was static some frames ago
     std::unique_ptr<gpu::Buffer> skyTexels_, skyCells_, skyUpTo_;
     uint64_t skyVersion_ = 0;  // a hash of the sky and its unit; 0: there is none

@@ -61,6 +61,24 @@ TEST(TexelRays, WhatMovedStandsInTheWayWhereItIs) {
     EXPECT_GT(shareOff(old, truth, 0.25 * mean), 0.06);  // it makes a difference
 }
 
+TEST(TexelRays, WhatMovesStandsInTheWayWhereItIs) {
+    const SceneAsset asset = *scenegen::buildScene("occluder", 0);
+    Bench moving(asset, {96, 54}), still(asset, {96, 54});
+    for (Bench* b : {&moving, &still})
+        b->settings = withRays(true), useSmallMaps(b->settings);
+    pushAside(moving, 0), pushAside(still, 0.5f);
+    bounce1After(moving, 8);
+    pushAside(moving, 0.5f);
+    for (int i = 0; i < 48; ++i) {
+        pushAside(moving, i % 2 ? 1e-4f : -1e-4f);
+        moving.frame();
+    }
+    EXPECT_EQ(moving.outcome("texel_rays.cast"), PassOutcome::kRan);
+    const Image image = readImage(moving.renderer, moving.last.bounce.bounce1.image),
+                truth = bounce1After(still, 64);
+    EXPECT_LT(shareOff(image, truth, 0.25 * meanOf(truth)), 0.04);  // 0.06 where it stood before
+}
+
 // Where no ray is cast while something changes, surfaces keep what was found on them; lights that go out take
 // it with them.
 TEST(TexelRays, WhatWasFoundIsCarriedAlong) {

@@ -17,7 +17,6 @@ void allocatesNothing(const char* name) {
     ASSERT_TRUE(device) << device.error().message;
     const SceneAsset asset = *scenegen::buildScene(name, 0);
     RenderScene scene = staticScene(asset);
-    scene.sky = {};  // rays to it want the tree of what moves, which is built anew with vectors
     const glm::uvec2 size(96, 54);
     Renderer renderer(**device);
     renderer.load(asset.geometry);
