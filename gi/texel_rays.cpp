@@ -25,7 +25,8 @@ constexpr RayFilterNames kFilter = {
     {"texel_rays.filter0", "texel_rays.filter1", "texel_rays.filter2", "texel_rays.filter3"}};
 
 constexpr uint32_t kFirstMovingRay = 1u << 28;  // unlike those of a still picture
-// Rays remembered of a block's light: for clusters settle; and blocks leave what they saw.
+// Rays that a block remembers of a light. At most so many, because clusters settle; fewer in motion, when the
+// block soon shows other surfaces.
 constexpr float kRaysKnown = 4096, kRaysKnownMoving = 256;
 // Frames whose variance is not to be believed. A still picture can wait for more, and draws that have not
 // learned yet need more.

@@ -1,9 +1,8 @@
-// The light of area lights corrected by rays. The lights' sum is smooth, but wrong
-// where a light is near or its shadow map is coarse. Each pixel measures the error with two rays a frame to
-// texels of the reflective shadow maps, through the occluders' trees; the area lights' sum is a control
-// variate of that measurement. Means over frames that follow their surfaces, filtered by their variance. In
-// frames in which only some of the pixels are gathered no rays are cast: surfaces keep what was found on
-// them.
+// The light of area lights corrected by rays. The lights' sum is smooth, but wrong where a light is near or
+// its shadow map is coarse. Each pixel measures the error with two rays a frame to texels of the reflective
+// shadow maps, through the occluders' trees; the area lights' sum is a control variate of that measurement.
+// Means over frames follow their surfaces and are filtered by their variance. In frames in which only some of
+// the pixels are gathered no rays are cast: surfaces keep what was found on them.
 #pragma once
 
 #include <array>

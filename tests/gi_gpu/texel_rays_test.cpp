@@ -76,7 +76,7 @@ TEST(TexelRays, WhatMovesStandsInTheWayWhereItIs) {
     EXPECT_EQ(moving.outcome("texel_rays.cast"), PassOutcome::kRan);
     const Image image = readImage(moving.renderer, moving.last.bounce.bounce1.image),
                 truth = bounce1After(still, 64);
-    EXPECT_LT(shareOff(image, truth, 0.25 * meanOf(truth)), 0.04);  // 0.06 where it stood before
+    EXPECT_LT(shareOff(image, truth, 0.25 * meanOf(truth)), 0.04);  // 0.14 by where it stood before
 }
 
 // Where no ray is cast while something changes, surfaces keep what was found on them; lights that go out take
