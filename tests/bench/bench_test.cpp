@@ -12,6 +12,7 @@
 #include "engine/renderer/debug_view.h"
 #include "engine/renderer/render_settings.h"
 #include "engine/scene/static_scene.h"
+#include "tests/support/own_folder.h"
 #include "tools/bench/moving_light.h"
 #include "tools/bench/path_tracing.h"
 #include "tools/bench/report.h"
@@ -138,8 +139,7 @@ TEST(Bench, TrendTakesTheTruthsOwnMotionAway) {
     RenderScene scene = staticScene(asset);
     const glm::uvec2 size(16, 9);
     setCamera(scene, cameraOf(asset, 0), size);
-    const std::string folder = (std::filesystem::path(testing::TempDir()) / "references").string();
-    std::filesystem::remove_all(folder);
+    const std::string folder = test::ownFile("references");
     ReferenceCache cache(folder);
     JobRunner runner(2);
     const auto silent = [](double) {};
@@ -162,8 +162,7 @@ TEST(Bench, TwoReferencesHaveTheNoiseOfTheirMean) {
     RenderScene scene = staticScene(asset);
     const glm::uvec2 size(32, 18);
     setCamera(scene, cameraOf(asset, 0), size);
-    const std::string folder = (std::filesystem::path(testing::TempDir()) / "two_references").string();
-    std::filesystem::remove_all(folder);
+    const std::string folder = test::ownFile("references");
     ReferenceCache cache(folder);
     JobRunner runner(2);
     const reference::ReferenceSettings settings{
@@ -194,8 +193,7 @@ TEST(Bench, CacheKnowsWhatAReferenceDependsOn) {
 }
 
 TEST(Bench, RowsAreKeptAsTheyWere) {
-    const std::string folder = (std::filesystem::path(testing::TempDir()) / "rows").string();
-    std::filesystem::remove_all(folder);
+    const std::string folder = test::ownFile("rows");
     Row row{.scene = "cornell",
             .technique = "afterglow",
             .variant = "128",

@@ -12,6 +12,7 @@
 #include "engine/capture/report.h"
 #include "engine/capture/trace.h"
 #include "tests/capture/seen.h"
+#include "tests/support/own_folder.h"
 
 namespace ag::capture {
 namespace {
@@ -106,7 +107,7 @@ TEST(PassTable, HasEveryPassOfTheFrameAndComesBackFromItsFile) {
     EXPECT_EQ(row("composite.tonemap").work, 96u * 64u);
     EXPECT_EQ(row("composite.tonemap").writes, "composite.display");
 
-    const std::string path = testing::TempDir() + "/passes.csv";
+    const std::string path = test::ownFile("passes.csv");
     std::FILE* file = std::fopen(path.c_str(), "wb");
     const std::string csv = tableCsv(table);
     std::fwrite(csv.data(), 1, csv.size(), file);

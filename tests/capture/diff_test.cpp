@@ -12,20 +12,15 @@
 #include "engine/capture/folder.h"
 #include "engine/core/safe_file.h"
 #include "tests/capture/seen.h"
+#include "tests/support/own_folder.h"
 
 namespace ag::capture {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string emptyFolder(const std::string& name) {
-    const std::string path = testing::TempDir() + "/capture_" + name;
-    fs::remove_all(path);
-    return path;
-}
-
 Saved save(const Capture& capture, const std::string& name) {
-    const std::string path = emptyFolder(name);
+    const std::string path = test::ownFile(name);
     auto folder = Folder::open(path);
     EXPECT_TRUE(folder);
     EXPECT_TRUE(folder->writeText("passes.csv", tableCsv(makeTable(capture))));
@@ -96,10 +91,10 @@ TEST(Diff, FindsWhatWasDoneToRealFrames) {
 }
 
 TEST(Diff, RefusesWhatIsNoCapture) {
-    const auto none = readCapture(testing::TempDir() + "/nowhere");
+    const auto none = readCapture(test::ownFile("nowhere"));
     ASSERT_FALSE(none);
     EXPECT_NE(none.error().message.find("nowhere/passes.csv"), std::string::npos);
-    const std::string path = testing::TempDir() + "/capture_text";
+    const std::string path = test::ownFile("capture_text");
     fs::create_directories(path);
     ASSERT_TRUE(writeFileSafely(path + "/passes.csv", "a,b\n1,2\n"));
     EXPECT_FALSE(readCapture(path));
@@ -110,7 +105,7 @@ TEST(Diff, RefusesWhatIsNoCapture) {
 }
 
 TEST(Folder, LeavesNothingHalfWhenTheDiskIsFull) {
-    const std::string path = emptyFolder("full");
+    const std::string path = test::ownFile("full");
     fs::create_directories(path);
     ASSERT_TRUE(writeFileSafely(path + "/passes.csv", "old\n"));
     // No file may grow beyond 4 KiB: writing fails as on a full disk.
@@ -142,7 +137,7 @@ TEST(Folder, IsNotMadeWhereNothingCanBeWritten) {
     const auto folder = Folder::open("/proc/none/capture");
     ASSERT_FALSE(folder);
     EXPECT_NE(folder.error().message.find("/proc/none/capture"), std::string::npos);
-    const std::string path = emptyFolder("unused");
+    const std::string path = test::ownFile("unused");
     {
         const auto unused = Folder::open(path);
         EXPECT_TRUE(unused);

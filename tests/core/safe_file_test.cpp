@@ -12,19 +12,12 @@
 #include <filesystem>
 #include <thread>
 
+#include "tests/support/own_folder.h"
+
 namespace ag {
 namespace {
 
 namespace fs = std::filesystem;
-
-// An empty folder of the case's own.
-fs::path folder() {
-    const fs::path path = fs::path(testing::TempDir()) / "safe_file_test" /
-                          testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(path);
-    fs::create_directories(path);
-    return path;
-}
 
 size_t filesIn(const fs::path& path) {
     return size_t(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
@@ -54,7 +47,7 @@ int exitCodeOf(pid_t child) {
 }
 
 TEST(SafeFile, ReplacesAndKeepsPermissionsAndLinks) {
-    const fs::path at = folder();
+    const fs::path at = test::ownFolder();
     const std::string path = at / "a.txt", link = at / "link.txt";
     ASSERT_TRUE(writeFileSafely(path, "one"));
     ASSERT_EQ(chmod(path.c_str(), 0640), 0);
@@ -69,7 +62,7 @@ TEST(SafeFile, ReplacesAndKeepsPermissionsAndLinks) {
 TEST(SafeFile, WritersBesideEachOtherNeverTearAFile) {
     constexpr size_t kBytes = 200'000;
     constexpr int kRounds = 300;
-    const fs::path at = folder();
+    const fs::path at = test::ownFolder();
     const std::string path = at / "shared.txt";
     ASSERT_TRUE(writeFileSafely(path, letters('a', kBytes)));
     pid_t writers[2];
@@ -92,7 +85,7 @@ TEST(SafeFile, WritersBesideEachOtherNeverTearAFile) {
 
 TEST(SafeFile, AKillAtAnyMomentLeavesAWholeFile) {
     constexpr size_t kBytes = 400'000;
-    const fs::path at = folder();
+    const fs::path at = test::ownFolder();
     const std::string path = at / "save.txt";
     ASSERT_TRUE(writeFileSafely(path, letters('o', kBytes)));
     for (int i = 0; i < 60; ++i) {
@@ -110,7 +103,7 @@ TEST(SafeFile, AKillAtAnyMomentLeavesAWholeFile) {
 }
 
 TEST(SafeFile, AFullDiskLeavesTheOldFile) {
-    const fs::path at = folder();
+    const fs::path at = test::ownFolder();
     const std::string path = at / "a.bin";
     ASSERT_TRUE(writeFileSafely(path, "old"));
     const pid_t child = inChild([&] {
@@ -129,7 +122,7 @@ TEST(SafeFile, AFullDiskLeavesTheOldFile) {
 }
 
 TEST(SafeFile, WhatCannotBeWrittenIsKnownBefore) {
-    const fs::path at = folder();
+    const fs::path at = test::ownFolder();
     EXPECT_TRUE(checkWritable((at / "new.txt").string()));
     EXPECT_EQ(filesIn(at), 0u) << "the check leaves nothing";
     EXPECT_TRUE(checkWritable("/dev/null"));
@@ -141,7 +134,7 @@ TEST(SafeFile, WhatCannotBeWrittenIsKnownBefore) {
 }
 
 TEST(SafeFile, PipesAndEndlessFilesAreNotWaitedFor) {
-    const fs::path at = folder();
+    const fs::path at = test::ownFolder();
     const std::string pipe = at / "pipe", zero = at / "zero";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     fs::create_symlink("/dev/zero", zero);
@@ -156,7 +149,7 @@ TEST(SafeFile, PipesAndEndlessFilesAreNotWaitedFor) {
 }
 
 TEST(SafeFile, ReadsNoMoreThanAllowed) {
-    const std::string path = folder() / "large.txt";
+    const std::string path = test::ownFolder() / "large.txt";
     ASSERT_TRUE(writeFileSafely(path, letters('x', 3000)));
     EXPECT_EQ(readFile(path, 3000)->size(), 3000u);
     EXPECT_FALSE(readFile(path, 2999));

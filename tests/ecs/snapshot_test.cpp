@@ -10,6 +10,7 @@
 #include "engine/ecs/hierarchy.h"
 #include "engine/ecs/schedule.h"
 #include "tests/ecs/test_components.h"
+#include "tests/support/own_folder.h"
 
 namespace ag {
 namespace {
@@ -184,11 +185,11 @@ TEST(Snapshot, SaysWhichComponentDoesNotFit) {
 TEST(Snapshot, SurvivesAFile) {
     World world, back;
     fill(world, 200);
-    const std::string path = testing::TempDir() + "/a.world";
+    const std::string path = test::ownFile("a.world");
     ASSERT_TRUE(saveWorldFile(world, path));
     ASSERT_TRUE(loadWorldFile(back, path));
     EXPECT_EQ(back.stateHash(), world.stateHash());
-    const Status missing = loadWorldFile(back, testing::TempDir() + "/none.world");
+    const Status missing = loadWorldFile(back, test::ownFile("none.world"));
     ASSERT_FALSE(missing);
     EXPECT_NE(missing.error().message.find("none.world"), std::string::npos);
     std::ofstream(path) << "hello";
@@ -196,7 +197,7 @@ TEST(Snapshot, SurvivesAFile) {
     ASSERT_FALSE(foreign);
     EXPECT_NE(foreign.error().message.find("a.world: the bytes are not a saved world"), std::string::npos);
     EXPECT_EQ(back.stateHash(), world.stateHash());
-    EXPECT_FALSE(saveWorldFile(world, testing::TempDir() + "/no/such/folder.world"));
+    EXPECT_FALSE(saveWorldFile(world, test::ownFile("no/such/folder.world")));
 }
 
 }  // namespace

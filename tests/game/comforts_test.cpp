@@ -22,6 +22,7 @@
 #include "game/systems/show_sky.h"
 #include "game/time_board.h"
 #include "tests/game/level.h"
+#include "tests/support/own_folder.h"
 
 namespace ag::game {
 namespace {
@@ -113,9 +114,7 @@ TEST(PhotoMode, TellsWhatFlowersNearByRead) {
 }
 
 TEST(PhotoMode, NeverSavesOverAPhoto) {
-    const std::string folder = testing::TempDir() + "/photos";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+    const std::string folder = test::ownFolder().string();
     EXPECT_EQ(nextPhoto(folder), folder + "/photo-001");
     ASSERT_TRUE(writeFileSafely(folder + "/photo-001.png", "a"));
     ASSERT_TRUE(writeFileSafely(folder + "/photo-002.exr", "b"));
@@ -154,8 +153,7 @@ void solve(Game& game, int32_t index) {
 }
 
 TEST(Times, AreOfEachRoomAndGoOnWithTheSave) {
-    const std::string path = testing::TempDir() + "/times.txt";
-    std::filesystem::remove(path);
+    const std::string path = test::ownFile("times.txt");
     Game game(level(), 1);
     TimeBoard board(path);
     ASSERT_TRUE(board.open(game));
@@ -193,7 +191,7 @@ TEST(Times, AreOfEachRoomAndGoOnWithTheSave) {
 }
 
 TEST(Times, BrokenOrForeignOnesAreKeptAside) {
-    const std::string path = testing::TempDir() + "/times.txt";
+    const std::string path = test::ownFile("times.txt");
     const Game game(level(), 1);
     for (const char* text :
          {"level 0123456789abcdef\nroom 1 3\n", "room 1\n", "level xyz\n", "level zzzzzzzzzzzzzzzz\n",
@@ -212,9 +210,7 @@ TEST(Times, BrokenOrForeignOnesAreKeptAside) {
 
 // Killed at any moment of any save, what lies there is a whole one.
 TEST(Save, OutlivesAKill) {
-    const std::string folder = testing::TempDir() + "/killed", path = folder + "/save.txt";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+    const std::string folder = test::ownFolder().string(), path = folder + "/save.txt";
     Game game(level(), 1);
     game.tick({});
     ASSERT_TRUE(saveGame(game, path));
@@ -250,7 +246,7 @@ TEST(Keys, AGamepadsButtonsAreBoundAnew) {
     ASSERT_TRUE(keys) << keys.error().message;
     EXPECT_EQ(keys->pad[size_t(Action::kLamp) - size_t(kFirstPadAction)], kPadTriggerCode);
     EXPECT_EQ(keys->pad[0], kPadCode + GLFW_GAMEPAD_BUTTON_A) << "what is not named stays";
-    const std::string path = testing::TempDir() + "/pad_keys.txt";
+    const std::string path = test::ownFile("pad_keys.txt");
     ASSERT_TRUE(saveBindings(*keys, path));
     EXPECT_EQ(*loadBindings(path), *keys);
     for (const char* text :

@@ -7,6 +7,7 @@
 #include "engine/scene/extract_system.h"
 #include "tests/game/level.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/own_folder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::game {
@@ -125,7 +126,7 @@ TEST(Game, ASteadyTickAllocatesNothing) {
 }
 
 TEST(Replay, SurvivesAFileAndRefusesABrokenOne) {
-    const std::string path = testing::TempDir() + "/a.replay";
+    const std::string path = test::ownFile("a.replay");
     std::vector<Input> ticks;
     for (int i = 0; i < 50; ++i)
         ticks.push_back(scripted(i));

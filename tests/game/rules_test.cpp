@@ -15,6 +15,7 @@
 #include "game/systems/grow_flowers.h"
 #include "game/systems/walk_player.h"
 #include "tests/game/level.h"
+#include "tests/support/own_folder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::game {
@@ -193,7 +194,7 @@ TEST(Save, GoesOnWhereItWas) {
 TEST(Save, ABrokenOneIsRefusedAndKept) {
     Game game(level(), 1);
     game.tick({});
-    const std::string good = saveText(game), path = testing::TempDir() + "/save.txt";
+    const std::string good = saveText(game), path = test::ownFile("save.txt");
     const std::string cut = good.substr(0, good.size() / 2);
     std::string damaged = good;
     damaged.replace(damaged.find("body"), 8, "body nan");
@@ -225,7 +226,7 @@ TEST(Keys, AreReadFromAFileAndBoundAnew) {
     ASSERT_TRUE(keys);
     EXPECT_EQ(keys->codes[size_t(Action::kForward)], GLFW_KEY_UP);
     EXPECT_EQ(keys->codes[size_t(Action::kBack)], GLFW_KEY_S) << "what is not named stays";
-    const std::string path = testing::TempDir() + "/keys.txt";
+    const std::string path = test::ownFile("keys.txt");
     ASSERT_TRUE(saveBindings(*keys, path));
     EXPECT_EQ(*loadBindings(path), *keys);
     for (const char* text : {"fly W\n", "forward\n", "forward Nose\n", "forward W W\n"})
@@ -328,7 +329,7 @@ TEST(Quality, PresetsLeaveTheEyeAlone) {
 }
 
 TEST(UserFiles, AreReadAndRefused) {
-    const std::string path = testing::TempDir() + "/settings.txt";
+    const std::string path = test::ownFile("settings.txt");
     UserSettings settings{.quality = Quality::kHigh, .sensitivity = 1.5f, .volume = 0.3f, .hints = false};
     ASSERT_TRUE(saveUserSettings(settings, path));
     const auto back = loadUserSettings(path);

@@ -8,6 +8,7 @@
 
 #include "engine/scene/static_scene.h"
 #include "tests/support/device_environment.h"
+#include "tests/support/own_folder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::bench {
@@ -83,7 +84,7 @@ TEST(Ladder, EachStepIsNearerToTheReference) {
     LadderOptions options{.size = {96, 54}, .clusterings = 1};
     options.reference = {.samplesPerPixel = 4096, .maxError = 0.02, .layer = "bounce1"};
     setCamera(scene, cameraOf(asset, 0), options.size);
-    ReferenceCache cache((std::filesystem::path(testing::TempDir()) / "ladder").string());
+    ReferenceCache cache(test::ownFile("ladder"));
     JobRunner runner(2);
     const auto ladder = measureLadder(test::device(), scene, options, cache, runner, [](double) {});
     ASSERT_TRUE(ladder);

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/own_folder.h"
+
 namespace ag::test {
 
 namespace fs = std::filesystem;
@@ -76,16 +78,8 @@ inline json triangle(std::array<float, 9> positions = {0, 0, 0, 1, 0, 0, 0, 1, 0
              {{{"byteLength", 42}, {"uri", "data:application/octet-stream;base64," + base64(bytes)}}}}};
 }
 
-inline fs::path folder() {
-    // Cases run as processes of their own, several at once.
-    const fs::path path = fs::path(testing::TempDir()) / "gltf_files" /
-                          testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(path);
-    return path;
-}
-
 inline std::string write(const std::string& name, const std::string& text) {
-    const fs::path path = folder() / name;
+    const fs::path path = test::ownFolder() / name;
     std::ofstream(path, std::ios::binary) << text;
     return path.string();
 }

@@ -17,7 +17,7 @@ namespace ag {
 namespace {
 
 using nlohmann::json;
-using test::base64, test::faultOf, test::folder, test::triangle, test::write;
+using test::base64, test::faultOf, test::triangle, test::write;
 namespace fs = std::filesystem;
 
 testing::AssertionResult refusedWith(const json& document, const std::string& words) {
@@ -52,7 +52,7 @@ TEST(GltfImport, RefusesWhatIsNoGltf) {
         EXPECT_NE(asset.error().message.find(name), std::string::npos) << asset.error().message;
     }
     EXPECT_NE(importGltf("/no/such/file.glb").error().message.find("does not exist"), std::string::npos);
-    EXPECT_NE(importGltf(folder().string()).error().message.find("not a file"), std::string::npos);
+    EXPECT_NE(importGltf(test::ownFolder().string()).error().message.find("not a file"), std::string::npos);
 }
 
 TEST(GltfImport, RefusesIndicesOutOfRange) {

@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using test::folder;
 
 // A GLB file taken apart.
 struct Glb {
@@ -29,7 +28,7 @@ struct Glb {
     std::vector<char> bytes;
 
     explicit Glb(const SceneAsset& asset) {
-        const std::string path = (folder() / "whole.glb").string();
+        const std::string path = (test::ownFolder() / "whole.glb").string();
         EXPECT_TRUE(exportGlb(asset, path));
         std::ifstream in(path, std::ios::binary);
         const std::string all{std::istreambuf_iterator<char>(in), {}};
@@ -43,7 +42,7 @@ struct Glb {
         text.resize((text.size() + 3) / 4 * 4, ' ');
         std::vector<char> padded = bytes;
         padded.resize((padded.size() + 3) / 4 * 4);
-        const std::string path = (folder() / "case.glb").string();
+        const std::string path = (test::ownFolder() / "case.glb").string();
         std::ofstream out(path, std::ios::binary);
         const auto word = [&](uint32_t w) { out.write(reinterpret_cast<const char*>(&w), 4); };
         word(0x46546C67), word(2), word(uint32_t(28 + text.size() + padded.size()));

@@ -10,7 +10,7 @@ namespace ag::viewer {
 namespace {
 
 using nlohmann::json;
-using test::folder, test::triangle;
+using test::triangle;
 
 std::vector<RenderLight> threeLights() {
     std::vector<RenderLight> lights(3);
@@ -168,7 +168,7 @@ TEST(EditedGltf, RefusesWhatIsNone) {
 }
 
 TEST(EditedGltf, BuiltInScenesBecomeFiles) {
-    const std::string path = (folder() / "cornell_edited.glb").string();
+    const std::string path = test::ownFile("cornell_edited.glb");
     const std::vector<RenderLight> lights = threeLights();
     ASSERT_TRUE(saveEdited("cornell", 0, {lights, {}, lookingDown()}, path));
     const auto asset = importGltf(path);
