@@ -16,6 +16,11 @@ bool canCastRays(const gpu::DeviceInfo& info, const BounceLightSettings& s) {
     return buffers && s.ismAtlas.enabled;
 }
 
+void turnRaysOff(BounceLightSettings& s) {
+    s.texelRays.enabled = false;
+    s.probes.rays = 0;
+}
+
 BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& s,
                            BounceLightHistory& h) {
     BounceLight f{.term = s.term};
@@ -54,7 +59,10 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
         f.irradiance =
             addLaterShading(scope, gathered, f.irradiance, {valsBetween(asked, f.firstCount, ~0u), f.isms},
                             s.laterBounces.spacing, s.valShading);
-    const ClusterMembers members = rays ? addClusterMembers(scope, f.rsm, f.clusters) : ClusterMembers{};
+    const bool probeRays =
+        !in.probes.empty() && castsProbeRays(s.probes.rays, in.occluders) && f.vals.count > 0;
+    const ClusterMembers members =
+        rays || probeRays ? addClusterMembers(scope, f.rsm, f.clusters) : ClusterMembers{};
     const SkyOnDevice skyOfRays = s.sky.enabled ? in.sky : SkyOnDevice{};
     if (rays)
         f.irradiance = addTexelRays(tiles, f.irradiance,
@@ -88,7 +96,9 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
                          {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world, grid, otherLights,
                           s.laterBounces.feedback, f.firstCount, f.irradiance.image, f.gloss},
                          s.glossRays, h.glossRays);
-    addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes);
+    const ProbeRaysInputs ofProbes{f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world.versions};
+    addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes,
+              probeRays ? &ofProbes : nullptr);
     return f;
 }
 

@@ -38,7 +38,7 @@ struct BounceLightHistory {
     Settling laterBounces;
     Settling skyOnPoints;
     DenoiserHistory denoiser;
-    ProbeReadings probes;
+    ProbeHistory probes;
 };
 
 // What was made, with all that it was made from: for composition, debug views, tests and captures.
@@ -63,6 +63,8 @@ struct BounceLight {
 
 // Whether rays to lights can be cast on a device; not for light without visibility.
 bool canCastRays(const gpu::DeviceInfo& info, const BounceLightSettings& settings);
+// Settings with which none are cast, neither of pixels nor of probes.
+void turnRaysOff(BounceLightSettings& settings);
 
 // Where light lands, as few area lights that see through shadow maps of their own; and where it goes on.
 BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const BounceLightSettings& settings,

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "engine/core/hash.h"
 #include "gi/val_tiles.h"
 
 namespace ag::gi {
@@ -15,17 +16,40 @@ uint64_t idOf(uint32_t low, uint32_t high) {
     return uint64_t(high) << 32 | low;
 }
 
-// Rows in powers of two, so that a probe more does not make a new buffer.
-BufferHandle uploadProbes(GraphScope scope, std::span<const RenderProbe> probes) {
+// One more than the row that a probe had in the frame before, mostly the same; 0: none.
+uint32_t rowOf(uint64_t id, std::span<const uint64_t> before, uint32_t row) {
+    if (row < before.size() && before[row] == id) return row + 1;
+    const auto found = std::ranges::find(before, id);
+    return found == before.end() ? 0 : uint32_t(found - before.begin()) + 1;
+}
+
+// Rows in powers of two, so that a probe more does not make a new buffer. `before`: the ids of the rows of
+// the frame before.
+BufferHandle uploadProbes(GraphScope scope, std::span<const RenderProbe> probes,
+                          std::vector<uint64_t>& before) {
     const uint32_t room = std::bit_ceil(std::max(uint32_t(probes.size()), 16u));
     const BufferHandle buffer = scope.buffer("probes.points", {.sizeBytes = room * sizeof(io::Probe)});
     static thread_local std::vector<io::Probe> rows;  // keeps its memory from frame to frame
     rows.clear();
     for (const RenderProbe& p : probes)
-        rows.push_back({p.position, uint32_t(p.id), p.normal, uint32_t(p.id >> 32)});
+        rows.push_back({p.position, uint32_t(p.id), p.normal, uint32_t(p.id >> 32),
+                        rowOf(p.id, before, uint32_t(rows.size()))});
+    before.resize(probes.size());
+    std::ranges::transform(probes, before.begin(), &RenderProbe::id);
     rows.resize(room, {.idLow = uint32_t(kNoProbe), .idHigh = uint32_t(kNoProbe >> 32)});
     scope.upload("probes.points", buffer, std::as_bytes(std::span(rows)));
     return buffer;
+}
+
+// Another number when a probe was moved, came or went.
+uint64_t versionOf(std::span<const RenderProbe> probes) {
+    uint64_t hash = probes.size();
+    for (const RenderProbe& p : probes) {
+        hash = combineHash(hash, p.id);
+        hash = combineHash(hash, hashBytes(std::as_bytes(std::span(&p.position, 1))));
+        hash = combineHash(hash, hashBytes(std::as_bytes(std::span(&p.normal, 1))));
+    }
+    return hash;
 }
 
 }  // namespace
@@ -55,13 +79,15 @@ void ProbeReadings::setDark(std::span<const RenderProbe> probes) {
 }
 
 void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const ShadowedVals& lights,
-               const ProbeSettings& settings, ProbeReadings& known) {
+               const ProbeSettings& settings, ProbeHistory& h, const ProbeRaysInputs* rays) {
     const auto& [vals, isms] = lights;
-    if (at.probes.empty()) return known.clear();
-    if (rsm.empty() || vals.count == 0) return known.setDark(at.probes);
+    if (at.probes.empty()) return h.readings.clear();
+    if (rsm.empty() || vals.count == 0) return h.readings.setDark(at.probes);
     const auto probes = at.probes.first(std::min<size_t>(at.probes.size(), kMostProbes));
-    const BufferHandle points = uploadProbes(scope, probes);
+    const BufferHandle points = uploadProbes(scope, probes, h.rays.ids);
     const uint64_t room = scope.info(points).sizeBytes / sizeof(io::Probe);
+    const BufferHandle ofLights =
+        scope.buffer("probes.of_lights", {.sizeBytes = room * vals.count * sizeof(float)});
     const BufferHandle rows = scope.buffer("probes.rows", {.sizeBytes = room * sizeof(io::ProbeRow)});
     PassBuilder pass = scope.compute("probes.evaluate", "probes/evaluate_probes.comp");
     readLights(pass, lights, settings.shape, settings.taps);
@@ -69,11 +95,16 @@ void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
         .read("probes", points)
+        .write("ofLights", ofLights)
         .write("rows", rows)
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
-    known.set(scope.readBack(kProbeCopies, rows), at.lightUnit);
+    const BufferHandle measured =
+        rays ? addProbeRays(scope, {points, rows, ofLights, uint32_t(room)}, *rays,
+                            {settings.rays, settings.settleFrames}, versionOf(probes), h.rays)
+             : rows;
+    h.readings.set(scope.readBack(kProbeCopies, measured), at.lightUnit);
 }
 
 }  // namespace ag::gi

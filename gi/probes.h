@@ -10,6 +10,7 @@
 #include "engine/core/render_probe.h"
 #include "engine/core/setting_fields.h"
 #include "gi/ism_atlas.h"
+#include "gi/probe_rays.h"
 #include "gi/val_shading.h"
 #include "shaders/probes/probes_io.h"
 
@@ -19,12 +20,18 @@ constexpr uint32_t kMostProbes = 4096;  // further ones are left out
 
 struct ProbeSettings {
     ValShape shape = ValShape::kPolygon;
-    uint32_t taps = 4;  // of an area light's soft shadow
+    uint32_t taps = 4;            // of an area light's soft shadow
+    uint32_t rays = 128;          // to texels, a probe and frame; 0: area lights alone
+    uint32_t settleFrames = 256;  // with new rays after anything last changed
 
     static constexpr auto fields() {
         return std::tuple{
             SettingField{"shape", &ProbeSettings::shape}.unlisted(),
-            SettingField{"taps", &ProbeSettings::taps, 1, 32, "", "of area lights' soft shadows at probes"}};
+            SettingField{"taps", &ProbeSettings::taps, 1, 32, "", "of area lights' soft shadows at probes"},
+            SettingField{"rays", &ProbeSettings::rays, 0, 4096, "",
+                         "from each probe a frame; 0: area lights alone light them"},
+            SettingField{"settle_frames", &ProbeSettings::settleFrames, 0, 1000000, "frames",
+                         "with new rays after anything last changed"}};
     }
 
     bool operator==(const ProbeSettings&) const = default;
@@ -56,6 +63,11 @@ class ProbeReadings {
     std::vector<Row> rows_;  // sorted by id
 };
 
+struct ProbeHistory {
+    ProbeReadings readings;
+    ProbeRaysHistory rays;
+};
+
 // Names of the copies that are read back.
 constexpr std::array<std::string_view, kFramesInFlight> kProbeCopies = {"probes.read0", "probes.read1"};
 
@@ -64,8 +76,9 @@ struct ProbePoints {
     float lightUnit = 1;  // see ProbeReadings::set
 };
 
-// Measures the probes and updates `known`. Without probes nothing is declared.
+// Measures the probes and updates the readings. Without probes nothing is declared. `rays`: what they go to;
+// none: no rays.
 void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const ShadowedVals& lights,
-               const ProbeSettings& settings, ProbeReadings& known);
+               const ProbeSettings& settings, ProbeHistory& history, const ProbeRaysInputs* rays = nullptr);
 
 }  // namespace ag::gi

@@ -303,16 +303,14 @@ float dimmingOf(const RsmSet& rsm, TexelRaysHistory& history) {
     return std::min(most, 1.0f);
 }
 
-// Another number whenever light may have changed, but for who sees it.
-uint64_t hashOfWorld(const TexelRaysInputs& in) {
-    const Versions& v = in.versions;
-    uint64_t hash = in.sky ? in.sky.version : 0;
-    for (const uint64_t part : {v.scene, v.instances, v.lights, v.origin, in.occluders.trees.staticVersion})
+}  // namespace
+
+uint64_t versionOfLight(const Versions& v, const Occluders& occluders, const SkyOnDevice& sky) {
+    uint64_t hash = sky ? sky.version : 0;
+    for (const uint64_t part : {v.scene, v.instances, v.lights, v.origin, occluders.trees.staticVersion})
         hash = combineHash(hash, part);
     return hash;
 }
-
-}  // namespace
 
 float reachOfPoints(float area, float most) {
     constexpr float kNearPoints = 3;  // of their spacing
@@ -331,7 +329,7 @@ Irradiance addTexelRays(const ValTiles& t, const Irradiance& areaLights, const T
     const Seen seen = addSeen(t, in.versions.origin, history);
     const float dimming = dimmingOf(in.rsm, history);
     const bool wasWhole = std::exchange(history.whole, in.whole);
-    const uint64_t world = hashOfWorld(in);
+    const uint64_t world = versionOfLight(in.versions, in.occluders, in.sky);
     const bool worldMoves = std::exchange(history.world, world) != world;
     const uint32_t still = history.settling.sinceChange;
     const bool moving = in.moving;

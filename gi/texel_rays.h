@@ -84,6 +84,9 @@ float reachOfPoints(float area, float most);
 // Whether any are cast: `settings` ask for them, and there is something to trace them through.
 bool castsTexelRays(const TexelRaysSettings& settings, const Occluders& occluders);
 
+// Another number whenever what rays find may have changed, but for who sees it.
+uint64_t versionOfLight(const Versions& versions, const Occluders& occluders, const SkyOnDevice& sky);
+
 // `areaLights`: what they send by `tiles`; the same corrected.
 Irradiance addTexelRays(const ValTiles& tiles, const Irradiance& areaLights, const TexelRaysInputs& in,
                         const ValShadingSettings& shading, const TexelRaysSettings& settings,

@@ -55,7 +55,7 @@ gi::BounceLight addRecipe(GraphScope scope, const SceneView& scene, const gi::Bo
                           const RenderSettings& s, gi::BounceLightHistory& h) {
     switch (s.technique) {
         case Technique::kNone:
-            h.probes.clear();
+            h.probes.readings.clear();
             return {};
         case Technique::kAreaLights:
             return gi::addBounceLight(scope, in, s.bounce, h);

@@ -219,8 +219,11 @@ std::optional<gi::TracedBy> tracedBy(const RenderSettings& s, const RenderScene&
                                       Technique::kRsmc, Technique::kAcrsm};
     const bool sky = scene.sky && s.bounce.sky.enabled;
     if (sky || castsRaysToLights(s, scene)) return gi::TracedBy{gi::TreesOf::kAll};
-    if (castsTexelRays(s))
-        return gi::TracedBy{.of = gi::TreesOf::kAll, .atRest = s.bounce.texelRays.movingLength == 0};
+    const bool probes =
+        s.technique == Technique::kAreaLights && !scene.probes.empty() && s.bounce.probes.rays > 0;
+    if (castsTexelRays(s) || probes)
+        return gi::TracedBy{.of = gi::TreesOf::kAll,
+                            .atRest = s.bounce.texelRays.movingLength == 0 && !probes};
     const bool maps = s.bounce.ismAtlas.enabled && s.bounce.ismAtlas.traced;
     if (maps && std::ranges::count(kWithMaps, s.technique) > 0) return gi::TracedBy{gi::TreesOf::kStatic};
     return {};

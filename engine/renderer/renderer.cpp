@@ -118,7 +118,7 @@ void Renderer::render(const RenderScene& given, glm::uvec2 size, const RenderSet
     scene_.beginFrame(scene, jobs_);
     RenderSettings asked = settings;
     fitToDevice(device_.info().limits, asked);
-    if (!canCastTexelRays(device_.info(), asked, scene)) asked.bounce.texelRays.enabled = false;
+    if (!canCastTexelRays(device_.info(), asked, scene)) gi::turnRaysOff(asked.bounce);
     asked.bounce.ismAtlas.keepMaps = settings.bounce.ismAtlas.keepMaps && options.skip;
     asked.composite.exposure += std::log2(units_.light);
     const PixelGrid grid = choosePixels(asked.antialiasing, size, scene, history_.picture.next(scene, asked),

@@ -51,7 +51,7 @@ class Renderer {
     void waitIdle() { device_.waitIdle(); }
 
     // Of the scene's probes, kFramesInFlight frames ago.
-    const gi::ProbeReadings& probeReadings() const { return history_.bounce.probes; }
+    const gi::ProbeReadings& probeReadings() const { return history_.bounce.probes.readings; }
     FrameGraph& graph() { return graph_; }
     SceneGpu& scene() { return scene_; }
     gpu::Device& device() { return device_; }

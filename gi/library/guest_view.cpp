@@ -234,7 +234,7 @@ gi::BounceLight GuestView::declare(GraphScope scope, GuestScene& scene, const Ag
 // Readings of a frame that the device is not done with are none.
 void GuestView::keepReadings(const AgiFrame& f, gi::ProbeReadings before) {
     uint64_t& slot = hostFrames_[graph_->frame() % kFramesInFlight];
-    if (slot > f.framesDone) history_.bounce.probes = std::move(before);
+    if (slot > f.framesDone) history_.bounce.probes.readings = std::move(before);
     slot = f.frame;
 }
 
@@ -250,7 +250,7 @@ void GuestView::record(GuestScene& scene, VkCommandBuffer commands, const AgiFra
     surfaces_->upload(commands);
     const Images images(context_.gpu(), f);
     graph_->beginFrame({.timing = f.timed ? TimingMode::kBracketed : TimingMode::kOff});
-    gi::ProbeReadings before = history_.bounce.probes;
+    gi::ProbeReadings before = history_.bounce.probes.readings;
     const gi::BounceLight light = declare(*graph_, scene, f, images, history_);
     keepReadings(f, std::move(before));
     graph_->execute(commands);
@@ -285,7 +285,7 @@ void GuestView::prepare(GuestScene& scene, const AgiFrame& f) {
 // Without rays where the device cannot cast them.
 gi::BounceLightSettings GuestView::raySettings() const {
     gi::BounceLightSettings s = settings_;
-    if (!gi::canCastRays(context_.gpu().info(), s)) s.texelRays.enabled = false;
+    if (!gi::canCastRays(context_.gpu().info(), s)) gi::turnRaysOff(s);
     return s;
 }
 

@@ -26,7 +26,7 @@ class GuestView {
 
     Settings& options() { return options_; }
     FrameGraph& graph() { return *graph_; }
-    const gi::ProbeReadings& readings() const { return history_.bounce.probes; }
+    const gi::ProbeReadings& readings() const { return history_.bounce.probes.readings; }
     uint32_t virtualLights() const { return virtualLights_; }
     float settled() const;
     GuestContext& context() const { return context_; }

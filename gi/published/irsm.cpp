@@ -12,7 +12,7 @@ BounceLight addIrsm(GraphScope scope, const BounceLightInputs& in, const BounceL
     f.irradiance = f.bounce1 = addStochasticRsm(scope, in.world.versions, downsampled, {.rsm = f.rsm},
                                                 s.stochasticRsm, h.stochasticRsm);
     addToPixels(scope, in, downsampled, s, h, f);  // denoised
-    h.probes.clear();
+    h.probes.readings.clear();
     return f;
 }
 

@@ -12,7 +12,7 @@ BounceLight addRsm400(GraphScope scope, const BounceLightInputs& in, const Bounc
     f.irradiance = f.bounce1 = addStochasticRsm(scope, in.world.versions, downsampled, {.rsm = f.rsm},
                                                 s.stochasticRsm, h.stochasticRsm);
     addToPixels(scope, in, downsampled, s, h, f);
-    h.probes.clear();
+    h.probes.readings.clear();
     return f;
 }
 

@@ -12,7 +12,7 @@ BounceLight addRsmBrute(GraphScope scope, const BounceLightInputs& in, const Bou
     const Surfaces downsampled = addDownsampled(scope, in.surfaces, s.spacing);
     f.irradiance = f.bounce1 = addTexelShading(scope, downsampled, f.rsm);
     addToPixels(scope, in, downsampled, s, h, f);
-    h.probes.clear();
+    h.probes.readings.clear();
     return f;
 }
 

@@ -19,7 +19,7 @@ BounceLight addSsvpLight(GraphScope scope, const BounceLightInputs& in, const Bo
         f.irradiance = addInterleavedShading(scope, downsampled, {f.vals, f.isms}, s.valShading,
                                              ssvp.interleave, kAllInterleaved);
     addToPixels(scope, in, downsampled, s, h, f);
-    h.probes.clear();  // they know no maps that lights share
+    h.probes.readings.clear();  // they know no maps that lights share
     return f;
 }
 

@@ -5,16 +5,7 @@
 #define AG_AIM_GLSL
 
 #include "bvh/met.glsl"
-#include "cluster_members/draw_member.glsl"
-#include "common/form_factors.h"
-#include "rsm/texel_lobe.glsl"
-
-// What a texel sends to a place over its flux, if nothing stands between, 1/m².
-float factorOf(vec3 place, vec3 normal, RsmSurface s) {
-    return s.weight > 0.0 ? diskVectorFactor(place, normal, s.position, s.normal, s.area * kInvPi) / s.area : 0.0;
-}
-
-float meanOf(vec3 v) { return (v.x + v.y + v.z) / 3.0; }
+#include "cluster_members/texel_factor.glsl"
 
 vec3 endBefore(RsmSurface s) { return s.position + s.normal * max(push.p.offset, push.p.texelOffset * sqrt(s.area)); }
 

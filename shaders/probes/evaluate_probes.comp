@@ -23,8 +23,7 @@ layout(set = 0, binding = 4, scalar) uniform Faces { RsmFace items[kMaxRsmFaces]
 layout(set = 0, binding = 5, scalar) uniform Maps { RsmMap items[kMaxRsmMaps]; } maps;
 layout(set = 0, binding = 6, scalar) readonly buffer Probes { Probe items[]; } probes;
 layout(set = 0, binding = 7, scalar) writeonly buffer Rows { ProbeRow items[]; } rows;
-
-const float kSphere = 0.25;  // mean cosine over all directions, of a light in one of them
+layout(set = 0, binding = 8, scalar) writeonly buffer OfLights { float items[]; } ofLights;
 
 // Of a texel: 1 if its surface is no nearer to the light than x.
 float litTexel(RsmFace face, RsmMap map, ivec2 at, vec3 x, float slack) {
@@ -56,14 +55,23 @@ vec3 directFrom(RsmFace face, RsmMap map, vec3 x, vec3 n, bool allRound) {
     vec3 away = sun ? map.direction : d / distance_;
     float texel = 2.0 * map.tanHalf / float(face.size) * distance_;
     float strength = sun ? 1.0 : punctualIrradiance(away, distance_, map.direction, map.cosInner, map.cosOuter, map.range);
-    strength *= allRound ? kSphere : max(-dot(n, away), 0.0);
+    strength *= allRound ? kProbeSphere : max(-dot(n, away), 0.0);
     return map.intensity * (strength * litShare(face, map, ndc, x, texel));
 }
 
-vec3 bouncedFrom(uint index, vec3 x, vec3 n, bool allRound) {
+struct Bounced {
+    vec3 e;          // W/m²
+    float expected;  // of what a ray may find, mean of the channels: an imperfect shadow map may be wrong
+};
+
+Bounced bouncedFrom(uint index, vec3 x, vec3 n, bool allRound) {
+    const float kLeastSeen = 0.25;
     AreaLight l = loadLight(index);
+    LightFrame f = frameOf(l);
     vec3 toward = normalize(l.place.xyz - x + vec3(0.0, 1e-9, 0.0));
-    return irradianceFrom(l, x, allRound ? toward : n, 0.0, push.p.ismTileSize) * (allRound ? kSphere : 1.0);
+    vec3 unshadowed = l.power.rgb * (shapeTerm(x, allRound ? toward : n, 0.0, l, f) * (allRound ? kProbeSphere : 1.0));
+    float seen = visibility(x, l, f, push.p.ismTileSize);
+    return Bounced(unshadowed * seen, dot(unshadowed, vec3(1.0 / 3.0)) * max(seen, kLeastSeen));
 }
 
 void main() {
@@ -73,8 +81,11 @@ void main() {
     vec3 direct = vec3(0.0), bounced = vec3(0.0);
     for (uint i = laneIndex(); i < push.p.faceCount; i += kLanes)
         direct += directFrom(faces.items[i], maps.items[faces.items[i].map], probe.position, probe.normal, allRound);
-    for (uint i = laneIndex(); i < push.p.valCount; i += kLanes)
-        bounced += bouncedFrom(i, probe.position, probe.normal, allRound);
+    for (uint i = laneIndex(); i < push.p.valCount; i += kLanes) {
+        Bounced of = bouncedFrom(i, probe.position, probe.normal, allRound);
+        bounced += of.e;
+        ofLights.items[index * push.p.valCount + i] = of.expected;
+    }
     direct = laneAdd(direct);
     bounced = laneAdd(bounced);
     if (laneIndex() == 0) rows.items[index] = ProbeRow(direct, probe.idLow, bounced, probe.idHigh);
