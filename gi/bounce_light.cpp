@@ -96,7 +96,14 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
                          {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world, grid, otherLights,
                           s.laterBounces.feedback, f.firstCount, f.irradiance.image, f.gloss},
                          s.glossRays, h.glossRays);
-    const ProbeRaysInputs ofProbes{f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world.versions};
+    const ProbeRaysInputs ofProbes{f.rsm,
+                                   f.clusters,
+                                   members,
+                                   in.occluders,
+                                   skyOfRays,
+                                   in.world.versions,
+                                   s.texelRays.reach * in.occluders.extent,
+                                   s.laterBounces.feedback};
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes,
               probeRays ? &ofProbes : nullptr);
     return f;

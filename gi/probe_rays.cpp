@@ -41,14 +41,22 @@ BufferHandle addProbeRays(GraphScope frame, const ProbesByLights& probes, const 
     const GraphScope scope = frame.held(still > count.settleFrames);
     const HistoryBuffer means =
         scope.historyBuffer("probes.means", {.sizeBytes = probes.room * sizeof(io::ProbeMeans)});
-    const io::ProbeRaysPush push{.valCount = in.clusters.count,
-                                 .atlasWidth = in.rsm.atlas.size.x,
-                                 .rays = count.rays,
-                                 .step = step,
-                                 .known = means.valid,
-                                 .still = still > 0,
-                                 .offset = io::kRayOffset * in.occluders.extent,
-                                 .texelOffset = in.occluders.trees.snapping};
+    const bool shines = in.rsm.emissiveCount > 0,
+               goesOn = in.clusters.count > in.rsm.firstLater && in.endless;
+    const io::ProbeRaysPush push{
+        .valCount = probes.lights.count,
+        .clusterCount = in.clusters.count,
+        .atlasWidth = in.rsm.atlas.size.x,
+        .rays = count.rays,
+        .step = step,
+        .known = means.valid,
+        .still = still > 0,
+        .offset = io::kRayOffset * in.occluders.extent,
+        .texelOffset = in.occluders.trees.snapping,
+        .emissiveMap = shines ? in.rsm.lightRsmCount : ~0u,
+        .laterMap = goesOn ? in.rsm.atlas.mapCount - 1 : ~0u,
+        .emissiveReach = shines ? reachOfPoints(in.occluders.emissivePointArea, in.reach) : 0,
+        .laterReach = goesOn ? reachOfPoints(in.occluders.bouncePointArea, in.reach) : 0};
     const BufferHandle upTo = addChances(scope, probes, in, push);
     const BufferHandle rows =
         scope.buffer("probes.corrected", {.sizeBytes = probes.room * sizeof(io::ProbeRow)});
@@ -56,6 +64,10 @@ BufferHandle addProbeRays(GraphScope frame, const ProbesByLights& probes, const 
     pass.read("probes", probes.points)
         .read("rows", probes.rows)
         .read("upTo", upTo)
+        .read("vals", probes.lights.vals)
+        .read("skyTexels", in.sky ? in.sky.texels : in.rsm.texels)  // compiled out without
+        .read("skyUpTo", in.sky ? in.sky.upTo : in.rsm.maps)
+        .constant("kSky", bool(in.sky))
         .readPrevious("meansBefore", means)
         .write("means", means.current)
         .write("corrected", rows)

@@ -22,6 +22,8 @@ struct ProbeRaysInputs {
     const Occluders& occluders;
     const SkyOnDevice& sky;
     const Versions& versions;
+    float reach;   // m, at most: of rays to whatever is near
+    bool endless;  // light goes on after its second bounce
 };
 
 // Lives on the CPU from frame to frame.
@@ -36,6 +38,7 @@ struct ProbesByLights {
     BufferHandle rows;      // io::ProbeRow
     BufferHandle ofLights;  // float, by probe and area light
     uint32_t room;          // rows, of which some may stand for no probe
+    const Vals& lights;
 };
 
 // Whether any are cast for probes: there is something to trace them through.

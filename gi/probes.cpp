@@ -101,7 +101,7 @@ void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
     const BufferHandle measured =
-        rays ? addProbeRays(scope, {points, rows, ofLights, uint32_t(room)}, *rays,
+        rays ? addProbeRays(scope, {points, rows, ofLights, uint32_t(room), vals}, *rays,
                             {settings.rays, settings.settleFrames}, versionOf(probes), h.rays)
              : rows;
     h.readings.set(scope.readBack(kProbeCopies, measured), at.lightUnit);

@@ -2,6 +2,8 @@
 #ifndef AG_MET_GLSL
 #define AG_MET_GLSL
 
+#include "common/near_share.glsl"
+
 struct Met {
     vec3 place, normal;  // on the ray's side, unit
     bool front;          // it reflects light to where the ray came from
@@ -20,7 +22,4 @@ Met surfaceMet(BvhRay ray) {
     return Met(ray.origin + ray.direction * ray.reach, behind ? -normal : normal, front == 0.0 || (front < 0.0) == behind,
                shines ? vec3(0.0) : unpackReflectance(sends), !whole, shines ? unpackRadiance(sends) * kPi : vec3(0.0));
 }
-
-// Of surfaces so far away: the hemisphere's ray has those that are near, draws to points on them the others.
-float nearShare(float distance_, float reach) { return clamp(2.0 - 2.0 * distance_ / max(reach, 1e-20), 0.0, 1.0); }
 #endif

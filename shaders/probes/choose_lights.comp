@@ -41,7 +41,7 @@ void main() {
     float total = 0.0;
     for (uint base = 0; base < valCount; base += kLanes) {
         uint light = base + laneIndex();
-        bool some = light < valCount && memberCountOf(min(light, valCount - 1)) > 0;
+        bool some = memberCountOf(light) > 0;
         float expected = some ? expectedOf(p, index, light) : 0.0;
         total += laneAdd(expected);
         lit += laneVote(some).count;
@@ -50,7 +50,7 @@ void main() {
     float before = 0.0, evenly = kEvenly * max(total, 1e-20) / float(max(lit, 1));
     for (uint base = 0; base < valCount; base += kLanes) {
         uint light = base + laneIndex();
-        bool some = light < valCount && memberCountOf(min(light, valCount - 1)) > 0;
+        bool some = memberCountOf(light) > 0;
         float weight = some ? upTo.items[first + light] + evenly : 0.0;
         float end = before + laneInclusiveAdd(weight);
         before += laneAdd(weight);

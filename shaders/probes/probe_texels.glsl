@@ -3,6 +3,7 @@
 #define AG_PROBE_TEXELS_GLSL
 
 #include "cluster_members/texel_factor.glsl"
+#include "common/near_share.glsl"
 #include "probes/probes_io.h"
 
 // What a texel sends to the probe over its flux, if nothing stands between, 1/m².
@@ -12,10 +13,18 @@ float factorAt(Probe p, RsmSurface s) {
     return factorOf(p.position, toward, s) * (allRound ? kProbeSphere : 1.0);
 }
 
-// The same of its light, mean of the channels, W/m².
-float wantAt(Probe p, uint texel, RsmSurface s) {
-    return factorAt(p, s) * s.weight * meanOf(sentTo(p.position, texel, s, push.p.atlasWidth));
+// The same of draws: of points near the probe rays to whatever is near find the surfaces.
+float drawnFactorAt(Probe p, uint texel, RsmSurface s) {
+    uint map = mapOfTexel(texel);
+    float reach = map == push.p.emissiveMap ? push.p.emissiveReach : map == push.p.laterMap ? push.p.laterReach : 0.0;
+    float ofNear = map == push.p.laterMap ? s.cosine : 1.0;  // what lights without maps make them send is not asked for there
+    return factorAt(p, s) * (1.0 - ofNear * nearShare(distance(s.position, p.position), reach));
 }
 
-uint memberCountOf(uint light) { return fetchTexel(memberRanges, int(light * 2 + 1)).x; }
+// The same of its light, mean of the channels, W/m².
+float wantAt(Probe p, uint texel, RsmSurface s) {
+    return drawnFactorAt(p, texel, s) * s.weight * meanOf(sentTo(p.position, texel, s, push.p.atlasWidth));
+}
+
+uint memberCountOf(uint light) { return light < push.p.clusterCount ? fetchTexel(memberRanges, int(light * 2 + 1)).x : 0; }
 #endif

@@ -41,14 +41,19 @@ struct ProbeMeans {
 };
 
 struct ProbeRaysPush {
-    uint valCount;
-    uint atlasWidth;  // texels, of the maps
-    uint rays;        // of each probe
-    uint step;        // number of the frame's rays
-    uint known;       // 0: there are no means before
-    uint still;       // 1: nothing has changed since the frame before
+    uint valCount;      // with padding
+    uint clusterCount;  // those that have members
+    uint atlasWidth;    // texels, of the maps
+    uint rays;          // of each probe
+    uint step;          // number of the frame's rays
+    uint known;         // 0: there are no means before
+    uint still;         // 1: nothing has changed since the frame before
     // m, and in texels: rays leave and reach surfaces so far before them at least
     float offset, texelOffset;
+    // Maps of points that shine and of those that reflect; none: beyond all maps. m: rays to whatever is near
+    // find surfaces so near, draws to points on them have those beyond.
+    uint emissiveMap, laterMap;
+    float emissiveReach, laterReach;
 };
 
 #ifdef __cplusplus

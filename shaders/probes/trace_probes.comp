@@ -1,11 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-// Light at a probe by rays to texels, each drawn of one area light's by what it would send (resampling, Talbot et al. 2005). A
-// workgroup a probe. Area lights are a control variate as long as anything changes.
+// Light at a probe by rays to texels, each drawn of one area light's by what it would send (resampling, Talbot et al. 2005);
+// and by rays all round to whatever is near, from where a further ray asks for the light of a texel and one for the sky's:
+// points of later bounces stand badly for surfaces so near. A workgroup a probe. Area lights are a control variate as long as
+// anything changes.
 #include "common/texels.glsl"
+#include "later_bounces/later_bounces_io.h"
 #include "probes/probes_io.h"
 #include "rsm/rsm_io.h"
+#include "sky/sky_io.h"
 
 const uint kThreads = 64;
 layout(local_size_x = kThreads) in;
@@ -27,51 +31,146 @@ layout(set = 0, binding = 13) FLOAT_TEXELS(upTo);
 layout(set = 0, binding = 14, scalar) readonly buffer MeansBefore { ProbeMeans items[]; } meansBefore;
 layout(set = 0, binding = 15, scalar) writeonly buffer Means { ProbeMeans items[]; } means;
 layout(set = 0, binding = 16, scalar) writeonly buffer Corrected { ProbeRow items[]; } corrected;
+layout(set = 0, binding = 17) VEC4_TEXELS(skyTexels);
+layout(set = 0, binding = 18, scalar) uniform SkyUpTo { vec4 items[kSkyCells / 4]; } skyUpTo;
+layout(set = 0, binding = 19) VEC4_TEXELS(vals);
 layout(constant_id = 0) const bool kTexelLobes = false;
+layout(constant_id = 1) const bool kSky = false;
 
 #define AG_BVH_MOVERS
 #include "bvh/trace.glsl"
 #include "cluster_members/aim.glsl"
 #include "probes/probe_texels.glsl"
+#define AG_SKY_UP_TO(cell) skyUpTo.items[(cell) / 4][(cell) % 4]
+#include "texel_rays/incident.glsl"
 
 const uint kDraws = 16;          // texels of a light that one is resampled from
+const uint kLightDraws = 32;     // lights that one is resampled from, for what is near
 const float kMovingFrames = 16;  // that means stand for
 const float kAlike = 0.25;       // share by which the area lights' sum differs at most from its mean of the same light
 const float kMostTimes = 4.0;    // that rays find of what area lights have
 const float kTrusted = 1.0;      // frames of rays that weigh as much as area lights
 const float kSettledFrames = 8;  // at rest that weigh as much as the frames before
 
-struct Chosen {
-    uint light;
-    float chance;  // 0: there is none
-};
+float next(inout uint random) {
+    random = hashUint(random);
+    return unitOf(random);
+}
 
-Chosen chooseLight(uint probe, float xi) {
-    uint first = probe * push.p.valCount, low = 0, high = push.p.valCount - 1;
-    float total = fetchTexel(upTo, int(first + high)).x, at = xi * total;
+float totalOf(uint first) { return fetchTexel(upTo, int(first + push.p.valCount - 1)).x; }
+
+float chanceOf(uint first, uint light) {
+    float before = light > 0 ? fetchTexel(upTo, int(first + light - 1)).x : 0.0, total = totalOf(first);
+    return total > 0.0 ? (fetchTexel(upTo, int(first + light)).x - before) / total : 0.0;
+}
+
+uint chooseLight(uint first, float xi) {
+    uint low = 0, high = push.p.valCount - 1;
+    float at = xi * totalOf(first);
     while (low < high) {
         uint middle = (low + high) / 2;
         if (at >= fetchTexel(upTo, int(first + middle)).x) low = middle + 1;
         else high = middle;
     }
-    float before = low > 0 ? fetchTexel(upTo, int(first + low - 1)).x : 0.0;
-    return Chosen(low, total > 0.0 ? (fetchTexel(upTo, int(first + low)).x - before) / total : 0.0);
+    return low;
 }
 
-// W/m², of all texels by one of them.
-vec3 foundBy(Probe p, uint index, uint ray, uint random) {
-    random = hashUint(random);
-    Chosen c = chooseLight(index, (float(ray) + unitOf(random)) / float(push.p.rays));
-    uint count = memberCountOf(c.light);
-    if (c.chance <= 0.0 || count == 0) return vec3(0.0);
+// A ray, and what it brings if it meets nothing, W/m².
+struct Way {
+    BvhRay ray;
+    vec3 unblocked;
+};
+
+const Way kNoWay = Way(BvhRay(vec3(0.0), vec3(0.0), 0.0, 0.0, false, 0, 0), vec3(0.0));
+
+// To one of all texels, for all of them. `first`: of the probe's chances.
+Way wayToTexel(Probe p, uint first, float xi, inout uint random) {
+    uint light = chooseLight(first, xi), count = memberCountOf(light);
+    float chance = chanceOf(first, light);
     MemberDraw d = MemberDraw(0, 0.0, 0.0);
-    AG_DRAW_MEMBER(d, firstMember(c.light), count, kDraws, random, wantAt(p, texel_, s))
-    if (d.sum <= 0.0) return vec3(0.0);
+    if (chance > 0.0 && count > 0) AG_DRAW_MEMBER(d, firstMember(light), count, kDraws, random, wantAt(p, texel_, s))
+    if (d.sum <= 0.0) return kNoWay;
     RsmSurface s = AG_RSM_FETCH(texels, d.texel);
     vec3 sends = s.flux * sentTo(p.position, d.texel, s, push.p.atlasWidth);
     vec3 start = p.position + p.normal * push.p.offset;
-    BvhRay way = BvhRay(start, endBefore(s) - start, 1.0, unitOf(hashUint(random)), true, 0, 0);
-    return traceOccluders(way) ? vec3(0.0) : sends * (factorAt(p, s) * weightOf(d, count, kDraws) / c.chance);
+    BvhRay ray = BvhRay(start, endBefore(s) - start, 1.0, next(random), true, 0, 0);
+    return Way(ray, sends * (drawnFactorAt(p, d.texel, s) * weightOf(d, count, kDraws) / chance));
+}
+
+// To whatever is near.
+Way wayToNear(Probe p, inout uint random) {
+    bool allRound = dot(p.normal, p.normal) < 0.25;
+    float u = next(random), v = next(random), z = 1.0 - 2.0 * u, r = sqrt(max(1.0 - z * z, 0.0));
+    vec3 direction = allRound ? vec3(r * cos(2.0 * kPi * v), r * sin(2.0 * kPi * v), z) : cosineDirection(p.normal, vec2(u, v));
+    float reach = max(push.p.emissiveReach, push.p.laterReach);
+    return Way(BvhRay(p.position + p.normal * push.p.offset, direction, reach, next(random), false, 0, 0), vec3(0.0));
+}
+
+struct LightDraw {
+    uint light;
+    float weight;  // of what it sends, so that the mean is all lights' sum
+};
+
+// A light by about what it sends to a place near the probe, whichever way it faces.
+LightDraw drawLightFor(vec3 place, inout uint random) {
+    float sum = 0.0, wanted = 0.0, along = float(push.p.valCount) / float(kLightDraws);
+    uint light = 0;
+    for (uint i = 0; i < kLightDraws; ++i) {
+        uint candidate = min(uint((float(i) + next(random)) * along), push.p.valCount - 1);
+        vec4 middle = fetchTexel(vals, int(candidate) * 3);
+        vec3 d = middle.xyz - place;
+        float want = memberCountOf(candidate) > 0 ? meanOf(fetchTexel(vals, int(candidate) * 3 + 2).rgb) / (dot(d, d) + middle.w) : 0.0;
+        sum += want;
+        bool taken = want > 0.0 && (1.0 - next(random)) * sum <= want;
+        light = taken ? candidate : light;
+        wanted = taken ? want : wanted;
+    }
+    return LightDraw(light, wanted > 0.0 ? sum * along / wanted : 0.0);
+}
+
+// One of all texels, for what all of them send to a place near the probe.
+Incident fromTexels(vec3 place, vec3 normal, vec3 start, inout uint random) {
+    LightDraw l = drawLightFor(place, random);
+    if (l.weight <= 0.0) return kNoIncident;
+    uint count = memberCountOf(l.light);
+    MemberDraw d = MemberDraw(0, 0.0, 0.0);
+    AG_DRAW_MEMBER(d, firstMember(l.light), count, kDraws, random, factorOf(place, normal, s) * s.weight * meanOf(sentTo(place, texel_, s, push.p.atlasWidth)))
+    if (d.sum <= 0.0) return kNoIncident;
+    RsmSurface s = AG_RSM_FETCH(texels, d.texel);
+    vec3 sends = s.flux * sentTo(place, d.texel, s, push.p.atlasWidth);
+    return Incident(endBefore(s) - start, 1.0, sends * (factorOf(place, normal, s) * weightOf(d, count, kDraws) * l.weight));
+}
+
+// From where a ray ended onward: to a texel, or to the sky.
+Way wayOn(Met met, vec3 reflects, bool toSky, inout uint random) {
+    vec3 start = met.place + met.normal * push.p.offset;
+    Incident light = toSky ? drawSkyAt(met.normal, 1e20, random) : fromTexels(met.place, met.normal, start, random);
+    return Way(BvhRay(start, light.toward, light.reach, next(random), true, 0, 0), reflects * light.sends);
+}
+
+const uint kToTexel = 0, kToNear = 1, kOnToTexel = 2, kOnToSky = 3;
+
+// W/m², by one draw and one ray to whatever is near.
+vec3 foundBy(Probe p, uint first, uint ray, uint random) {
+    vec3 e = vec3(0.0), reflects = vec3(0.0);
+    Met met;
+    float xi = (float(ray) + next(random)) / float(push.p.rays);
+    uint end = max(push.p.emissiveReach, push.p.laterReach) == 0.0 ? kToNear : kSky ? kOnToSky + 1 : kOnToSky;
+    // A loop, so that the trees' walk is compiled once.
+    for (uint kind = kToTexel; kind < end; ++kind) {
+        Way w = kNoWay;
+        if (kind == kToTexel) w = wayToTexel(p, first, xi, random);
+        else if (kind == kToNear) w = wayToNear(p, random);
+        else if (reflects != vec3(0.0)) w = wayOn(met, reflects, kind == kOnToSky, random);
+        if (kind != kToNear && w.unblocked == vec3(0.0)) continue;
+        bool meets = traceOccluders(w.ray);
+        if (!meets) e += w.unblocked;
+        if (!meets || kind != kToNear) continue;
+        met = surfaceMet(w.ray);
+        e += met.front ? met.shines * nearShare(w.ray.reach, push.p.emissiveReach) : vec3(0.0);
+        reflects = met.front ? min(met.reflectance, vec3(kMostAlbedo)) * nearShare(w.ray.reach, push.p.laterReach) : vec3(0.0);
+    }
+    return e;
 }
 
 shared vec3 sums[kThreads];
@@ -101,7 +200,7 @@ void main() {
     bool some = p.idLow != ~0u || p.idHigh != ~0u;
     vec3 sum = vec3(0.0);
     for (uint ray = thread; some && ray < push.p.rays; ray += kThreads)
-        sum += foundBy(p, index, ray, hashUint(index * 4099u + ray) ^ hashUint(push.p.step * 0x9e3779b9u));
+        sum += foundBy(p, index * push.p.valCount, ray, hashUint(index * 4099u + ray) ^ hashUint(push.p.step * 0x9e3779b9u));
     sums[thread] = sum;
     barrier();
     if (thread > 0) return;

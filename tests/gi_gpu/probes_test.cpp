@@ -12,9 +12,9 @@ namespace ag::gi {
 using namespace render;
 namespace {
 
-// Irradiance of exactly one bounce, and straight from lights, on a small plane at each point.
+// Irradiance of one bounce or of more, and straight from lights, on a small plane at each point.
 std::vector<ProbeReading> reference(const RenderScene& scene, std::span<const RenderProbe> planes,
-                                    uint32_t samples) {
+                                    uint32_t samples, uint32_t bounces = 1) {
     const reference::RayScene rays(scene);
     JobRunner runner(2);
     reference::FirstHits hits({uint32_t(planes.size()), 1});
@@ -27,11 +27,11 @@ std::vector<ProbeReading> reference(const RenderScene& scene, std::span<const Re
         s.albedo = glm::vec3(1);
         hits.directions[i] = -planes[i].normal;
     }
-    reference::LightSums sums(hits.size, 1);
-    reference::addPaths(rays, hits, {.bounces = 1}, {.seed = 7, .count = samples}, runner, sums);
+    reference::LightSums sums(hits.size, bounces);
+    reference::addPaths(rays, hits, {.bounces = bounces}, {.seed = 7, .count = samples}, runner, sums);
     std::vector<ProbeReading> out(planes.size());
     for (size_t i = 0; i < planes.size(); ++i) {
-        out[i].bounced = sums.bounces[1].pixels[i] / float(samples);
+        out[i].bounced = (bounces > 1 ? sums.indirect : sums.bounces[1]).pixels[i] / float(samples);
         for (const reference::PreparedLight& p : rays.lights()) {
             const glm::vec3 d = p.light.position - planes[i].position;
             const float distance = glm::length(d), cosine = glm::dot(planes[i].normal, d) / distance;
@@ -110,7 +110,27 @@ TEST(Probes, MeasureWhatThePathTracerMeasures) {
     }
 }
 
-// While a light moves, probes have no rays of rest; what the last frames' rays found corrects the area lights.
+// Right beside surfaces, too, for which few points of later bounces stand.
+TEST(Probes, MeasureAllBounces) {
+    struct Case {
+        const char* scene;
+        glm::vec3 from, to, normal;
+    };
+    for (const Case& c : {Case{"cornell", {-0.7f, 1.3f, -0.7f}, {0.7f, 1.7f, 0.8f}, {0, -1, 0}},
+                          Case{"cornell", {-0.95f, 0.1f, 0.75f}, {0.95f, 0.5f, 0.9f}, {0, 0, -1}},
+                          Case{"occluder", {-1.7f, 0.6f, -1}, {-0.9f, 1.6f, 1}, {1, 0, 0}}}) {
+        Bench b(*scenegen::buildScene(c.scene, 0));
+        b.settings.bounce.rsm.resolution = 0;
+        addBounces(b.settings);
+        const std::vector<RenderProbe> probes = grid(c.from, c.to, c.normal);
+        const auto truth = reference(b.scene, probes, 4096, 12);
+        measure(b, probes, 48);
+        compare(c.scene, b, probes, truth, 0.04, 0.1);
+    }
+}
+
+// While a light moves, probes have no rays of rest; what the last frames' rays found corrects the area
+// lights.
 TEST(Probes, FollowALightThatMoves) {
     Bench b(*scenegen::buildScene("cornell", 0));
     b.settings.bounce.rsm.resolution = 0;
