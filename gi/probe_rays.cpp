@@ -9,6 +9,8 @@
 namespace ag::gi {
 namespace {
 
+constexpr uint32_t kTimesAtRest = 4;  // as many rays, when other passes rest
+
 // How likely each probe's rays go to each light: sums up to it.
 BufferHandle addChances(GraphScope scope, const ProbesByLights& probes, const ProbeRaysInputs& in,
                         const io::ProbeRaysPush& push) {
@@ -47,7 +49,7 @@ BufferHandle addProbeRays(GraphScope frame, const ProbesByLights& probes, const 
         .valCount = probes.lights.count,
         .clusterCount = in.clusters.count,
         .atlasWidth = in.rsm.atlas.size.x,
-        .rays = count.rays,
+        .rays = still > 0 ? kTimesAtRest * count.rays : count.rays,
         .step = step,
         .known = means.valid,
         .still = still > 0,

@@ -45,7 +45,7 @@ struct ProbesByLights {
 bool castsProbeRays(uint32_t rays, const Occluders& occluders);
 
 struct ProbeRaysCount {
-    uint32_t rays;  // of each probe a frame
+    uint32_t rays;  // of each probe a frame while something changes
     uint32_t settleFrames;
 };
 

@@ -21,7 +21,7 @@ constexpr uint32_t kMostProbes = 4096;  // further ones are left out
 struct ProbeSettings {
     ValShape shape = ValShape::kPolygon;
     uint32_t taps = 4;            // of an area light's soft shadow
-    uint32_t rays = 128;          // to texels, a probe and frame; 0: area lights alone
+    uint32_t rays = 32;           // of a probe, a frame; four times as many once nothing changes; 0: none
     uint32_t settleFrames = 256;  // with new rays after anything last changed
 
     static constexpr auto fields() {
@@ -29,7 +29,7 @@ struct ProbeSettings {
             SettingField{"shape", &ProbeSettings::shape}.unlisted(),
             SettingField{"taps", &ProbeSettings::taps, 1, 32, "", "of area lights' soft shadows at probes"},
             SettingField{"rays", &ProbeSettings::rays, 0, 4096, "",
-                         "from each probe a frame; 0: area lights alone light them"},
+                         "from each probe a frame, four times as many once nothing changes; 0: none"},
             SettingField{"settle_frames", &ProbeSettings::settleFrames, 0, 1000000, "frames",
                          "with new rays after anything last changed"}};
     }

@@ -6,6 +6,9 @@
 #include "common/near_share.glsl"
 #include "probes/probes_io.h"
 
+// Else the row fills the buffer up.
+bool isProbe(Probe p) { return p.idLow != ~0u || p.idHigh != ~0u; }
+
 // What a texel sends to the probe over its flux, if nothing stands between, 1/m².
 float factorAt(Probe p, RsmSurface s) {
     bool allRound = dot(p.normal, p.normal) < 0.25;

@@ -11,7 +11,7 @@
 #include "rsm/rsm_io.h"
 #include "sky/sky_io.h"
 
-const uint kThreads = 64;
+const uint kThreads = 32;
 layout(local_size_x = kThreads) in;
 layout(push_constant, scalar) uniform Push { ProbeRaysPush p; } push;
 layout(set = 0, binding = 0) VEC4_TEXELS(texels);
@@ -46,7 +46,8 @@ layout(constant_id = 1) const bool kSky = false;
 
 const uint kDraws = 16;          // texels of a light that one is resampled from
 const uint kLightDraws = 32;     // lights that one is resampled from, for what is near
-const float kMovingFrames = 16;  // that means stand for
+const float kMovingFrames = 32;  // that means stand for
+const float kOtherFrames = 4;    // the same once the light is another
 const float kAlike = 0.25;       // share by which the area lights' sum differs at most from its mean of the same light
 const float kMostTimes = 4.0;    // that rays find of what area lights have
 const float kTrusted = 1.0;      // frames of rays that weigh as much as area lights
@@ -179,7 +180,7 @@ const ProbeMeans kNoMeans = ProbeMeans(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0)
 
 ProbeMeans withFrame(ProbeMeans m, vec3 byRays, vec3 byLights) {
     bool alike = abs(meanOf(byLights) - meanOf(m.byLights)) <= kAlike * meanOf(m.byLights);
-    m.frames = min(alike ? m.frames + 1.0 : 1.0, kMovingFrames);
+    m.frames = min(m.frames + 1.0, alike ? kMovingFrames : kOtherFrames);
     m.byRays = mix(m.byRays, byRays, 1.0 / m.frames);
     m.byLights = mix(m.byLights, byLights, 1.0 / m.frames);
     m.still = push.p.still == 1 ? m.still + 1.0 : 0.0;
@@ -197,9 +198,8 @@ vec3 bouncedBy(ProbeMeans m, vec3 byLights) {
 void main() {
     uint index = gl_WorkGroupID.x, thread = gl_LocalInvocationID.x;
     Probe p = probes.items[index];
-    bool some = p.idLow != ~0u || p.idHigh != ~0u;
     vec3 sum = vec3(0.0);
-    for (uint ray = thread; some && ray < push.p.rays; ray += kThreads)
+    for (uint ray = thread; isProbe(p) && ray < push.p.rays; ray += kThreads)
         sum += foundBy(p, index * push.p.valCount, ray, hashUint(index * 4099u + ray) ^ hashUint(push.p.step * 0x9e3779b9u));
     sums[thread] = sum;
     barrier();
