@@ -100,6 +100,7 @@ void addProbes(GraphScope scope, const ProbePoints& at, const RsmSet& rsm, const
         .push(io::ProbePush{
             .valCount = vals.count, .faceCount = rsm.lightFaceCount, .ismTileSize = isms.tileSize})
         .dispatchGroups(uint32_t(room));
+    if (!rays) h.rays = {};  // what was known is of other rows by the time they are cast again
     const BufferHandle measured =
         rays ? addProbeRays(scope, {points, rows, ofLights, uint32_t(room), vals}, *rays,
                             {settings.rays, settings.settleFrames}, versionOf(probes), h.rays)

@@ -1,3 +1,4 @@
+// Points that stand for surfaces, and rays that find the surfaces themselves where points are too near.
 #ifndef AG_NEAR_SHARE_GLSL
 #define AG_NEAR_SHARE_GLSL
 

@@ -23,8 +23,8 @@ layout(constant_id = 0) const bool kTexelLobes = false;
 
 #include "probes/probe_texels.glsl"
 
-const uint kDraws = 4;        // texels of each light that are looked at
-const float kEvenly = 0.1;    // share of the rays that go to any light
+const uint kDraws = 4;      // texels of each light that are looked at
+const float kEvenly = 0.1;  // share of the rays that go to any light
 
 // W/m² if it is seen, mean of the channels.
 float expectedOf(Probe p, uint index, uint light) {

@@ -116,15 +116,14 @@ TEST(Probes, MeasureAllBounces) {
         const char* scene;
         glm::vec3 from, to, normal;
     };
-    for (const Case& c : {Case{"cornell", {-0.7f, 1.3f, -0.7f}, {0.7f, 1.7f, 0.8f}, {0, -1, 0}},
-                          Case{"cornell", {-0.95f, 0.1f, 0.75f}, {0.95f, 0.5f, 0.9f}, {0, 0, -1}},
+    for (const Case& c : {Case{"cornell", {-0.95f, 0.1f, 0.75f}, {0.95f, 0.5f, 0.9f}, {0, 0, -1}},
                           Case{"occluder", {-1.7f, 0.6f, -1}, {-0.9f, 1.6f, 1}, {1, 0, 0}}}) {
-        Bench b(*scenegen::buildScene(c.scene, 0));
+        Bench b(*scenegen::buildScene(c.scene, 0), {48, 27});  // which does not matter to probes
         b.settings.bounce.rsm.resolution = 0;
         addBounces(b.settings);
         const std::vector<RenderProbe> probes = grid(c.from, c.to, c.normal);
         const auto truth = reference(b.scene, probes, 4096, 12);
-        measure(b, probes, 48);
+        measure(b, probes, 32);
         compare(c.scene, b, probes, truth, 0.04, 0.1);
     }
 }

@@ -68,7 +68,8 @@ TEST(IoLayout, ShadersKeepWithinTheLeastLimits) {
         expectWithin(module.pushSizeBytes, "maxPushConstantsSize");
         const bool ofRays = module.path.find("texel_rays/") != std::string::npos ||
                             module.path.find("gloss_rays/") != std::string::npos ||
-                            module.path.ends_with("later_bounces/trace.comp");
+                            module.path.ends_with("later_bounces/trace.comp") ||
+                            module.path.ends_with("probes/trace_probes.comp");
         if (ofRays)
             EXPECT_LE(count(kStorageBuffer), gpu::kStorageBuffersOfRays) << module.path;
         else
