@@ -1,7 +1,6 @@
 // Rays from probes to texels of the reflective shadow maps: what area lights and their imperfect shadow maps
-// get wrong at a probe. While something changes the probe's light is that of the area lights, times what rays
-// of the last frames found over what area lights had for them; once nothing does, it is the mean of what rays
-// find from then on.
+// get wrong at a probe. While the scene changes, the ratio of the rays' mean to the area lights' mean over
+// some frames scales the area lights' light. In a still scene the rays' mean replaces it.
 #pragma once
 
 #include <cstdint>

@@ -16,9 +16,10 @@ uint64_t idOf(uint32_t low, uint32_t high) {
     return uint64_t(high) << 32 | low;
 }
 
-// One more than the row that a probe had in the frame before, mostly the same; 0: none.
-uint32_t rowOf(uint64_t id, std::span<const uint64_t> before, uint32_t row) {
-    if (row < before.size() && before[row] == id) return row + 1;
+// One more than the row that a probe had in the frame before; 0: none. `after`: the answer for the probe
+// before it in the list, mostly one less.
+uint32_t rowOf(uint64_t id, std::span<const uint64_t> before, uint32_t after) {
+    if (after < before.size() && before[after] == id) return after + 1;
     const auto found = std::ranges::find(before, id);
     return found == before.end() ? 0 : uint32_t(found - before.begin()) + 1;
 }
@@ -31,9 +32,11 @@ BufferHandle uploadProbes(GraphScope scope, std::span<const RenderProbe> probes,
     const BufferHandle buffer = scope.buffer("probes.points", {.sizeBytes = room * sizeof(io::Probe)});
     static thread_local std::vector<io::Probe> rows;  // keeps its memory from frame to frame
     rows.clear();
-    for (const RenderProbe& p : probes)
-        rows.push_back({p.position, uint32_t(p.id), p.normal, uint32_t(p.id >> 32),
-                        rowOf(p.id, before, uint32_t(rows.size()))});
+    uint32_t row = 0;
+    for (const RenderProbe& p : probes) {
+        row = rowOf(p.id, before, row);
+        rows.push_back({p.position, uint32_t(p.id), p.normal, uint32_t(p.id >> 32), row});
+    }
     before.resize(probes.size());
     std::ranges::transform(probes, before.begin(), &RenderProbe::id);
     rows.resize(room, {.idLow = uint32_t(kNoProbe), .idHigh = uint32_t(kNoProbe >> 32)});

@@ -4,7 +4,7 @@
 // Irradiance at the points from area lights, corrected by rays: what those found over what the lights sent, both as means over
 // frames. As a ratio it holds at once when the light grows with every further bounce. Rays go to texels and to other points. Near
 // surfaces, for which points stand badly, are met by a ray into the hemisphere; what reaches them is drawn again.
-#include "common/sampling.h"
+#include "common/random.glsl"
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
 #include "rsm/rsm_io.h"
@@ -52,11 +52,6 @@ vec3 fromMembers(vec3 x, vec3 n, uint kind, float nearReach, inout uint random) 
     vec3 start = x + n * push.p.offset;
     Aim aim = aimAtMember(x, n, firstOf[kind], firstOf[kind + 1], kDraws, nearReach, random);
     return arrivingAt(start, Incident(aim.place - start, 1.0, aim.sends), unitOf(hashUint(random)));
-}
-
-float next(inout uint random) {
-    random = hashUint(random);
-    return unitOf(random);
 }
 
 // What a near surface sends on of what reaches it.

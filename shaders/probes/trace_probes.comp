@@ -5,6 +5,7 @@
 // and by rays all round to whatever is near, from where a further ray asks for the light of a texel and one for the sky's:
 // points of later bounces stand badly for surfaces so near. A workgroup a probe. Area lights are a control variate as long as
 // anything changes.
+#include "common/random.glsl"
 #include "common/texels.glsl"
 #include "later_bounces/later_bounces_io.h"
 #include "probes/probes_io.h"
@@ -52,11 +53,6 @@ const float kAlike = 0.25;       // share by which the area lights' sum differs 
 const float kMostTimes = 4.0;    // that rays find of what area lights have
 const float kTrusted = 1.0;      // frames of rays that weigh as much as area lights
 const float kSettledFrames = 8;  // at rest that weigh as much as the frames before
-
-float next(inout uint random) {
-    random = hashUint(random);
-    return unitOf(random);
-}
 
 float totalOf(uint first) { return fetchTexel(upTo, int(first + push.p.valCount - 1)).x; }
 
@@ -133,13 +129,9 @@ LightDraw drawLightFor(vec3 place, inout uint random) {
 Incident fromTexels(vec3 place, vec3 normal, vec3 start, inout uint random) {
     LightDraw l = drawLightFor(place, random);
     if (l.weight <= 0.0) return kNoIncident;
-    uint count = memberCountOf(l.light);
-    MemberDraw d = MemberDraw(0, 0.0, 0.0);
-    AG_DRAW_MEMBER(d, firstMember(l.light), count, kDraws, random, factorOf(place, normal, s) * s.weight * meanOf(sentTo(place, texel_, s, push.p.atlasWidth)))
-    if (d.sum <= 0.0) return kNoIncident;
-    RsmSurface s = AG_RSM_FETCH(texels, d.texel);
-    vec3 sends = s.flux * sentTo(place, d.texel, s, push.p.atlasWidth);
-    return Incident(endBefore(s) - start, 1.0, sends * (factorOf(place, normal, s) * weightOf(d, count, kDraws) * l.weight));
+    uint member = firstMember(l.light);
+    Aim aim = aimAtMember(place, normal, member, member + memberCountOf(l.light), kDraws, 0.0, random);
+    return Incident(aim.place - start, 1.0, aim.sends * l.weight);
 }
 
 // From where a ray ended onward: to a texel, or to the sky.

@@ -6,7 +6,7 @@
 // the surface they meet, and a further ray asks whether the light gets there. Near points of later bounces, the light of area
 // lights and of the sky goes on from where the second ends, by a ray to either.
 #include "common/pixel_rays.h"
-#include "common/sampling.h"
+#include "common/random.glsl"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
 #include "later_bounces/later_bounces_io.h"
@@ -146,11 +146,6 @@ Way wayOfDraw(Receiver r, Drawn d, TexelAim aim, vec2 xi, float opaqueFrom) {
     TexelView v = viewTexel(aim.texel, aim.map, push.p.atlasWidth);
     if (bothFind(r, aim.map, v.s)) return wayThroughSquare(r, v, d, aim, xi, opaqueFrom);
     return wayToMiddle(r, v, aim, opaqueFrom);
-}
-
-float next(inout uint random) {
-    random = hashUint(random);
-    return unitOf(random);
 }
 
 uint memberAt(uint first, uint count, float xi) { return fetchTexel(members, int(first + min(uint(xi * float(count)), count - 1))).x; }

@@ -2,7 +2,7 @@
 #ifndef AG_INCIDENT_GLSL
 #define AG_INCIDENT_GLSL
 
-#include "common/sampling.h"
+#include "common/random.glsl"
 #include "sky/draw.glsl"
 
 struct Incident {
@@ -16,10 +16,7 @@ const Incident kNoIncident = Incident(vec3(0.0), 0.0, vec3(0.0));
 // Of the sky, by one draw. `reach`, m: beyond it nothing stands.
 Incident drawSkyAt(vec3 normal, float reach, inout uint random) {
     vec3 xi;
-    for (int i = 0; i < 3; ++i) {
-        random = hashUint(random);
-        xi[i] = unitOf(random);
-    }
+    for (int i = 0; i < 3; ++i) xi[i] = next(random);
     SkyDraw d = drawSky(xi);
     float cosine = max(dot(normal, d.direction), 0.0);
     return Incident(d.direction, reach, d.density > 0.0 ? d.radiance * (cosine / d.density) : vec3(0.0));
