@@ -48,6 +48,8 @@ void applyQuality(Quality preset, render::RenderSettings& gi) {
     render::addBounces(gi);
     gi.bounce.laterBounces.share = kLaterShare;
     gi.bounce.texelRays.enabled = false;  // the game never stands still
+    gi.bounce.laterBounces.rays = 1;
+    gi.bounce.laterBounces.turns = 4;
     gi.composite = before.composite;
     gi.exposure = before.exposure;
     if (preset == Quality::kHigh || preset == Quality::kUltra) gi.bloom.share = 0.05f;

@@ -86,7 +86,7 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
                               grid.still,
                               h.laterBounces.step};
     addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces,
-                       rays ? &pointRays : nullptr);
+                       rays || probeRays ? &pointRays : nullptr);
 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, gathered, s, h, f, grid);

@@ -16,10 +16,11 @@ namespace {
 
 // As ValShadingSettings'. Farther than on screen: what disks are off by comes back in every bounce.
 constexpr float kNearReach = 6;
-constexpr float kMovingLength = 16, kStillLength = 1024;  // frames that means of rays stand for
+constexpr uint32_t kMovingLength = 16, kStillLength = 1024;  // frames that means of rays stand for
+constexpr uint32_t kLeastLength = 4;                         // in which a point has rays
 
 void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t lightCount, uint32_t firstLater,
-                  const PointRays& in, uint32_t rays) {
+                  const PointRays& in, const LaterBouncesSettings& s) {
     const uint32_t count = emitters.reflecting.count();
     const HistoryBuffer means =
         scope.historyBuffer("later_bounces.point_means", {.sizeBytes = count * sizeof(io::PointMeans)});
@@ -29,17 +30,19 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
         .readWrite("irradiance", emitters.irradiance.current)
         .readPrevious("before", means)
         .write("means", means.current)
-        .push(io::TracePush{.count = count,
-                            .valCount = lightCount,
-                            .firstLater = firstLater,
-                            .rays = in.still ? rays : 1,
-                            .step = in.step,
-                            .valid = means.valid,
-                            .mostLength = in.still ? kStillLength : kMovingLength,
-                            .offset = io::kRayOffset * in.occluders.extent,
-                            .texelOffset = in.occluders.trees.snapping,
-                            .atlasWidth = in.rsm.atlas.size.x,
-                            .nearReach = reachOfPoints(in.occluders.bouncePointArea, in.reach)})
+        .push(io::TracePush{
+            .count = count,
+            .valCount = lightCount,
+            .firstLater = firstLater,
+            .rays = in.still ? s.rays : 1,
+            .step = in.step,
+            .turns = s.turns,
+            .valid = means.valid,
+            .mostLength = float(std::max((in.still ? kStillLength : kMovingLength) / s.turns, kLeastLength)),
+            .offset = io::kRayOffset * in.occluders.extent,
+            .texelOffset = in.occluders.trees.snapping,
+            .atlasWidth = in.rsm.atlas.size.x,
+            .nearReach = reachOfPoints(in.occluders.bouncePointArea, in.reach)})
         .read("skyTexels", in.sky ? in.sky.texels : in.rsm.texels)
         .read("skyUpTo", in.sky ? in.sky.upTo : noSky)
         .constant("kSky", bool(in.sky))
@@ -93,7 +96,7 @@ void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const
         .constant("kAdd", true)
         .readWrite("irradiance", emitters.irradiance.current);
     if (rays && s.rays > 0)
-        addPointRays(scope, emitters, std::min(push.valCount, rays->clusterCount), firstLater, *rays, s.rays);
+        addPointRays(scope, emitters, std::min(push.valCount, rays->clusterCount), firstLater, *rays, s);
     scope.compute("later_bounces.conserve", "later_bounces/conserve.comp")
         .read("texels", emitters.texels)
         .read("vals", vals.vals)

@@ -23,7 +23,8 @@ struct LaterBouncesSettings {
     float share = 0.4f;          // of all clusters
     uint32_t spacing = 2;        // of the pixels bounced light is gathered at, to those later bounces are
     uint32_t settleFrames = 64;  // light goes on bouncing so long after anything last changed
-    uint32_t rays = 4;  // a frame of each point at rest: so many to lights, to points and to what is near
+    uint32_t rays = 4;           // of each point at rest: so many to lights, to points and to what is near
+    uint32_t turns = 1;          // frames in which each point has rays once
 
     static constexpr auto fields() {
         return std::tuple{
@@ -36,10 +37,13 @@ struct LaterBouncesSettings {
                          "of those bounced light is gathered at, to those later bounces are"},
             SettingField{"settle_frames", &LaterBouncesSettings::settleFrames, 1, 1000000, "frames",
                          "light goes on bouncing after anything last changed"},
-            SettingField{
-                "rays", &LaterBouncesSettings::rays, 0, 64, "rays",
-                "a frame of each point to lights, to other points and to what is near, so many of "
-                "each, where texel_rays are; 0: area lights alone; one of each while something moves"}};
+            SettingField{"rays", &LaterBouncesSettings::rays, 0, 64, "rays",
+                         "a frame of each point to lights, to other points and to what is near, so many of "
+                         "each, where texel_rays or probes' rays are; 0: area lights alone; one of each "
+                         "while something "
+                         "moves"},
+            SettingField{"turns", &LaterBouncesSettings::turns, 1, 16, "frames",
+                         "in which each point has its rays once"}};
     }
 
     bool operator==(const LaterBouncesSettings&) const = default;
@@ -65,7 +69,7 @@ struct PointRays {
 
 // What falls on the points, for the frame to come. `firstLater`: of the area lights, the first that stands
 // for later bounces.
-// `rays`: what corrects it, if rays are cast at all.
+// `rays`: what corrects it, if any rays are cast.
 void addLaterIrradiance(GraphScope scope, const SurfaceEmitters& emitters, const StraightLight& straight,
                         const ShadowedVals& lights, uint32_t firstLater, const LaterBouncesSettings& settings,
                         const PointRays* rays);

@@ -19,7 +19,7 @@ struct Triangle {
     float opacity = 0;  // share that an alpha mask leaves
     SentAt sent;        // mean
     io::BvhMask mask{};
-    float front = 0;  // as io::BvhTriangle's
+    float front = 0;  // as io::frontOf
 };
 
 Bounds boundsOf(const Triangle& t) {
@@ -78,14 +78,13 @@ TreeRange append(OccluderTrees& trees, const std::vector<Triangle>& triangles) {
     for (const uint32_t item : bvh.order) {
         const Triangle& t = triangles[item];
         const glm::vec3 corner = grid(t.corners[0]);
-        const bool emissive = t.sent.radiance != glm::vec3(0);
         trees.triangles.push_back(
             {.corner = corner,
              .opacity = t.opacity,
              .edge1 = grid(t.corners[1]) - corner,
-             .sends = emissive ? io::packRadiance(t.sent.radiance) : io::packReflectance(t.sent.reflectance),
+             .reflects = (io::packReflectance(t.sent.reflectance) + 1) * (t.front < 0 ? -1.0f : 1.0f),
              .edge2 = grid(t.corners[2]) - corner,
-             .front = t.front + (emissive ? io::kEmissiveFront : 0)});
+             .shines = (io::packRadiance(t.sent.radiance) + 1) * (t.front == 0 ? -1.0f : 1.0f)});
         trees.masks.push_back(t.mask);
     }
     return {firstNode, uint32_t(trees.nodes.size()), bvh.nodes[0].bounds};

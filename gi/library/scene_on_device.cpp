@@ -27,8 +27,7 @@ io::Instance rowOf(const GuestInstance& instance, uint32_t material, glm::vec3 a
 // What shines, over the light's unit: a power of two, so that packing loses nothing.
 std::vector<io::BvhTriangle> inLightUnits(std::vector<io::BvhTriangle> triangles, float lightUnit) {
     for (io::BvhTriangle& t : triangles)
-        if (t.front >= io::kEmissiveFront - 1)
-            t.sends = io::packRadiance(io::unpackRadiance(t.sends) / lightUnit);
+        t.shines = std::copysign(io::packRadiance(io::radianceOf(t.shines) / lightUnit) + 1, t.shines);
     return triangles;
 }
 

@@ -22,18 +22,17 @@ const uint kBvhMostItems = 1u << 27;
 const float kBvhOffset = 1e-4f;  // of rays' starts from their surfaces, in the scene's extent
 // Rays end so far before their surfaces at least, in the scene's extent: short, for what is in a crease must
 // be met.
-const float kRayOffset = 2e-5f;
+const float kRayOffset = 4e-6f;
 
 struct BvhTriangle {  // 3 vec4
     vec3 corner;
     float opacity;  // share of it that an alpha mask leaves
     vec3 edge1;
-    float sends;  // packReflectance of its mean; of one that shines packRadiance
+    float reflects;  // packReflectance of its mean, and one more; negative: its front is not where edge1 x
+                     // edge2 points
     vec3 edge2;
-    float front;  // where edge1 x edge2 points (1), on the other side (-1), on both (0); kEmissiveFront more:
-                  // it shines
+    float shines;  // packRadiance of its mean, and one more; negative: both of its sides are fronts
 };
-const float kEmissiveFront = 4.0f;
 
 struct BvhMask {         // 2 vec4: where a triangle is cut out
     vec2 uv0, uv1, uv2;  // of its corners in the texture
@@ -84,6 +83,17 @@ AG_FUNCTION vec3 unpackRadiance(float code) {
     vec4 high = floor(code * vec4(1.0f, 1.0f / 64.0f, 1.0f / 4096.0f, 1.0f / 262144.0f));
     vec3 mantissa = vec3(high.x - 64.0f * high.y, high.y - 64.0f * high.z, high.z - 64.0f * high.w);
     return mantissa * exp2(high.w - 31.0f - 6.0f);
+}
+
+// Of a triangle: where edge1 x edge2 points (1), on the other side (-1), on both (0).
+AG_FUNCTION float frontOf(float reflects, float shines) {
+    return shines < 0.0f ? 0.0f : sign(reflects);
+}
+AG_FUNCTION vec3 reflectanceOf(float reflects) {
+    return unpackReflectance(abs(reflects) - 1.0f);
+}
+AG_FUNCTION vec3 radianceOf(float shines) {
+    return unpackRadiance(abs(shines) - 1.0f);
 }
 
 AG_END

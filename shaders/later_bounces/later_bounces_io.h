@@ -57,6 +57,7 @@ struct TracePush {
     uint firstLater;  // the first that stands for points
     uint rays;        // a frame, to either kind
     uint step;
+    uint turns;         // frames in which each point has rays once
     uint valid;         // 0: there are no means before
     float mostLength;   // frames that means stand for
     float offset;       // m: rays leave and reach surfaces so far before them at least

@@ -46,27 +46,30 @@ const float kMostTimes = 4.0;  // so far area lights may be below rays; what is 
 const uint kFirst = 0, kLater = 1;  // members: texels of first bounces and of emissive surfaces; points
 uvec3 firstOf;
 
-// By a ray to one of a kind. Those nearer than `nearReach` count for what the hemisphere's ray leaves.
-vec3 fromMembers(vec3 x, vec3 n, uint kind, float nearReach, inout uint random) {
-    if (firstOf[kind] == firstOf[kind + 1]) return vec3(0.0);
-    vec3 start = x + n * push.p.offset;
+// One of a kind. Those nearer than `nearReach` count for what the hemisphere's ray leaves.
+Incident drawMember(uint kind, vec3 x, vec3 n, float nearReach, inout uint random) {
+    if (firstOf[kind] == firstOf[kind + 1]) return kNoIncident;
     Aim aim = aimAtMember(x, n, firstOf[kind], firstOf[kind + 1], kDraws, nearReach, random);
-    return arrivingAt(start, Incident(aim.place - start, 1.0, aim.sends), unitOf(hashUint(random)));
+    return Incident(aim.place - (x + n * push.p.offset), 1.0, aim.sends);
 }
 
-// What a near surface sends on of what reaches it.
+#define AG_ON_KINDS 2
+#define AG_ON_DRAW(kind, place, normal, random) drawMember(kind, place, normal, (kind) == kLater ? push.p.nearReach : 0.0, random)
+#define AG_ON_SHINES 0.0
+#define AG_ON_REFLECTS push.p.nearReach
+#include "texel_rays/near_path.glsl"
+
+// By a ray to one of a kind.
+vec3 fromMembers(vec3 x, vec3 n, uint kind, float nearReach, inout uint random) {
+    Incident light = drawMember(kind, x, n, nearReach, random);
+    return arrivingAt(x + n * push.p.offset, light, unitOf(hashUint(random)));
+}
+
+// What near surfaces send on of what reaches them.
 vec3 fromNear(vec3 x, vec3 n, inout uint random) {
     if (firstOf[kLater] == firstOf[kLater + 1]) return vec3(0.0);
     float opaqueFrom = next(random);
-    vec3 direction = cosineDirection(n, vec2(next(random), next(random)));
-    BvhRay ray = BvhRay(x + n * push.p.offset, direction, push.p.nearReach, opaqueFrom, false, 0, 0);
-    if (!traceOccluders(ray)) return vec3(0.0);
-    Met met = surfaceMet(ray);
-    vec3 sends = min(met.reflectance, vec3(kMostAlbedo)) * nearShare(ray.reach, push.p.nearReach);
-    if (!met.front || sends == vec3(0.0)) return vec3(0.0);
-    vec3 e = fromMembers(met.place, met.normal, kFirst, 0.0, random) + fromMembers(met.place, met.normal, kLater, 0.0, random);
-    if (kSky) e += arrivingAt(met.place + met.normal * push.p.offset, drawSkyAt(met.normal, 1e20, random), opaqueFrom);
-    return sends * e;
+    return nearLight(x, n, cosineDirection(n, vec2(next(random), next(random))), opaqueFrom, random);
 }
 
 vec3 irradianceByRays(vec3 x, vec3 n, uint seed) {
@@ -82,15 +85,19 @@ void main() {
     if (i >= push.p.count) return;
     firstOf = kindsOfMembers(push.p.firstLater, push.p.valCount);
     RsmSurface at = AG_RSM_FETCH(points, i);
-    vec3 byLights = irradiance.items[i].rgb, byRays = irradianceByRays(at.position, at.normal, i + push.p.step * push.p.count);
-    bool known = push.p.valid == 1;
-    float frames = (known ? min(before.items[i].frames, push.p.mostLength - 1.0) : 0.0) + 1.0;
-    vec3 rays = known ? mix(before.items[i].byRays, byRays, 1.0 / frames) : byRays;
-    vec3 lights = known ? mix(before.items[i].byLights, byLights, 1.0 / frames) : byLights;
-    means.items[i].byRays = rays;
-    means.items[i].byLights = lights;
-    means.items[i].frames = frames;
-    vec3 trusted = lights * (kTrust / frames);
-    vec3 found = rays + trusted, sent = lights + trusted;
+    bool due = (i / gl_WorkGroupSize.x + push.p.step) % push.p.turns == 0;
+    vec3 byLights = irradiance.items[i].rgb, byRays = vec3(0.0);
+    if (due) byRays = irradianceByRays(at.position, at.normal, i + push.p.step * push.p.count);
+    PointMeans m = PointMeans(vec3(0.0), vec3(0.0), 0.0);
+    if (push.p.valid == 1) m = before.items[i];
+    if (due) {
+        m.frames = min(m.frames, push.p.mostLength - 1.0) + 1.0;
+        m.byRays = mix(m.byRays, byRays, 1.0 / m.frames);
+        m.byLights = mix(m.byLights, byLights, 1.0 / m.frames);
+    }
+    means.items[i] = m;
+    if (m.frames == 0.0) return;
+    vec3 trusted = m.byLights * (kTrust / m.frames);
+    vec3 found = m.byRays + trusted, sent = m.byLights + trusted;
     irradiance.items[i].rgb = byLights * min(found / max(sent, vec3(1e-20)), vec3(kMostTimes)) + max(found - kMostTimes * sent, vec3(0.0));
 }

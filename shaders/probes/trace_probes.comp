@@ -54,6 +54,8 @@ const float kMostTimes = 4.0;    // that rays find of what area lights have
 const float kTrusted = 1.0;      // frames of rays that weigh as much as area lights
 const float kSettledFrames = 8;  // at rest that weigh as much as the frames before
 
+vec3 startOf(Probe p) { return p.position + p.normal * push.p.offset; }
+
 float totalOf(uint first) { return fetchTexel(upTo, int(first + push.p.valCount - 1)).x; }
 
 float chanceOf(uint first, uint light) {
@@ -72,35 +74,25 @@ uint chooseLight(uint first, float xi) {
     return low;
 }
 
-// A ray, and what it brings if it meets nothing, W/m².
-struct Way {
-    BvhRay ray;
-    vec3 unblocked;
-};
-
-const Way kNoWay = Way(BvhRay(vec3(0.0), vec3(0.0), 0.0, 0.0, false, 0, 0), vec3(0.0));
-
-// To one of all texels, for all of them. `first`: of the probe's chances.
-Way wayToTexel(Probe p, uint first, float xi, inout uint random) {
-    uint light = chooseLight(first, xi), count = memberCountOf(light);
-    float chance = chanceOf(first, light);
+// One of a light's texels, for all of them.
+Incident drawTexelOf(uint light, Probe p, inout uint random) {
+    uint count = memberCountOf(light);
     MemberDraw d = MemberDraw(0, 0.0, 0.0);
-    if (chance > 0.0 && count > 0) AG_DRAW_MEMBER(d, firstMember(light), count, kDraws, random, wantAt(p, texel_, s))
-    if (d.sum <= 0.0) return kNoWay;
+    if (count > 0) AG_DRAW_MEMBER(d, firstMember(light), count, kDraws, random, wantAt(p, texel_, s))
+    if (d.sum <= 0.0) return kNoIncident;
     RsmSurface s = AG_RSM_FETCH(texels, d.texel);
     vec3 sends = s.flux * sentTo(p.position, d.texel, s, push.p.atlasWidth);
-    vec3 start = p.position + p.normal * push.p.offset;
-    BvhRay ray = BvhRay(start, endBefore(s) - start, 1.0, next(random), true, 0, 0);
-    return Way(ray, sends * (drawnFactorAt(p, d.texel, s) * weightOf(d, count, kDraws) / chance));
+    return Incident(endBefore(s) - startOf(p), 1.0, sends * (drawnFactorAt(p, d.texel, s) * weightOf(d, count, kDraws)));
 }
 
-// To whatever is near.
-Way wayToNear(Probe p, inout uint random) {
-    bool allRound = dot(p.normal, p.normal) < 0.25;
-    float u = next(random), v = next(random), z = 1.0 - 2.0 * u, r = sqrt(max(1.0 - z * z, 0.0));
-    vec3 direction = allRound ? vec3(r * cos(2.0 * kPi * v), r * sin(2.0 * kPi * v), z) : cosineDirection(p.normal, vec2(u, v));
-    float reach = max(push.p.emissiveReach, push.p.laterReach);
-    return Way(BvhRay(p.position + p.normal * push.p.offset, direction, reach, next(random), false, 0, 0), vec3(0.0));
+// One of all texels, for all of them. `first`: of the probe's chances.
+Incident drawTexel(Probe p, uint first, float xi, inout uint random) {
+    uint light = chooseLight(first, xi);
+    float chance = chanceOf(first, light);
+    if (chance == 0.0) return kNoIncident;
+    Incident drawn = drawTexelOf(light, p, random);
+    drawn.sends /= chance;
+    return drawn;
 }
 
 struct LightDraw {
@@ -125,45 +117,35 @@ LightDraw drawLightFor(vec3 place, inout uint random) {
     return LightDraw(light, wanted > 0.0 ? sum * along / wanted : 0.0);
 }
 
-// One of all texels, for what all of them send to a place near the probe.
-Incident fromTexels(vec3 place, vec3 normal, vec3 start, inout uint random) {
+// One of all texels, for what they send to a place near the probe.
+Incident drawOnto(vec3 place, vec3 normal, inout uint random) {
     LightDraw l = drawLightFor(place, random);
     if (l.weight <= 0.0) return kNoIncident;
-    uint member = firstMember(l.light);
-    Aim aim = aimAtMember(place, normal, member, member + memberCountOf(l.light), kDraws, 0.0, random);
-    return Incident(aim.place - start, 1.0, aim.sends * l.weight);
+    Incident drawn = drawTexelOf(l.light, Probe(place, 0, normal, 0, 0), random);
+    drawn.sends *= l.weight;
+    return drawn;
 }
 
-// From where a ray ended onward: to a texel, or to the sky.
-Way wayOn(Met met, vec3 reflects, bool toSky, inout uint random) {
-    vec3 start = met.place + met.normal * push.p.offset;
-    Incident light = toSky ? drawSkyAt(met.normal, 1e20, random) : fromTexels(met.place, met.normal, start, random);
-    return Way(BvhRay(start, light.toward, light.reach, next(random), true, 0, 0), reflects * light.sends);
-}
+#define AG_ON_KINDS 1
+#define AG_ON_DRAW(kind, place, normal, random) drawOnto(place, normal, random)
+#define AG_ON_SHINES push.p.emissiveReach
+#define AG_ON_REFLECTS push.p.laterReach
+#include "texel_rays/near_path.glsl"
 
-const uint kToTexel = 0, kToNear = 1, kOnToTexel = 2, kOnToSky = 3;
+// Into the hemisphere, or all round.
+vec3 nearDirection(Probe p, inout uint random) {
+    bool allRound = dot(p.normal, p.normal) < 0.25;
+    float u = next(random), v = next(random), z = 1.0 - 2.0 * u, r = sqrt(max(1.0 - z * z, 0.0));
+    return allRound ? vec3(r * cos(2.0 * kPi * v), r * sin(2.0 * kPi * v), z) : cosineDirection(p.normal, vec2(u, v));
+}
 
 // W/m², by one draw and one ray to whatever is near.
 vec3 foundBy(Probe p, uint first, uint ray, uint random) {
-    vec3 e = vec3(0.0), reflects = vec3(0.0);
-    Met met;
     float xi = (float(ray) + next(random)) / float(push.p.rays);
-    uint end = max(push.p.emissiveReach, push.p.laterReach) == 0.0 ? kToNear : kSky ? kOnToSky + 1 : kOnToSky;
-    // A loop, so that the trees' walk is compiled once.
-    for (uint kind = kToTexel; kind < end; ++kind) {
-        Way w = kNoWay;
-        if (kind == kToTexel) w = wayToTexel(p, first, xi, random);
-        else if (kind == kToNear) w = wayToNear(p, random);
-        else if (reflects != vec3(0.0)) w = wayOn(met, reflects, kind == kOnToSky, random);
-        if (kind != kToNear && w.unblocked == vec3(0.0)) continue;
-        bool meets = traceOccluders(w.ray);
-        if (!meets) e += w.unblocked;
-        if (!meets || kind != kToNear) continue;
-        met = surfaceMet(w.ray);
-        e += met.front ? met.shines * nearShare(w.ray.reach, push.p.emissiveReach) : vec3(0.0);
-        reflects = met.front ? min(met.reflectance, vec3(kMostAlbedo)) * nearShare(w.ray.reach, push.p.laterReach) : vec3(0.0);
-    }
-    return e;
+    vec3 e = arrivingAt(startOf(p), drawTexel(p, first, xi, random), next(random));
+    if (max(push.p.emissiveReach, push.p.laterReach) == 0.0) return e;
+    vec3 direction = nearDirection(p, random);
+    return e + nearLight(p.position, p.normal, direction, next(random), random);
 }
 
 shared vec3 sums[kThreads];

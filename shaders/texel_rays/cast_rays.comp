@@ -176,34 +176,26 @@ Incident fromAreaLights(Receiver r, inout uint random) {
         Candidate c = candidateFor(r, random);
         if (c.texel == kNoTexel) continue;
         RsmSurface s = AG_RSM_FETCH(texels, c.texel);
-        float want = factorOf(r, s) * s.weight * meanOf(sentTo(r.position, c.texel, s, push.p.atlasWidth));
+        float want = drawnFactorOf(r, mapOfTexel(c.texel), s) * s.weight * meanOf(sentTo(r.position, c.texel, s, push.p.atlasWidth));
         take(drawn, c.texel, want, want / c.likely, random);
     }
     if (drawn.texel == kNoTexel) return kNoIncident;
     RsmSurface s = AG_RSM_FETCH(texels, drawn.texel);
     vec3 sends = s.flux * sentTo(r.position, drawn.texel, s, push.p.atlasWidth);
-    return Incident(endBefore(s) - r.start, 1.0, sends * (factorOf(r, s) * weightOf(drawn, 1, kNearDraws)));
+    return Incident(endBefore(s) - r.start, 1.0, sends * (drawnFactorOf(r, mapOfTexel(drawn.texel), s) * weightOf(drawn, 1, kNearDraws)));
 }
 
-// W/m², by a ray to one texel and one to the sky.
-vec3 receivedAt(Met met, Receiver from, float opaqueFrom, uint random) {
-    Receiver r = Receiver(met.place, met.normal, met.place + met.normal * from.offset, from.offset, from.tile, from.block);
-    vec3 e = vec3(0.0);
-    for (uint kind = 0; kind < (kSky ? 2 : 1); ++kind) {
-        Incident light;
-        if (kind == 0) light = fromAreaLights(r, random);
-        else light = drawSkyAt(r.normal, 1e20, random);
-        e += arrivingAt(r.start, light, opaqueFrom);
-    }
-    return e;
+Receiver pixel;
+
+Incident drawOnto(vec3 place, vec3 normal, inout uint random) {
+    return fromAreaLights(Receiver(place, normal, place + normal * push.p.offset, push.p.offset, pixel.tile, pixel.block), random);
 }
 
-// What goes on from what the hemisphere's ray met, W/m².
-vec3 sentOn(Receiver r, Met met, BvhRay ray, uint random) {
-    float near = push.p.laterMap < kMaxRsmMaps ? nearShare(ray.reach, push.p.laterReach) : 0.0;
-    vec3 reflects = min(met.reflectance, vec3(kMostAlbedo)) * near;
-    return reflects != vec3(0.0) ? reflects * receivedAt(met, r, ray.opaqueFrom, random) : vec3(0.0);
-}
+#define AG_ON_KINDS 1
+#define AG_ON_DRAW(kind, place, normal, random) drawOnto(place, normal, random)
+#define AG_ON_SHINES (push.p.emissiveMap < kMaxRsmMaps ? push.p.emissiveReach : 0.0)
+#define AG_ON_REFLECTS (push.p.laterMap < kMaxRsmMaps ? push.p.laterReach : 0.0)
+#include "texel_rays/near_path.glsl"
 
 struct Found {
     vec3 e;   // W/m², of what the ray met or was drawn to
@@ -214,8 +206,8 @@ Found sentAlong(Receiver r, Way w, uint random) {
     if (!traceOccluders(w.ray)) return Found(w.unblocked, vec3(0.0));
     Met met = surfaceMet(w.ray);
     if (!met.front) return Found(vec3(0.0), vec3(0.0));
-    bool near = w.texel == kNoTexel, shines = near && push.p.emissiveMap < kMaxRsmMaps;
-    vec3 e = shines ? met.shines * nearShare(w.ray.reach, push.p.emissiveReach) : vec3(0.0);
+    bool near = w.texel == kNoTexel;
+    vec3 e = near ? met.shines * nearShare(w.ray.reach, AG_ON_SHINES) : vec3(0.0);
     for (uint map = w.firstMap; map < w.endMap; ++map) {
         Sender from = senderAt(map, met, w.ray, push.p.atlasWidth);
         float ofDraw = from.texel == w.texel ? w.weight : 0.0;
@@ -223,7 +215,7 @@ Found sentAlong(Receiver r, Way w, uint random) {
         bool some = sends.x + sends.y + sends.z > 0.0;
         if (some && isLit(maps.items[map], met, r.offset, w.ray.opaqueFrom)) e += sends;
     }
-    return Found(e, near ? sentOn(r, met, w.ray, random) : vec3(0.0));
+    return Found(e, near ? lightFrom(met, sendsOn(met, w.ray.reach), w.ray.opaqueFrom, random) : vec3(0.0));
 }
 
 vec2 noiseAt(uvec2 pixel, uint aside) {
@@ -257,15 +249,16 @@ void main() {
     uvec2 size = camera.camera.size;
     uint block = gl_WorkGroupID.x;
     uvec2 cell = blockOrigin(block, size) + placeInBlock(gl_LocalInvocationID.x);
-    ivec2 pixel = ivec2(min(cell, size - 1u));
-    bool there = all(equal(uvec2(pixel), cell));
-    uvec2 tile = uvec2(pixel) / push.p.tiles.tileSize;
-    float depth = texelFetch(depthMap, pixel, 0).x;
-    PixelStart start = startOf(pixel, depth);
-    vec3 normal = texelFetch(normalMap, pixel, 0).xyz;
+    ivec2 at = ivec2(min(cell, size - 1u));
+    bool there = all(equal(uvec2(at), cell));
+    uvec2 tile = uvec2(at) / push.p.tiles.tileSize;
+    float depth = texelFetch(depthMap, at, 0).x;
+    PixelStart start = startOf(at, depth);
+    vec3 normal = texelFetch(normalMap, at, 0).xyz;
     uint inTiles = tile.y * push.p.tiles.tiles.x + tile.x;
     Receiver r = Receiver(start.place, normal, start.place + normal * start.offset, start.offset, inTiles, block);
-    uint random = hashUint(uint(pixel.x) + uint(pixel.y) * 65536u + hashUint(push.p.ray) * 31u);
+    pixel = r;
+    uint random = hashUint(uint(at.x) + uint(at.y) * 65536u + hashUint(push.p.ray) * 31u);
     vec3 xi = fract(vec3(noiseAt(cell, 0u), noiseAt(cell, 32u).x) + push.p.shift);
     Drawn d = drawLight(r.tile, r.block, xi.z);
     d.likely = depth > 0.0 ? d.likely : 0.0;
@@ -285,8 +278,8 @@ void main() {
     float sends = luminance(byWay[0].e) * d.likely;
     d.likely = there ? d.likely : 0.0;
     if (there) {
-        imageStore(sent, pixel, vec4(byWay[0].e + byWay[1].on, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
-        imageStore(sentNear, pixel, vec4(byWay[1].e, 0.0));
+        imageStore(sent, at, vec4(byWay[0].e + byWay[1].on, d.likely > 0.0 ? float(d.entry + 1) : 0.0));
+        imageStore(sentNear, at, vec4(byWay[1].e, 0.0));
     }
     noteFound(block, d, sends);
 }

@@ -133,8 +133,8 @@ TreeSums sumsOf(std::span<const io::BvhTriangle> triangles) {
         const glm::dvec3 across = 0.5 * glm::dvec3(glm::cross(t.edge1, t.edge2));
         const glm::dvec3 middle = glm::dvec3(t.corner) + glm::dvec3(t.edge1 + t.edge2) / 3.0;
         sums.area += glm::length(across);
-        sums.reflected += glm::length(across) * glm::dvec3(io::unpackReflectance(t.sends));
-        sums.volume += double(t.front) * glm::dot(across, middle) / 3;
+        sums.reflected += glm::length(across) * glm::dvec3(io::reflectanceOf(t.reflects));
+        sums.volume += double(io::frontOf(t.reflects, t.shines)) * glm::dot(across, middle) / 3;
     }
     return sums;
 }
@@ -174,8 +174,9 @@ TEST(OccluderTrees, TrianglesThatShineKnowTheirRadiance) {
         const OccluderTrees trees = render::buildTrees(staticScene(asset));
         ASSERT_EQ(trees.triangles.size(), 2u);
         for (const io::BvhTriangle& t : trees.triangles) {
-            EXPECT_EQ(t.front, 1 + io::kEmissiveFront);
-            const glm::vec3 stored = io::unpackRadiance(t.sends);
+            EXPECT_EQ(io::frontOf(t.reflects, t.shines), 1);
+            EXPECT_LT(glm::distance(io::reflectanceOf(t.reflects), glm::vec3(0.5f)), 0.01f);
+            const glm::vec3 stored = io::radianceOf(t.shines);
             const float most = std::max({radiance.x, radiance.y, radiance.z});
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(stored[c], radiance[c], most / 63);

@@ -6,6 +6,7 @@
 #include "bench.h"
 #include "common/sampling.h"
 #include "tools/reference/path_tracer.h"
+#include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
 
 namespace ag::gi {
@@ -205,6 +206,29 @@ TEST(Probes, AllRoundIsTheMeanOverDirections) {
     }
     measure(b, probes, 40);  // settled
     compare("cornell, all round", b, probes, truth, 0.02, 0.05);
+}
+
+// A hall of 60 m, a glowing square in it; and a dark sheet 0.8 mm before that.
+SceneAsset behindASheet(bool sheet) {
+    scenegen::SceneBuilder s("sheet");
+    const uint32_t dark = s.material("dark", glm::vec3(0.02f));
+    s.room("hall", {-30, -5, -30}, {30, 5, 30}, {dark, dark, dark, dark, dark, dark});
+    s.quad("square", {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, s.emissive("glow", glm::vec3(0.5f), glm::vec3(5)));
+    if (sheet) s.quad("sheet", {-2, -2, -0.9992f}, {4, 0, 0}, {0, 4, 0}, dark);
+    s.camera("camera", {0, 0, 2}, {0, 0, 0}, 60);
+    return s.finish();
+}
+
+TEST(Probes, NothingRightBehindASheetIsSeen) {
+    std::array<float, 2> light{};
+    for (const bool sheet : {false, true}) {
+        Bench b(behindASheet(sheet), {32, 18});
+        measure(b, {{.position = {0, 0, 0}, .normal = {0, 0, -1}}}, 60);
+        light[sheet] = luminance(b.renderer.probeReadings().of(100)->bounced);
+    }
+    // A square 1 m away, twice as wide: 0.554 of what a whole hemisphere would send.
+    EXPECT_NEAR(light[0], 0.554f * 5 * float(kPi), 0.03f * 5 * float(kPi));
+    EXPECT_LT(light[1], 0.01f * light[0]);
 }
 
 TEST(Probes, WithoutAnyNothingIsDone) {

@@ -8,7 +8,7 @@
 namespace ag::game {
 namespace {
 
-constexpr uint32_t kDirections = 128, kSamples = 160;
+constexpr uint32_t kDirections = 128;
 
 // A small plane in each of many directions, evenly over the sphere.
 reference::FirstHits planesAround(glm::vec3 point) {
@@ -73,7 +73,7 @@ gi::ProbeReading measureLight(render::Renderer& renderer, const LitFlower& lit,
     return light;
 }
 
-gi::ProbeReading referenceLight(const LitFlower& lit, uint32_t bounces, bool unshadowed) {
+gi::ProbeReading referenceLight(const LitFlower& lit, uint32_t bounces, bool unshadowed, uint32_t paths) {
     RenderScene bouncing = lit.scene;  // the other lights are not asked for
     std::erase_if(bouncing.lights, [](const RenderLight& light) { return !light.bounces; });
     const reference::RayScene rays(bouncing);
@@ -81,12 +81,12 @@ gi::ProbeReading referenceLight(const LitFlower& lit, uint32_t bounces, bool uns
     const reference::FirstHits hits = planesAround(lit.probe.position);
     reference::LightSums sums(hits.size, bounces);
     reference::addPaths(rays, hits, {.bounces = bounces, .unshadowed = unshadowed},
-                        {.seed = 3, .count = kSamples}, runner, sums);
+                        {.seed = 3, .count = paths}, runner, sums);
     gi::ProbeReading mean;
     // Flames shine through area lights, as bounced light does.
     for (const auto* light : {bounces > 1 ? &sums.indirect : &sums.bounces[1], &sums.emissive})
         for (const glm::vec3& e : light->pixels)
-            mean.bounced += e / float(kSamples * kDirections);
+            mean.bounced += e / float(paths * kDirections);
     for (const reference::PreparedLight& light : rays.lights())
         mean.direct += directFrom(rays, light, lit.probe.position);
     return mean;
