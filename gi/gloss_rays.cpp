@@ -67,7 +67,7 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gathered, const GlossRaysI
                                 .lightCount = in.others.count,
                                 .step = step,
                                 .shift = blueNoiseShift(step),
-                                .offset = io::kRayOffset * in.occluders.extent,
+                                .offset = io::rayOffset(in.occluders.extent, in.occluders.farthest),
                                 .pixelOffset = snapping / float(gathered.spacing),
                                 .texelOffset = snapping,
                                 .reach = kRayReaches * in.occluders.extent,

@@ -327,7 +327,8 @@ gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
                     .sampleCount = sampleCount_,
                     .staticSampleCount = staticCount_,
                     .staticVersion = combineHash(combineHash(pointsSet_, staticVersion_), origins_),
-                    .extent = extent_};
+                    .extent = extent_,
+                    .farthest = glm::length(glm::max(glm::abs(bounds_.min), glm::abs(bounds_.max)))};
     if (sampleCount_ == 0) return o;
     o.samples = scope.importBuffer("guest.samples", *samples_, pointsSet_);
     o.pointAreas = scope.importBuffer("guest.point_areas", *pointAreas_, pointsSet_);

@@ -20,11 +20,7 @@ const uint kBvhMostItems = 1u << 27;
 // subtree.
 
 const float kBvhOffset = 1e-4f;  // of rays' starts from their surfaces, in the scene's extent
-// Rays end so far before their surfaces at least, in the scene's extent: short, for what is in a crease must
-// be met.
-const float kRayOffset = 4e-6f;
-
-struct BvhTriangle {  // 3 vec4
+struct BvhTriangle {             // 3 vec4
     vec3 corner;
     float opacity;  // share of it that an alpha mask leaves
     vec3 edge1;
@@ -83,6 +79,13 @@ AG_FUNCTION vec3 unpackRadiance(float code) {
     vec4 high = floor(code * vec4(1.0f, 1.0f / 64.0f, 1.0f / 4096.0f, 1.0f / 262144.0f));
     vec3 mantissa = vec3(high.x - 64.0f * high.y, high.y - 64.0f * high.z, high.z - 64.0f * high.w);
     return mantissa * exp2(high.w - 31.0f - 6.0f);
+}
+
+// m: rays leave and reach surfaces so far before them at least, in a scene of an extent. Short, for what is
+// in a crease must be met, and what is behind a sheet must not; never less than coordinates so large are
+// exact to.
+AG_FUNCTION float rayOffset(float extent, float farthest) {
+    return max(max(4e-6f * extent, min(2e-5f * extent, 4e-4f)), 2.5e-7f * farthest);
 }
 
 // Of a triangle: where edge1 x edge2 points (1), on the other side (-1), on both (0).
