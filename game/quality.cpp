@@ -48,7 +48,7 @@ void applyQuality(Quality preset, render::RenderSettings& gi) {
     render::addBounces(gi);
     gi.bounce.laterBounces.share = kLaterShare;
     gi.bounce.texelRays.enabled = false;  // the game never stands still
-    gi.bounce.laterBounces.rays = 1;
+    gi.bounce.laterBounces.rays = 1;      // of all 4,096 points in each frame: a fifth of low's time
     gi.bounce.laterBounces.turns = 4;
     gi.composite = before.composite;
     gi.exposure = before.exposure;

@@ -67,7 +67,7 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gathered, const GlossRaysI
                                 .lightCount = in.others.count,
                                 .step = step,
                                 .shift = blueNoiseShift(step),
-                                .offset = io::rayOffset(in.occluders.extent, in.occluders.farthest),
+                                .offset = in.occluders.rayOffset,
                                 .pixelOffset = snapping / float(gathered.spacing),
                                 .texelOffset = snapping,
                                 .reach = kRayReaches * in.occluders.extent,

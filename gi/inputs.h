@@ -77,7 +77,7 @@ struct Occluders {
     TracedOccluders trees;       // none: no rays
     uint64_t staticVersion = 0;  // changes when an instance that is not movable may have moved
     float extent = 0;            // m: no two points are farther apart
-    float farthest = 0;          // m, of coordinates from their origin: so exact they are
+    float rayOffset = 0;         // see rayOffset()
 };
 
 // Numbers that are equal as long as what they stand for is.

@@ -39,7 +39,7 @@ void addPointRays(GraphScope scope, const SurfaceEmitters& emitters, uint32_t li
             .turns = s.turns,
             .valid = means.valid,
             .mostLength = float(std::max((in.still ? kStillLength : kMovingLength) / s.turns, kLeastLength)),
-            .offset = io::rayOffset(in.occluders.extent, in.occluders.farthest),
+            .offset = in.occluders.rayOffset,
             .texelOffset = in.occluders.trees.snapping,
             .atlasWidth = in.rsm.atlas.size.x,
             .nearReach = reachOfPoints(in.occluders.bouncePointArea, in.reach)})

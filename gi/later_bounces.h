@@ -37,11 +37,10 @@ struct LaterBouncesSettings {
                          "of those bounced light is gathered at, to those later bounces are"},
             SettingField{"settle_frames", &LaterBouncesSettings::settleFrames, 1, 1000000, "frames",
                          "light goes on bouncing after anything last changed"},
-            SettingField{"rays", &LaterBouncesSettings::rays, 0, 64, "rays",
+            SettingField{"rays", &LaterBouncesSettings::rays, 0, 16, "rays",
                          "a frame of each point to lights, to other points and to what is near, so many of "
                          "each, where texel_rays or probes' rays are; 0: area lights alone; one of each "
-                         "while something "
-                         "moves"},
+                         "while something moves"},
             SettingField{"turns", &LaterBouncesSettings::turns, 1, 16, "frames",
                          "in which each point has its rays once"}};
     }

@@ -48,7 +48,7 @@ BufferHandle addLightsOnPoints(GraphScope scope, const SurfaceEmitters& emitters
         .write("irradiance", irradiance)
         .push(io::PointLightsPush{.count = count,
                                   .lightCount = lights.count,
-                                  .offset = io::rayOffset(occluders.extent, occluders.farthest),
+                                  .offset = occluders.rayOffset,
                                   .reach = kRayReaches * occluders.extent})
         .dispatchThreads(count);
     readTrees(pass, occluders.trees);

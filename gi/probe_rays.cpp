@@ -53,7 +53,7 @@ BufferHandle addProbeRays(GraphScope frame, const ProbesByLights& probes, const 
         .step = step,
         .known = means.valid,
         .still = still > 0,
-        .offset = io::rayOffset(in.occluders.extent, in.occluders.farthest),
+        .offset = in.occluders.rayOffset,
         .texelOffset = in.occluders.trees.snapping,
         .emissiveMap = shines ? in.rsm.lightRsmCount : ~0u,
         .laterMap = goesOn ? in.rsm.atlas.mapCount - 1 : ~0u,

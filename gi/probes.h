@@ -28,7 +28,7 @@ struct ProbeSettings {
         return std::tuple{
             SettingField{"shape", &ProbeSettings::shape}.unlisted(),
             SettingField{"taps", &ProbeSettings::taps, 1, 32, "", "of area lights' soft shadows at probes"},
-            SettingField{"rays", &ProbeSettings::rays, 0, 4096, "",
+            SettingField{"rays", &ProbeSettings::rays, 0, 256, "",
                          "from each probe a frame, four times as many once nothing changes; 0: none"},
             SettingField{"settle_frames", &ProbeSettings::settleFrames, 0, 1000000, "frames",
                          "with new rays after anything last changed"}};

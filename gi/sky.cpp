@@ -133,7 +133,7 @@ SkySent addRays(GraphScope scope, const Surfaces& gbuffer, const SkyInputs& in, 
         .read("noise", noise)
         .push(io::SkyCastPush{.step = step,
                               .shift = blueNoiseShift(step),
-                              .offset = io::rayOffset(in.occluders.extent, in.occluders.farthest),
+                              .offset = in.occluders.rayOffset,
                               .pixelOffset = in.occluders.trees.snapping / float(gbuffer.spacing),
                               .reach = kRayReaches * in.occluders.extent,
                               .known = seen.valid,
@@ -260,7 +260,7 @@ BufferHandle addSkyOnPoints(GraphScope scope, const SurfaceEmitters& emitters, c
         .push(io::SkyPointsPush{.count = count,
                                 .rays = s.pointRays,
                                 .step = step,
-                                .offset = io::rayOffset(in.occluders.extent, in.occluders.farthest),
+                                .offset = in.occluders.rayOffset,
                                 .reach = kRayReaches * in.occluders.extent,
                                 .valid = irradiance.valid,
                                 .mostLength = moving ? float(s.movingLength * s.pointRays) : kMostPointRays})

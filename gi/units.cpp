@@ -47,4 +47,16 @@ float steadyExtent(const Bounds& bounds, float before) {
     return std::max(kRoomToMove * diagonal, kLeastExtent);
 }
 
+float rayOffset(const Bounds& bounds, float extent) {
+    constexpr float kSmallScenes = 2e-5f, kLargeScenes = 4e-6f;  // of the extent
+    constexpr float kBetween = 4e-4f;                            // units, of scenes of 20 to 100
+    constexpr float kRounding = 2.5e-7f;  // of a coordinate: a few of a float's last digits
+    const float offset = std::max(kLargeScenes * extent, std::min(kSmallScenes * extent, kBetween));
+    if (bounds.empty()) return offset;
+    const glm::vec3 farthest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    // In steps, so that it stays while things move at the scene's edge.
+    const float steady = std::exp2(std::ceil(std::log2(std::max(glm::length(farthest), extent))));
+    return std::max(offset, kRounding * steady);
+}
+
 }  // namespace ag::gi

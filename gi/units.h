@@ -25,4 +25,9 @@ float irradianceOf(glm::vec3 intensity, bool directional, float range, float dia
 // scene yet.
 float steadyExtent(const Bounds& bounds, float before);
 
+// How far from surfaces rays start and end at least: short, so that what is in a crease is met and a thin
+// sheet hides what is behind it; but more than coordinates are rounded by, which matters far from the origin.
+// `extent`: steadyExtent's; all in units of length.
+float rayOffset(const Bounds& bounds, float extent);
+
 }  // namespace ag::gi

@@ -36,7 +36,7 @@ void bindDirectLight(GraphScope scope, const gi::Surfaces& gbuffer, bool glossy,
 }
 
 io::RayOffsets shadowRayOffsets(const gi::Occluders& traced) {
-    return {.least = io::rayOffset(traced.extent, traced.farthest), .ofPixel = traced.trees.snapping};
+    return {.least = traced.rayOffset, .ofPixel = traced.trees.snapping};
 }
 
 void readShadowTrees(PassBuilder& pass, const SceneView& scene, const gi::TracedOccluders& trees) {

@@ -46,6 +46,7 @@ gi::Occluders occludersOf(const SceneView& scene) {
     o.trees = scene.trees;
     o.staticVersion = scene.staticVersion;
     o.extent = scene.extent;
+    o.rayOffset = gi::rayOffset(scene.scene->bounds, scene.extent);
     return o;
 }
 

@@ -328,7 +328,7 @@ gi::Occluders SceneOnDevice::occluders(GraphScope scope) const {
                     .staticSampleCount = staticCount_,
                     .staticVersion = combineHash(combineHash(pointsSet_, staticVersion_), origins_),
                     .extent = extent_,
-                    .farthest = glm::length(glm::max(glm::abs(bounds_.min), glm::abs(bounds_.max)))};
+                    .rayOffset = gi::rayOffset(bounds_, extent_)};
     if (sampleCount_ == 0) return o;
     o.samples = scope.importBuffer("guest.samples", *samples_, pointsSet_);
     o.pointAreas = scope.importBuffer("guest.point_areas", *pointAreas_, pointsSet_);

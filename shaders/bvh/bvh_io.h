@@ -81,13 +81,6 @@ AG_FUNCTION vec3 unpackRadiance(float code) {
     return mantissa * exp2(high.w - 31.0f - 6.0f);
 }
 
-// m: rays leave and reach surfaces so far before them at least, in a scene of an extent. Short, for what is
-// in a crease must be met, and what is behind a sheet must not; never less than coordinates so large are
-// exact to.
-AG_FUNCTION float rayOffset(float extent, float farthest) {
-    return max(max(4e-6f * extent, min(2e-5f * extent, 4e-4f)), 2.5e-7f * farthest);
-}
-
 // Of a triangle: where edge1 x edge2 points (1), on the other side (-1), on both (0).
 AG_FUNCTION float frontOf(float reflects, float shines) {
     return shines < 0.0f ? 0.0f : sign(reflects);

@@ -63,5 +63,20 @@ TEST(SteadyExtent, StaysUntilTheSceneOutgrowsItOrLeavesMostOfIt) {
     EXPECT_EQ(steadyExtent({}, chosen), chosen) << "nothing there yet";
 }
 
+Bounds cubeAt(float side, float x) {
+    const glm::vec3 corner(x, 0, 0);
+    return {corner, corner + side};
+}
+
+TEST(RayOffset, IsShortAndMoreThanCoordinatesAreRoundedBy) {
+    const auto offset = [](float side, float x) {
+        return rayOffset(cubeAt(side, x), steadyExtent(cubeAt(side, x), 0));
+    };
+    EXPECT_NEAR(offset(2, 0) / offset(1, 0), 2, 1e-3) << "of the extent";
+    EXPECT_LT(offset(60, 0), 6e-4f) << "behind a thin sheet in a large scene nothing is met";
+    EXPECT_GT(offset(4, 2000), std::nextafter(2004.0f, 3000.0f) - 2004.0f) << "what a float can tell there";
+    EXPECT_EQ(offset(4, 2000), offset(4, 2000.5f)) << "stays while things move";
+}
+
 }  // namespace
 }  // namespace ag::gi
