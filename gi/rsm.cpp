@@ -19,24 +19,55 @@ BufferHandle uploadItems(GraphScope scope, const char* name, std::span<const T> 
     return buffer;
 }
 
+// Of points on surfaces, not of what lights see.
+bool isOfSurfaces(const RsmSet& rsm, uint32_t tile) {
+    const uint32_t across = rsm.atlas.size.x / io::kRsmTileSize;
+    const glm::uvec2 at = glm::uvec2(tile % across, tile / across) * io::kRsmTileSize;
+    for (uint32_t f = rsm.lightFaceCount; f < rsm.atlas.faceCount; ++f) {
+        const glm::uvec2 inFace = at - rsm.faceInfo[f].origin;  // left of or above it: huge
+        if (inFace.x < rsm.faceInfo[f].size && inFace.y < rsm.faceInfo[f].size) return true;
+    }
+    return false;
+}
+
+// Tiles in a row of one kind: texels of lights stay as they are while nothing but points changes.
+void addParts(PassBuilder& pass, const RsmSet& rsm, BufferHandle points) {
+    for (uint32_t tile = 0, end; tile < rsm.tileCount; tile = end) {
+        const bool ofSurfaces = isOfSurfaces(rsm, tile);
+        for (end = tile + 1; end < rsm.tileCount && isOfSurfaces(rsm, end) == ofSurfaces;)
+            ++end;
+        pass.part(tile, end - tile, 0).partReads(rsm.faces).partReads(rsm.maps);
+        if (ofSurfaces)
+            pass.partReads(points);
+        else
+            pass.partReads(rsm.normal).partReads(rsm.albedo).partReads(rsm.depth);
+    }
+}
+
 }  // namespace
 
 void addRsmTexels(GraphScope scope, const RsmSet& rsm, const SurfaceEmitters& emitters) {
     const PixelList creased = addPixelList(scope, kCreasedTexels, rsm.atlas.size);
-    scope.compute("rsm.build_texels", "rsm/build_texels.comp")
-        .sample("normalMap", rsm.normal)
+    const BufferHandle points = emitters.texels ? emitters.texels : rsm.faces;  // none: not read
+    struct {
+        uint32_t firstTile = 0;
+        io::RsmAtlas atlas;
+    } push{.atlas = rsm.atlas};
+    PassBuilder build = scope.compute("rsm.build_texels", "rsm/build_texels.comp");
+    build.sample("normalMap", rsm.normal)
         .sample("albedoMap", rsm.albedo)
         .sample("depthMap", rsm.depth)
         .read("faces", rsm.faces)
         .read("maps", rsm.maps)
-        .read("points", emitters.texels ? emitters.texels : rsm.faces)  // none: not read
+        .read("points", points)
         .constant("kHasPoints", bool(emitters.texels))
-        .write("texels", rsm.texels)
-        .write("tileMaps", rsm.tileMaps)
+        .parts("texels", rsm.texels)
+        .parts("tileMaps", rsm.tileMaps)
         .readWrite("listed", creased.pixels)
         .readWrite("listedGroups", creased.groups)
-        .push(rsm.atlas)
-        .dispatchGroups(rsm.tileCount);
+        .push(push);
+    addParts(build, rsm, points);
+    // In place: texels that were not built just now are trimmed already, and not listed.
     scope.compute("rsm.trim_texels", "rsm/trim_texels.comp")
         .read("texels", rsm.texels)
         .read("tileMaps", rsm.tileMaps)

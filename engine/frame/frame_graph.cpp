@@ -35,6 +35,7 @@ void FrameGraph::beginFrame(const FrameGraphOptions& options) {
     impl_->uses.clear();
     impl_->draws.clear();
     impl_->parts.clear();
+    impl_->partSources.clear();
     impl_->data.clear();
     impl_->callbacks.clear();
 }

@@ -52,6 +52,11 @@ struct GroupPart {
     bool operator==(const GroupPart&) const = default;
 };
 
+// A part, and a resource that it is made from.
+struct PartSource {
+    uint32_t part = 0, resource = 0;
+};
+
 // One image or buffer with what it holds.
 struct Memory {
     std::unique_ptr<gpu::Image> image;
@@ -230,6 +235,7 @@ struct FrameGraph::Impl {
     std::vector<Use> uses;
     std::vector<RasterDraw> draws;
     std::vector<GroupPart> parts;
+    std::vector<PartSource> partSources;  // in the parts' order
     std::vector<std::byte> data;
     std::vector<PassCallback> callbacks;
     uint64_t framesRun = 0;
@@ -281,6 +287,7 @@ struct FrameGraph::Impl {
     const Memory& newest(const Resource& resource) const;
     const Use* earlierWrite(const Pass& pass, const Use& use) const;
     void walkVersions(bool withPrevious);
+    void keyParts();
     void chooseHalves();
     void markWanted();
     bool markRunning();

@@ -161,6 +161,20 @@ void FrameGraph::Impl::walkVersions(bool withPrevious) {
         stepKeys[slot] = slots[slot].stepKey;
 }
 
+// Parts by what they are made from, once versions are known.
+void FrameGraph::Impl::keyParts() {
+    auto source = partSources.begin();
+    for (const Pass& pass : passes) {
+        for (; source != partSources.end() && source->part < pass.firstPart + pass.partCount; ++source) {
+            const auto use = std::ranges::find_if(usesOf(pass), [&](const Use& u) {
+                return u.resource == source->resource && readsOld(u.kind);
+            });
+            AG_CHECK(use != usesOf(pass).end());
+            parts[source->part].key = combineHash(parts[source->part].key, use->versionBefore);
+        }
+    }
+}
+
 // A history steps when anything it is made from changed: the halves then change places.
 void FrameGraph::Impl::chooseHalves() {
     for (Resource& r : resources) {
@@ -247,6 +261,7 @@ void FrameGraph::Impl::plan() {
     walkVersions(false);
     chooseHalves();
     walkVersions(true);
+    keyParts();
     for (uint32_t p = 0; p < passes.size(); ++p) {
         for (const Use& use : usesOf(passes[p])) {
             Resource& r = resources[use.resource];

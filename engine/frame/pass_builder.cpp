@@ -205,6 +205,15 @@ PassBuilder& PassBuilder::part(uint32_t firstGroup, uint32_t groupCount, uint64_
     return *this;
 }
 
+PassBuilder& PassBuilder::partReads(BufferHandle buffer) {
+    graph_->impl_->partSources.push_back({uint32_t(graph_->impl_->parts.size() - 1), buffer.index});
+    return *this;
+}
+
+PassBuilder& PassBuilder::partReads(ImageHandle image) {
+    return partReads(BufferHandle{image.index});
+}
+
 PassBuilder& PassBuilder::geometry(const Geometry& geometry) {
     AG_PASS.geometry = geometry;
     for (const BufferHandle buffer : {geometry.deformedPositions, geometry.deformedAttributes})

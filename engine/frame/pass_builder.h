@@ -113,6 +113,9 @@ class PassBuilder {
     // to run. Parts do not overlap.
     PassBuilder& parts(std::string_view name, BufferHandle buffer);
     PassBuilder& part(uint32_t firstGroup, uint32_t groupCount, uint64_t partKey);
+    // What the last part is made from, of what the pass reads: its contents are in the part's key.
+    PassBuilder& partReads(BufferHandle buffer);
+    PassBuilder& partReads(ImageHandle image);
     // Raster passes.
     PassBuilder& geometry(const Geometry& geometry);
     PassBuilder& draw(const RasterDraw& draw);

@@ -36,13 +36,15 @@ void shareLane(uvec4 value) {
     barrier();
 }
 
-// Over the first `Count` lanes.
+// Over the first `Count` lanes. Loops stay loops: unrolled for 32 lanes, a kernel of many sums takes a CPU's driver half a
+// minute to compile.
 #define AG_LANE_REDUCE(Name, Native, Count, T, Pack, Unpack, Op)                  \
     T Name(T value) {                                                             \
         if (!kSharedLanes) return Native(value);                                  \
         shareLane(Pack(value));                                                   \
         T all = Unpack(laneValues[0]);                                            \
-        for (uint i = 1; i < (Count); ++i) all = Op(all, Unpack(laneValues[i]));  \
+        [[dont_unroll]] for (uint i = 1; i < (Count); ++i)                        \
+            all = Op(all, Unpack(laneValues[i]));                                 \
         return all;                                                               \
     }
 #define AG_LANE_FOLD(Name, Native, T, Pack, Unpack, Op) AG_LANE_REDUCE(Name, Native, kLanes, T, Pack, Unpack, Op)
@@ -53,7 +55,7 @@ void shareLane(uvec4 value) {
     T Name(T value) {                                                              \
         if (kOrderedSubgroups) return Native(value);                               \
         T all = subgroupShuffle(value, 0);                                         \
-        for (uint i = 1; i < kLanes; ++i) {                                        \
+        [[dont_unroll]] for (uint i = 1; i < kLanes; ++i) {                        \
             T other = subgroupShuffle(value, i);                                   \
             if (i < (Count)) all += other;                                         \
         }                                                                          \
@@ -108,7 +110,7 @@ uint laneExclusiveMax(uint value) {
     if (!kSharedLanes) return subgroupExclusiveMax(value);
     shareLane(packUint(value));
     uint all = 0;
-    for (uint i = 0; i < laneIndex(); ++i) all = max(all, laneValues[i].x);
+    [[dont_unroll]] for (uint i = 0; i < laneIndex(); ++i) all = max(all, laneValues[i].x);
     return all;
 }
 
@@ -126,7 +128,7 @@ LaneVote laneVote(bool yes) {
     }
     shareLane(packBool(yes));
     LaneVote vote = LaneVote(0, 0);
-    for (uint i = 0; i < kLanes; ++i) {
+    [[dont_unroll]] for (uint i = 0; i < kLanes; ++i) {
         vote.before = i == laneIndex() ? vote.count : vote.before;
         vote.count += laneValues[i].x;
     }

@@ -10,7 +10,10 @@
 
 layout(local_size_x = 256) in;  // one tile
 layout(constant_id = 0) const bool kHasPoints = false;  // a map of points on them
-layout(push_constant, scalar) uniform Push { RsmAtlas atlas; } push;
+layout(push_constant, scalar) uniform Push {
+    uint firstTile;
+    RsmAtlas atlas;
+} push;
 
 layout(set = 0, binding = 0) uniform sampler2D normalMap;
 layout(set = 0, binding = 1) uniform sampler2D albedoMap;
@@ -95,7 +98,7 @@ RsmTexel pointTexel(RsmFace face, uint index) {
 }
 
 void main() {
-    uint tile = gl_WorkGroupID.x, index = rsmTexelIndex(tile, gl_LocalInvocationID.x);
+    uint tile = push.firstTile + gl_WorkGroupID.x, index = rsmTexelIndex(tile, gl_LocalInvocationID.x);
     uvec2 coord = rsmTexelCoord(tile, gl_LocalInvocationID.x, push.atlas.size.x);
     uint found = findFace(coord);
     RsmFace face = faces.items[min(found, push.atlas.faceCount - 1)];

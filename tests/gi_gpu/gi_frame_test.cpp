@@ -875,6 +875,34 @@ TEST(Frame, WithoutLightThereIsNoGlobalIllumination) {
             << pass.name;
 }
 
+// Points of later bounces change in each frame, what lights see does not: its texels stay, trimmed at creases
+// once.
+TEST(Rsm, TexelsOfLightsStayWhilePointsChange) {
+    std::vector<io::RsmTexel> texels[2];
+    for (const bool skip : {false, true}) {
+        Bench b(*scenegen::buildScene("cornell", 0), {48, 27});
+        addBounces(b.settings);
+        b.options.skip = skip;
+        uint32_t parts = 0, built = 0;
+        for (int i = 0; i < 6; ++i) {
+            b.frame();
+            const auto report = b.renderer.graph().report();
+            const auto pass = std::ranges::find(report, "rsm.build_texels", &PassReport::name);
+            ASSERT_NE(pass, report.end());
+            ASSERT_EQ(pass->outcome, PassOutcome::kRan);
+            parts = pass->patches, built = pass->patchesDrawn;
+        }
+        EXPECT_GT(parts, 1u);
+        if (skip)
+            EXPECT_LT(built, parts);
+        else
+            EXPECT_EQ(built, parts);
+        texels[skip] = b.read<io::RsmTexel>(b.last.bounce.rsm.texels);
+    }
+    ASSERT_EQ(texels[0].size(), texels[1].size());
+    EXPECT_EQ(std::memcmp(texels[0].data(), texels[1].data(), texels[0].size() * sizeof(io::RsmTexel)), 0);
+}
+
 // Materials are Lambert in the one and have gloss in the other.
 TEST(Glossy, RunsOnlyWhereAMaterialIs) {
     for (const char* name : {"cornell", "glossy"}) {

@@ -70,7 +70,8 @@ TEST(GlossRays, ShowWhatIsBehindTheCamera) {
         for (const uint32_t lamps : {1u, 12u}) {  // one with a map, and more than have maps
             Bench b(behindTheCamera(c.roughness, lamps), {64, 36});
             addBounces(b.settings);
-            b.settings.bounce.texelRays.settleFrames = b.settings.bounce.laterBounces.settleFrames = 64;
+            b.settings.bounce.texelRays.settleFrames = 48;
+            b.settings.bounce.laterBounces.settleFrames = 16;
             b.settings.bounce.sky.settleFrames = 0;
             const Errors e = errorsOf(b, traced(b, 4, 256));
             std::printf("roughness %.1f, %u lamps: relative RMSE %.3f, by area lights %.3f\n",
