@@ -91,11 +91,11 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, gathered, s, h, f, grid);
     if (rays && s.term == Term::kAll)
-        f.gloss =
-            addGlossRays(scope, in.surfaces, gathered,
-                         {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world, grid, otherLights,
-                          s.laterBounces.feedback, f.firstCount, f.irradiance.image, f.gloss},
-                         s.glossRays, h.glossRays);
+        f.gloss = addGlossRays(scope, in.surfaces, gathered,
+                               {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world, grid,
+                                otherLights, s.laterBounces.feedback, f.firstCount,
+                                s.texelRays.reach * in.occluders.extent, f.irradiance.image, f.gloss},
+                               s.glossRays, h.glossRays);
     const ProbeRaysInputs ofProbes{f.rsm,
                                    f.clusters,
                                    members,

@@ -9,6 +9,7 @@
 #include "gi/occluder_trees.h"
 #include "gi/pixel_rays.h"
 #include "gi/ray_filter.h"
+#include "gi/texel_rays.h"
 #include "shaders/bvh/bvh_io.h"
 #include "shaders/gloss_rays/gloss_rays_io.h"
 
@@ -71,7 +72,8 @@ ImageHandle addRays(GraphScope scope, const Surfaces& gathered, const GlossRaysI
                                 .pixelOffset = snapping / float(gathered.spacing),
                                 .texelOffset = snapping,
                                 .reach = kRayReaches * in.occluders.extent,
-                                .emissiveArea = in.occluders.emissivePointArea})
+                                .emissiveArea = in.occluders.emissivePointArea,
+                                .laterReach = reachOfPoints(in.occluders.bouncePointArea, in.nearReach)})
         .step(step)
         .dispatchThreads(gathered.size.x, gathered.size.y);
     readRsmTexels(cast, in.rsm);

@@ -55,6 +55,7 @@ struct GlossRaysInputs {
     const OtherLights& others;  // without maps
     bool endless;               // light goes on after its second bounce
     uint32_t firstLater;        // of the area lights, the first that stands for later bounces
+    float nearReach;            // m: most that rays to what is near have
     ImageHandle irradiance;     // that area lights send to all pixels, W/m²
     ImageHandle gloss;          // of area lights, W/(m² sr)
 };

@@ -55,23 +55,23 @@ layout(constant_id = 3) const bool kEndless = true;  // light goes on after its 
 
 const uint kDraws = 16;      // texels that one is resampled from, of what lights a place,
 const uint kLobeDraws = 32;  // and of what a lobe sees
-const uint kKinds = 4;       // of light that goes on: of first bounces, of points, of the sky, of lights without maps
 
 // Members of lights: of first bounces and emissive surfaces, which draws go to, then of points that reflect.
 uvec3 kinds;
 
-Incident fromMembers(uint first, uint end, vec3 start, Met met, inout uint random) {
-    if (first == end) return kNoIncident;
-    Aim aim = aimAtMember(met.place, met.normal, first, end, kDraws, 0.0, random);
-    return Incident(aim.place - start, 1.0, aim.sends);
+// Those nearer than `nearReach` count for what the hemisphere's ray leaves.
+Incident fromMembers(uint kind, vec3 place, vec3 normal, float nearReach, inout uint random) {
+    if (kinds[kind] == kinds[kind + 1]) return kNoIncident;
+    Aim aim = aimAtMember(place, normal, kinds[kind], kinds[kind + 1], kDraws, nearReach, random);
+    return Incident(aim.place - (place + normal * push.p.offset), 1.0, aim.sends);
 }
 
 // One by what each sends, for all.
-Incident fromOtherLights(Met met, inout uint random) {
+Incident fromOtherLights(vec3 place, vec3 normal, inout uint random) {
     Incident drawn = kNoIncident;
     float sum = 0.0, wanted = 1.0;
     for (uint i = 0; i < push.p.lightCount; ++i) {
-        Arriving a = arrivingFrom(lights.items[i], met.place, met.normal);
+        Arriving a = arrivingFrom(lights.items[i], place, normal);
         float want = most(a.irradiance);
         sum += want;
         random = hashUint(random);
@@ -83,19 +83,19 @@ Incident fromOtherLights(Met met, inout uint random) {
     return drawn;
 }
 
-// W/m², by a ray to each kind of light.
-vec3 receivedAt(Met met, float opaqueFrom, inout uint random) {
-    vec3 start = met.place + met.normal * push.p.offset, e = vec3(0.0);
-    for (uint kind = 0; kind < kKinds; ++kind) {
-        Incident light;
-        if (kind == 1 && !kEndless || kind == 2 && !kSky) continue;
-        if (kind < 2) light = fromMembers(kinds[kind], kinds[kind + 1], start, met, random);
-        else if (kind == 2) light = drawSkyAt(met.normal, push.p.reach, random);
-        else light = fromOtherLights(met, random);
-        e += arrivingAt(start, light, opaqueFrom);
-    }
-    return e;
+const uint kLater = 1;  // kind of members that are points; lights without maps come after them
+
+Incident drawOnto(uint kind, vec3 place, vec3 normal, inout uint random) {
+    if (kind > kLater) return fromOtherLights(place, normal, random);
+    if (kind == kLater && !kEndless) return kNoIncident;
+    return fromMembers(kind, place, normal, kind == kLater ? push.p.laterReach : 0.0, random);
 }
+
+#define AG_ON_KINDS 3
+#define AG_ON_DRAW(kind, place, normal, random) drawOnto(kind, place, normal, random)
+#define AG_ON_SHINES 0.0
+#define AG_ON_REFLECTS (kEndless ? push.p.laterReach : 0.0)
+#include "texel_rays/near_path.glsl"
 
 // Of what a draw may find, the part that counts if it does: each texel is as likely a candidate as any. `across`: the texel's area
 // as it is seen from the pixel, m².
@@ -118,7 +118,7 @@ vec3 radianceOf(BvhRay ray, SpecularLobe lobe, inout uint random) {
         float area = from.texel != kNoTexel ? AG_RSM_FETCH(texels, from.texel).area : 0.0;
         sends += from.sends * (area > 0.0 ? 1.0 - shareOfDraw(lobe, ray.direction, ray.reach, area * facing) : 1.0);
     }
-    if (kBounces && met.reflectance != vec3(0.0)) sends += min(met.reflectance, vec3(kMostAlbedo)) * receivedAt(met, ray.opaqueFrom, random);
+    if (kBounces && met.reflectance != vec3(0.0)) sends += lightFrom(met, min(met.reflectance, vec3(kMostAlbedo)), ray.opaqueFrom, random);
     return sends * kInvPi;
 }
 

@@ -20,6 +20,7 @@ struct GlossCastPush {
     float pixelOffset, texelOffset;  // the same in these pixels and in texels
     float reach;                     // m: beyond it nothing stands
     float emissiveArea;              // m² that a point of emissive surfaces stands for
+    float laterReach;                // m: within it rays find what points of later bounces stand badly for
 };
 
 struct GlossMixPush {
