@@ -132,7 +132,7 @@ expect 2 "no layer 'vals'" "$bin/afterglow" reference cornell -o "$work/b3.exr" 
 expect 2 "exactly one bounce" "$bin/afterglow" reference cornell -o "$work/b3.exr" --bounces 2 --method vpl
 
 # A small benchmark leaves all its files.
-expect 0 "rsmc" "$bin/afterglow" bench --scenes cornell --techniques rsmc,none --no-path-tracing --size 32x18 --flicker-size 16x9 \
+expect 0 "rsmc" "$bin/afterglow" bench --scenes cornell --techniques rsmc,none --plain --no-path-tracing --size 32x18 --flicker-size 16x9 \
   --frames 5 --reference-spp 16 --cache "$work/cache" --json "$work/b.json" --csv "$work/b.csv" \
   --plot "$work/b.svg" --markdown "$work/b.md"
 for file in b.json b.csv b.svg b.md; do
