@@ -64,6 +64,7 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
     const ClusterMembers members =
         rays || probeRays ? addClusterMembers(scope, f.rsm, f.clusters) : ClusterMembers{};
     const SkyOnDevice skyOfRays = s.sky.enabled ? in.sky : SkyOnDevice{};
+    const float nearReach = s.texelRays.reach * in.occluders.extent;
     if (rays)
         f.irradiance = addTexelRays(tiles, f.irradiance,
                                     {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world.versions,
@@ -77,33 +78,21 @@ BounceLight addBounceLight(GraphScope scope, const BounceLightInputs& in, const 
         addSkyOnPoints(scope, f.emitters, {in.sky, in.occluders, in.world.versions}, s.sky, h.skyOnPoints);
     const OtherLights otherLights = addOtherLights(scope, in.world.otherLights);
     const BufferHandle others = addLightsOnPoints(scope, f.emitters, otherLights, in.occluders);
-    const PointRays pointRays{f.rsm,
-                              members,
-                              in.occluders,
-                              skyOfRays,
-                              s.texelRays.reach * in.occluders.extent,
-                              f.clusters.count,
-                              grid.still,
-                              h.laterBounces.step};
+    const PointRays pointRays{f.rsm,     members,          in.occluders, skyOfRays,
+                              nearReach, f.clusters.count, grid.still,   h.laterBounces.step};
     addLaterIrradiance(scope, f.emitters, {sky, others}, {f.vals, f.isms}, f.firstCount, s.laterBounces,
                        rays || probeRays ? &pointRays : nullptr);
 
     // To all pixels, and to the rules of a game
     addToPixels(scope, in, gathered, s, h, f, grid);
     if (rays && s.term == Term::kAll)
-        f.gloss = addGlossRays(scope, in.surfaces, gathered,
-                               {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world, grid,
-                                otherLights, s.laterBounces.feedback, f.firstCount,
-                                s.texelRays.reach * in.occluders.extent, f.irradiance.image, f.gloss},
-                               s.glossRays, h.glossRays);
-    const ProbeRaysInputs ofProbes{f.rsm,
-                                   f.clusters,
-                                   members,
-                                   in.occluders,
-                                   skyOfRays,
-                                   in.world.versions,
-                                   s.texelRays.reach * in.occluders.extent,
-                                   s.laterBounces.feedback};
+        f.gloss =
+            addGlossRays(scope, in.surfaces, gathered,
+                         {f.rsm, f.clusters, members, in.occluders, skyOfRays, in.world, grid, otherLights,
+                          s.laterBounces.feedback, f.firstCount, nearReach, f.irradiance.image, f.gloss},
+                         s.glossRays, h.glossRays);
+    const ProbeRaysInputs ofProbes{f.rsm,     f.clusters,        members,   in.occluders,
+                                   skyOfRays, in.world.versions, nearReach, s.laterBounces.feedback};
     addProbes(scope, {in.probes, in.lightUnit}, f.rsm, {f.vals, f.isms}, s.probes, h.probes,
               probeRays ? &ofProbes : nullptr);
     return f;

@@ -288,6 +288,9 @@ struct FrameGraph::Impl {
     const Use* earlierWrite(const Pass& pass, const Use& use) const;
     void walkVersions(bool withPrevious);
     void keyParts();
+    void addPartSource(uint32_t resource) {  // of the last part
+        partSources.push_back({uint32_t(parts.size() - 1), resource});
+    }
     void chooseHalves();
     void markWanted();
     bool markRunning();

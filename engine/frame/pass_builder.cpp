@@ -206,12 +206,13 @@ PassBuilder& PassBuilder::part(uint32_t firstGroup, uint32_t groupCount, uint64_
 }
 
 PassBuilder& PassBuilder::partReads(BufferHandle buffer) {
-    graph_->impl_->partSources.push_back({uint32_t(graph_->impl_->parts.size() - 1), buffer.index});
+    graph_->impl_->addPartSource(buffer.index);
     return *this;
 }
 
 PassBuilder& PassBuilder::partReads(ImageHandle image) {
-    return partReads(BufferHandle{image.index});
+    graph_->impl_->addPartSource(image.index);
+    return *this;
 }
 
 PassBuilder& PassBuilder::geometry(const Geometry& geometry) {

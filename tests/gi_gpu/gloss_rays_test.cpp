@@ -1,6 +1,7 @@
 // Light by specular lobes at rest, seen and passed on, against path tracing of whole materials.
 #include "engine/core/image_difference.h"
 #include "tests/gi_gpu/bench.h"
+#include "tests/gi_gpu/open_boxes.h"
 #include "tools/reference/reference.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
@@ -108,26 +109,13 @@ TEST(GlossRays, FloorsMirrorLampsOntoWalls) {
     EXPECT_GT(without, 5 * with);
 }
 
-// Open boxes of 30 cm, farther from one another than points of later bounces are, and a mirror over them.
 SceneAsset boxesUnderAMirror() {
     scenegen::SceneBuilder s("boxes under a mirror");
-    const uint32_t grey = s.material("grey", glm::vec3(0.6f)), white = s.material("white", glm::vec3(0.8f)),
-                   mirror = s.material("mirror", glm::vec3(0.9f));
-    s.materialAt(white).doubleSided = true;
+    addHallOfOpenBoxes(s);
+    const uint32_t mirror = s.material("mirror", glm::vec3(0.9f));
     s.materialAt(mirror).roughness = 0.2f;
     s.materialAt(mirror).metallic = 1;
-    s.room("hall", {-12, 0, -12}, {12, 6, 12}, {grey, grey, grey, grey, grey, grey});
     s.quad("mirror", {-2.5f, 2.5f, -2.5f}, {5, 0, 0}, {0, 0, 5}, mirror);
-    constexpr float kSide = 0.3f;
-    const glm::vec3 x(kSide, 0, 0), y(0, kSide, 0), z(0, 0, kSide);
-    for (int i = 0; i < 60; ++i) {
-        const glm::vec3 c(-2.8f + 0.62f * float(i % 10), 0.05f, -2 + 0.7f * float(i / 10));
-        s.quad("bottom", c, x, z, white);
-        for (const glm::vec3 side : {glm::vec3(0), z})
-            s.quad("side", c + side, x, y, white);
-        for (const glm::vec3 side : {glm::vec3(0), x})
-            s.quad("side", c + side, z, y, white);
-    }
     s.point("lamp", {4, 2.2f, 1}, glm::vec3(60));
     s.camera("camera", {0.3f, 0.6f, 1.5f}, {0.3f, 2.5f, 0.3f}, 50);
     return s.finish();

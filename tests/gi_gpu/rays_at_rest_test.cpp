@@ -1,6 +1,7 @@
 // What rays add to a picture that stands still, term by term against path tracing.
 #include "engine/core/image_difference.h"
 #include "tests/gi_gpu/bench.h"
+#include "tests/gi_gpu/open_boxes.h"
 #include "tools/reference/reference.h"
 #include "tools/scenegen/builder.h"
 #include "tools/scenegen/scenes.h"
@@ -145,22 +146,9 @@ TEST(RaysAtRest, LaterBouncesLoseLittleLight) {
     EXPECT_GT(with, far + 0.01);
 }
 
-// Open boxes of 30 cm on the floor of a hall, where points of later bounces are 65 cm apart.
 SceneAsset boxesInAHall() {
-    constexpr float kSide = 0.3f;
     scenegen::SceneBuilder s("boxes");
-    const uint32_t grey = s.material("grey", glm::vec3(0.6f)), white = s.material("white", glm::vec3(0.8f));
-    s.materialAt(white).doubleSided = true;
-    s.room("hall", {-12, 0, -12}, {12, 6, 12}, {grey, grey, grey, grey, grey, grey});
-    for (int i = 0; i < 60; ++i) {
-        const glm::vec3 c(-2.8f + 0.62f * float(i % 10), 0.05f, -2 + 0.7f * float(i / 10));
-        const glm::vec3 x(kSide, 0, 0), y(0, kSide, 0), z(0, 0, kSide);
-        s.quad("bottom", c, x, z, white);
-        for (const glm::vec3 side : {glm::vec3(0), z})
-            s.quad("side", c + side, x, y, white);
-        for (const glm::vec3 side : {glm::vec3(0), x})
-            s.quad("side", c + side, z, y, white);
-    }
+    addHallOfOpenBoxes(s);
     s.point("lamp", {1.5f, 4, 1}, glm::vec3(60));
     s.camera("camera", {0.3f, 1.6f, 0.6f}, {0.3f, 0, -0.2f}, 69);
     return s.finish();
