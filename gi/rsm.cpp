@@ -30,7 +30,7 @@ bool isOfSurfaces(const RsmSet& rsm, uint32_t tile) {
     return false;
 }
 
-// Tiles in a row of one kind: texels of lights stay as they are while nothing but points changes.
+// A part for each run of tiles of one kind: while only points change, tiles of lights are not built again.
 void addParts(PassBuilder& pass, const RsmSet& rsm, BufferHandle points) {
     for (uint32_t tile = 0, end; tile < rsm.tileCount; tile = end) {
         const bool ofSurfaces = isOfSurfaces(rsm, tile);

@@ -161,7 +161,7 @@ void FrameGraph::Impl::walkVersions(bool withPrevious) {
         stepKeys[slot] = slots[slot].stepKey;
 }
 
-// Parts by what they are made from, once versions are known.
+// Adds to the key of each part the versions of what it is made from.
 void FrameGraph::Impl::keyParts() {
     auto source = partSources.begin();
     for (const Pass& pass : passes) {

@@ -4,7 +4,8 @@
 // What a specular lobe reflects of surfaces, by two rays a pixel. One is drawn by the lobe and takes the light of what it meets. That
 // shines by itself, or is lit by lamps, which a ray each asks for, and by what other surfaces and the sky send, of which one is
 // drawn. The other goes to a texel of lit or emissive surfaces, drawn by what the lobe would reflect of it (resampling). What both
-// may find counts by the share of their densities (balance heuristic). Sky that the lobe sees has rays of its own (sky/cast.comp).
+// may find counts by the share of their densities (balance heuristic). Light that goes on among near surfaces follows a path of rays
+// (near_path.glsl). Sky that the lobe sees has rays of its own (sky/cast.comp).
 #include "common/specular_lobe.glsl"
 #include "common/texels.glsl"
 #include "gbuffer/gbuffer.glsl"
@@ -59,7 +60,7 @@ const uint kLobeDraws = 32;  // and of what a lobe sees
 // Members of lights: of first bounces and emissive surfaces, which draws go to, then of points that reflect.
 uvec3 kinds;
 
-// Those nearer than `nearReach` count for what the hemisphere's ray leaves.
+// One member of a kind, drawn. Members nearer than `nearReach` fade out: a ray into the hemisphere finds those surfaces.
 Incident fromMembers(uint kind, vec3 place, vec3 normal, float nearReach, inout uint random) {
     if (kinds[kind] == kinds[kind + 1]) return kNoIncident;
     Aim aim = aimAtMember(place, normal, kinds[kind], kinds[kind + 1], kDraws, nearReach, random);

@@ -46,7 +46,7 @@ const float kMostTimes = 4.0;  // so far area lights may be below rays; what is 
 const uint kFirst = 0, kLater = 1;  // members: texels of first bounces and of emissive surfaces; points
 uvec3 firstOf;
 
-// One of a kind. Those nearer than `nearReach` count for what the hemisphere's ray leaves.
+// One member of a kind, drawn. Members nearer than `nearReach` fade out: a ray into the hemisphere finds those surfaces.
 Incident drawMember(uint kind, vec3 x, vec3 n, float nearReach, inout uint random) {
     if (firstOf[kind] == firstOf[kind + 1]) return kNoIncident;
     Aim aim = aimAtMember(x, n, firstOf[kind], firstOf[kind + 1], kDraws, nearReach, random);
