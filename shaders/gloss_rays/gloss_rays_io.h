@@ -20,7 +20,7 @@ struct GlossCastPush {
     float pixelOffset, texelOffset;  // the same in these pixels and in texels
     float reach;                     // m: beyond it nothing stands
     float emissiveArea;              // m² that a point of emissive surfaces stands for
-    float laterReach;                // m: nearer surfaces are found by rays, not by draws to points of later bounces
+    float laterReach;                // m: nearer surfaces are found by rays, not by draws to points
 };
 
 struct GlossMixPush {
