@@ -50,6 +50,7 @@ void applyQuality(Quality preset, render::RenderSettings& gi) {
     gi.bounce.texelRays.enabled = false;  // the game never stands still
     gi.bounce.laterBounces.rays = 1;      // of all 4,096 points in each frame: a fifth of low's time
     gi.bounce.laterBounces.turns = 4;
+    gi.bounce.sky.pointRays = 2;  // in every frame, as things move; their means are of 32 frames
     gi.composite = before.composite;
     gi.exposure = before.exposure;
     if (preset == Quality::kHigh || preset == Quality::kUltra) gi.bloom.share = 0.05f;
