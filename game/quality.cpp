@@ -14,6 +14,7 @@ void trim(render::RenderSettings& gi) {
     gi.bounce.valClustering.count = 48;
     gi.bounce.valClustering.settleFrames = 8;
     gi.bounce.ismAtlas.pointsPerMap = 768;
+    gi.bounce.sky.pointRays = 2;
     gi.lightClusters.most = 16;
     gi.punctualShadows.faceResolution = 256;
     gi.punctualShadows.atlasSize = 2048;
@@ -50,7 +51,6 @@ void applyQuality(Quality preset, render::RenderSettings& gi) {
     gi.bounce.texelRays.enabled = false;  // the game never stands still
     gi.bounce.laterBounces.rays = 1;      // of all 4,096 points in each frame: a fifth of low's time
     gi.bounce.laterBounces.turns = 4;
-    gi.bounce.sky.pointRays = 2;  // in every frame, as things move; their means are of 32 frames
     gi.composite = before.composite;
     gi.exposure = before.exposure;
     if (preset == Quality::kHigh || preset == Quality::kUltra) gi.bloom.share = 0.05f;
